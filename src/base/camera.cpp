@@ -16,17 +16,18 @@ namespace dotpose {
 namespace {
 
 constexpr double kMaxCentre_px = 1000;
-/// Maximum distance of the reference point from the image centre. The limit is larger than any
-/// image, but small enough for the range of the fixed-point pose.
+/// Maximum distance of the reference point from the image centre. It is larger than any image, but
+/// small enough for the range of the fixed-point pose.
 constexpr double kMaxReference_px = 10'000;
 constexpr double kMaxFocal_px = 1e6;
 constexpr double kMinStretch = 0.5;
 constexpr double kMaxStretch = 2;
 
-/// Position between the two nearest of `count` equidistant points along an axis.
+/// Position along an axis, as the index of an equidistant point and the fraction of the distance to
+/// the next point.
 struct Between {
-    std::size_t first;  ///< index of the point at or before the position, from 0 to `count` - 2
-    double part;        ///< fraction of the way from this point to the next
+    std::size_t first;  ///< index of the point at or before the position, in [0, `count` - 2]
+    double part;        ///< fraction of the distance from this point to the next one, in [0, 1]
 };
 
 Between between(double at_px, int side_px, std::size_t count) {
@@ -166,7 +167,7 @@ PixelPoint undistorted(const Camera& camera, PixelPoint pixel) {
 PixelPoint distorted(const Camera& camera, PixelPoint point) {
     const double du = point.u - camera.centre_px.u;
     const double dv = point.v - camera.centre_px.v;
-    // Solves eq. 2 of the paper for r_d. Of the two roots, only this one equals r_u if k is 0.
+    // Solves eq. 2 of the paper for r_d and takes the root that equals r_u if k is 0.
     const double root = std::sqrt(std::max(1 - 4 * camera.k_per_px2 * (du * du + dv * dv), 0.0));
     const double stretch = 2 / (1 + root);
     return {camera.centre_px.u + stretch * du, camera.centre_px.v + stretch * dv};

@@ -1,4 +1,4 @@
-// Plane map: the map of a fix from the image to the code plane, in double precision.
+// Double-precision version of the map from the image to the code plane that a fix contains.
 #pragma once
 
 #include <array>

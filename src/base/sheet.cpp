@@ -33,7 +33,7 @@ void base::validate_pattern(const Pattern& pattern) {
     require_length("spacing", pattern.spacing_mm);
     require_length("displacement", pattern.displacement_mm);
     require_length("dot diameter", pattern.dot_mm);
-    // Two neighbouring dots are closest if they are displaced towards each other.
+    // Two neighbouring dots are closest when they are displaced towards each other.
     const double closest_mm = pattern.spacing_mm - 2 * pattern.displacement_mm;
     if (closest_mm <= 0) {
         throw BadArgument(

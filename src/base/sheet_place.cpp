@@ -45,7 +45,7 @@ double wrapped(double angle_rad) {
     return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// Returns the covariance of the pose after each coordinate has been multiplied by its factor.
+/// Scales a pose covariance: multiplies each coordinate by its factor.
 PoseCovariance scaled(const auto& covariance, const std::array<double, 3>& factors) {
     PoseCovariance result{};
     for (std::size_t i = 0; i < 3; ++i) {

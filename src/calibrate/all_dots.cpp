@@ -10,8 +10,8 @@ namespace {
 
 /// Maximum distance between a dot and its expected place: kReach_sigmas standard deviations of the
 /// fit, clamped to [kMinReach, kMaxReach] spacings. The limit exceeds the errors of the print and
-/// of the fit, and is smaller than the distance of any other dot, which is at least 2/3 of a
-/// spacing. The fit that follows rejects outliers.
+/// of the fit. It is smaller than the distance to any other dot, which is at least 2/3 of a
+/// spacing. The subsequent fit rejects outliers.
 constexpr double kReach_sigmas = 6;
 constexpr double kMinReach = 0.1;
 constexpr double kMaxReach = 1.0 / 3;
@@ -53,7 +53,7 @@ void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant co
                 nearest.try_emplace({found.dot.step.x, found.dot.step.y}, found);
             if (!is_new && found.off < entry->second.off) entry->second = found;
         }
-        // Keeps the dots that were read if fewer than half as many dots were found.
+        // Keeps the dots that `locate` read if fewer than half as many are found.
         if (2 * nearest.size() < frame.dots.size()) continue;
         frame.dots.clear();
         for (const auto& [step, found] : nearest)

@@ -1,4 +1,4 @@
-// All dots: finds all dots of the frames, given a first fit of the camera.
+// Finds all dots of the frames, given a first fit of the camera.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace dotpose::calibrate {
 
-/// Replaces the dots that `locate` read by all blobs at the places where `fit` predicts a dot of
-/// the code. Keeps the dots of a frame if fewer than half as many blobs are found.
+/// Replaces the dots that `locate` read with all blobs at the places where `fit` predicts a dot.
+/// Keeps the dots of a frame if fewer than half as many blobs are found.
 ///
 /// `locate` reads only the dots that a pose needs. In the corners of the image of a slightly tilted
-/// camera, the plane of `locate` fits badly, and `locate` omits the dots with large residuals. The
-/// perspective fitted to the remaining dots is therefore too small: at a tilt of 8 degrees, the
-/// computed focal length would be wrong by three standard deviations (unit test
+/// camera, the plane that `locate` fits is inaccurate, so `locate` omits the dots with large
+/// residuals. The perspective fitted to the remaining dots is therefore too small: at a tilt of 8
+/// degrees, the computed focal length would be wrong by three standard deviations (unit test
 /// ASlightTiltTellsAnUnbiasedFocalLength).
 void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant code,
                    std::vector<LocatedFrame>& frames);

@@ -11,8 +11,8 @@
 namespace dotpose {
 namespace {
 
-/// Boundaries of 3 x 3 regions, in columns and rows of ImageCoverage. The advice calls each region
-/// a corner, an edge or the middle.
+/// Boundaries of 3 x 3 regions, in columns and rows of ImageCoverage. The advice to the user names
+/// these regions: corners, edges and the middle.
 constexpr std::array kRegionColumns = {0, 4, 8, ImageCoverage::kColumns};
 constexpr std::array kRegionRows = {0, 3, 5, ImageCoverage::kRows};
 constexpr std::size_t kRegions = 3;
@@ -22,7 +22,7 @@ constexpr const char* kRegionNames[kRegions][kRegions] = {
     {"lower left corner", "lower edge", "lower right corner"},
 };
 
-/// Returns the fraction of the parts of a region in which dots were seen.
+/// Returns the fraction of a region in which dots were seen.
 double share_of(const ImageCoverage& image, std::size_t across, std::size_t down) {
     int parts = 0;
     int covered = 0;

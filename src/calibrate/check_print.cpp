@@ -1,4 +1,4 @@
-// Checks a print: locates tiles, joins them to fields, measures the cells of each field, and
+// Checks a print: locates tiles, joins them into fields, measures the cells of each field, and
 // reports scale, sizes and faults.
 #include "dotpose/tools/check_print.hpp"
 
@@ -180,8 +180,8 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If the bits contradict the given code variant, checks whether the page has another variant. If
-/// it has, this fault replaces all other findings, which are consequences of it.
+/// If the bits contradict the given code variant, checks whether the page has a different variant.
+/// If it has, this fault replaces all other findings, because they are its consequences.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
@@ -242,7 +242,7 @@ void find_repetitions(const std::vector<const CollectedField*>& parts, PrintChec
     }
 }
 
-/// Measures all fields. The largest field decides whether the image is treated as a scan or as a
+/// Measures all fields. The largest field determines whether the image is treated as a scan or as a
 /// photo.
 void measure_fields(const ImageView& scan, std::vector<CollectedField> collected,
                     const CheckPrintOptions& options, PrintCheck& check) {

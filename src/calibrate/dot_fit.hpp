@@ -1,4 +1,4 @@
-// Dot fit: least squares over the dots of one frame, with rejection of outliers.
+// Least-squares fit to the dots of one frame, with rejection of outliers.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace dotpose::calibrate {
 
-/// Equation of one dot along one axis: row . parameters = wanted. In a fit with fewer than 8
-/// parameters, the last coefficients are ignored.
+/// Equation of one dot along one axis: row . parameters = wanted. A fit with n parameters uses only
+/// the first n coefficients of `row`.
 struct AxisEquation {
     std::array<double, 8> row{};
     double wanted = 0;

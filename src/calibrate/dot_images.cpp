@@ -21,14 +21,14 @@ using Eigen::Vector4d;
 
 /// Radius of a dot, in spacings.
 constexpr double kDotRadius = 1.0 / 12;
-/// Radius of the part of the image in which a dot is fitted, in spacings. The nearest dots are at
-/// least 2/3 of a spacing away.
+/// Radius of the image region in which a dot is fitted, in spacings. The nearest dots are at least
+/// 2/3 of a spacing away.
 constexpr double kFitRadius = 0.36;
 /// Maximum distance of a dot from its expected place, in spacings.
 constexpr double kMaxOffset = 0.25;
 constexpr int kPasses = 4;
 /// Initial value of the variance that blur and the area of a pixel add to the image of a dot, in
-/// px^2. The two constants below are the limits of the fitted value.
+/// px^2. The next two constants are the limits of the fitted value.
 constexpr double kUsualBlur_px2 = 0.5;
 constexpr double kMinBlur_px2 = 0.1;
 constexpr double kMaxBlur_px2 = 4;
@@ -45,9 +45,9 @@ struct DotImage {
     bool is_valid = false;
 };
 
-/// Light on the paper: a polynomial of second degree in the image position, fitted to the paper
-/// levels around the dots. Without this polynomial, the fitted centres would be biased towards the
-/// darker side.
+/// Illumination of the paper, modelled as a second-degree polynomial of the image position. The
+/// polynomial is fitted to the paper levels around the dots. Without this model, the fitted centres
+/// would be biased towards the darker side.
 class Light {
   public:
     explicit Light(const ImageView& image)
@@ -62,12 +62,12 @@ class Light {
             equations.add(std::array{1.0, x, y, x * x, x * y, y * y}, dot.level);
             ++count;
         }
-        constexpr int kMinDots = 30;  // fewer dots do not determine the light
+        constexpr int kMinDots = 30;  // fewer dots do not determine the polynomial
         if (count >= kMinDots) values_ = equations.solution();
     }
 
-    /// Returns the relative gradient of the light at a pixel, per px: the gradient divided by the
-    /// light.
+    /// Returns the relative gradient of the illumination at a pixel, per px: the gradient divided
+    /// by the illumination.
     Vector2d slope(const Vector2d& pixel) const {
         if (values_.empty()) return Vector2d::Zero();
         const auto& c = values_;

@@ -1,6 +1,6 @@
-// Dot images: measures the centres of expected dots by least squares over their pixels. The
-// measurement is unbiased even for dots at the border of the image and for dots that a tilted view
-// foreshortens.
+// Measures the centres of expected dots by least squares over their pixels. The measurement is
+// unbiased even for dots at the border of the image and for dots that are foreshortened by a tilted
+// view.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct ExpectedDot {
 /// spacings, the images of neighbouring dots overlap.
 inline constexpr double kMinSpacing_px = 4;
 
-/// Returns true if a dot is completely in the image and its spacing is at least kMinSpacing_px.
+/// Returns true if a dot is entirely inside the image and its spacing is at least kMinSpacing_px.
 bool is_measurable(const ImageView& image, const ExpectedDot& dot);
 
 /// Centre of a dot in an image.

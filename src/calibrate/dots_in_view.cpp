@@ -30,20 +30,20 @@ Vector2d pixel_of(const PatternView& view, const SpaceState& state, const Vector
                                 pinhole.centre_px.v + pinhole.focal_v_px * seen.y() / seen.z()}));
 }
 
-/// Depth beyond which spacings are too short to be measured.
+/// Depth, in mm, beyond which spacings in the image are too small to be measured.
 double max_depth_mm(const PatternView& view) {
     const double focal_px = std::max(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
     return focal_px * std::max(view.spacing_mm.x, view.spacing_mm.y) / kMinSpacing_px;
 }
 
-/// A rectangle of cells, as steps from the place of the trace.
+/// A rectangle of cells, in steps from `trace.decoding.place`.
 struct Cells {
     FixedVec first{INT32_MAX, INT32_MAX};
     FixedVec last{INT32_MIN, INT32_MIN};
 
     void add(double x, double y) {
-        // The margin contains dots that are displaced into the image, and cells beyond the corners
-        // where the border of the image is curved on the paper.
+        // The margin includes dots that are displaced into the image. It also includes cells where
+        // the curved outline of the image on the paper bulges between the sampled points.
         constexpr int kMargin = 2;
         const auto i = static_cast<std::int32_t>(std::lround(x));
         const auto j = static_cast<std::int32_t>(std::lround(y));
@@ -189,8 +189,8 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
     const auto first = fit_space(part, focal_px);
     if (!first) return std::nullopt;
     const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
-    // If fewer than half as many dots are measured as `locate` read, the dots are too small in the
-    // image. In this case, the fit uses the dots of `locate`.
+    // If `dots_in_view` measures fewer than half as many dots as `locate` read, the dots are too
+    // small in the image. In this case, the fit uses the dots of `locate`.
     return fit_space(2 * all.size() < read.size() ? read : all, focal_px);
 }
 

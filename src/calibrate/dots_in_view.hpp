@@ -1,4 +1,4 @@
-// Dots in view: measures all dots of a frame, given an approximate pose of the camera in space.
+// Measures all dots of a frame, given an approximate pose of the camera in space.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,7 @@ struct PatternView {
     const Camera& camera;
     Pinhole pinhole;
     AxisScale spacing_mm;
-    /// Map of the page, or null. With a map, only the dots with at least one view in the map are
-    /// used.
+    /// Map of the page, or null. With a map, only dots with at least one view in the map are used.
     const MapPage* map = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// Fix plane: the map of a fix from pixels to the code plane or to the paper, with Eigen.
+// The map of a fix from pixels to the code plane or to the paper, using Eigen types.
 #pragma once
 
 #include <Eigen/Core>

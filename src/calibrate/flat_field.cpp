@@ -77,8 +77,8 @@ FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
     const Index longer_side = std::max(mean.rows(), mean.cols());
     const MatrixXd by_row = interpolation(mean.rows(), longer_side);
     const MatrixXd by_column = interpolation(mean.cols(), longer_side);
-    // The weights are a product of column weights and row weights. The fit is therefore one fit
-    // along the columns, followed by one along the rows.
+    // The weights are products of column weights and row weights. The fit is therefore separable
+    // into a fit along the columns and a fit along the rows.
     MatrixXd field = fitted(by_column, fitted(by_row, mean).transpose()).transpose();
     const MatrixXd smooth = by_row * field * by_column.transpose();
 
@@ -92,8 +92,8 @@ FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                         "of the brightest part: light the paper more evenly",
                         100 * kMinFlatField));
     }
-    // Dots, which cover a tenth of the paper, cause an rms deviation of 25 % in one frame, and of
-    // 6 % in the mean of 20 frames.
+    // Dots cover a tenth of the paper. They cause an rms deviation of 25 % in one frame, and of 6 %
+    // in the mean of 20 frames.
     constexpr double kMaxResidual = 0.08;
     if (!(result.residual <= kMaxResidual)) {
         throw Error(

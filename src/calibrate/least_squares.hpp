@@ -1,5 +1,6 @@
-// Least squares: normal equations, and operations on covariances. All matrix decompositions and
-// products of this layer are in least_squares.cpp, because they are slow to compile.
+// Normal equations for linear least squares, and operations on covariances. All matrix
+// decompositions and products of this layer are in least_squares.cpp, because they are slow to
+// compile.
 #pragma once
 
 #include <span>
@@ -16,7 +17,8 @@ class NormalEquations {
 
     /// Adds an equation. `row` contains one coefficient per parameter.
     void add(std::span<const double> row, double wanted);
-    /// Adds the equation parameter = 0. The square of its residual is multiplied by `weight`.
+    /// Adds an equation that sets a parameter to 0. The square of its residual is multiplied by
+    /// `weight`.
     void pull_to_zero(int parameter, double weight);
 
     /// Returns the parameters with the smallest sum of squared residuals.

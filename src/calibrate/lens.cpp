@@ -26,8 +26,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Maximum distance between the places of two frames, in spacings. Closer frames count as views of
-/// the same dots.
+/// Maximum distance between the places of two frames, in spacings. Closer frames are considered
+/// views of the same dots.
 constexpr double kSamePlace = 1.5;
 
 /// Reads the frames given to `calibrate_lens`. Rejects frames of different sizes and detects

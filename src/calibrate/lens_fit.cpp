@@ -16,19 +16,19 @@ constexpr int kLensRounds = 3;
 constexpr double kOutlier_sigmas = 4;
 /// Assumed standard deviation of the residuals before the first fit.
 constexpr double kFirstSigma_px = 0.3;
-/// Prior standard deviations of the camera. The distortion centre is within about 5 % of the image
-/// diagonal from the image centre, the field of view is about 55 degrees, and pixels are square to
-/// within 2 %. The priors only matter for parameters that the frames do not determine: the centre
-/// of a lens without distortion, the focal length without tilt, and the shape of the pixels if the
-/// tilt never changes.
-constexpr double kCentrePrior = 0.1;  // in reaches (half diagonals)
+/// Priors of the camera. The distortion centre is within about 5 % of the image diagonal from the
+/// image centre, the field of view is about 55 degrees, and pixels are square to within 2 %. The
+/// priors only matter for parameters that the frames do not determine: the centre of a lens without
+/// distortion, the focal length without tilt, and the shape of the pixels if the tilt never
+/// changes.
+constexpr double kCentrePrior = 0.1;  // in units of half the image diagonal
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
 constexpr double kSquarePrior = 0.02;
 
-/// A measured dot and the constants of its residual.
+/// A measured dot and the constants that its residual depends on.
 struct Seen {
-    double u;  ///< position relative to the image centre, in reaches
+    double u;  ///< position relative to the image centre, in units of `reach_px`
     double v;
     double reach_px;
     double nominal_x;  ///< nominal position in mm, without the displacement

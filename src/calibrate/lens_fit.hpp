@@ -1,4 +1,4 @@
-// Lens fit: least squares over the dots of all frames, for one camera and one pose per frame.
+// Least-squares fit to the dots of all frames, with one camera and one pose per frame.
 #pragma once
 
 #include <array>

@@ -7,7 +7,7 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Distortions to try if the lens is not known, as values of k r^2 in the corner of the image.
+/// Distortions to try if the lens is unknown, as values of k r^2 in the corner of the image.
 constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 0.12};
 
 /// Returns the half width of the dots, in spacings. This is the radius at which the mean radial

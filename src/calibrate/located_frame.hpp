@@ -1,4 +1,4 @@
-// Located frames: the dots of each frame, with their pixels and their places in the code.
+// The dots of each located frame, with their pixels and their places in the code.
 #pragma once
 
 #include <cmath>
@@ -41,7 +41,7 @@ struct LocatedFrame {
     double spacing_px = 0;
 };
 
-/// Locates frames. If the lens is not known, tries several lenses.
+/// Locates frames. If the lens is unknown, tries several lenses.
 class FrameReader {
   public:
     /// If `code` is an empty optional, the reader detects the code variant from the frames.

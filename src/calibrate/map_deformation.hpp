@@ -1,7 +1,7 @@
-// Map deformation: the part of the preconditioner that corrects slow deformations of the page. A
-// slow deformation moves all dots in a frame together, so a different pose of the frame nearly
-// cancels its effect on the residuals. With only the diagonal blocks of single frames as a
-// preconditioner, slow deformations therefore converge in many iterations. This part solves for the
+// The part of the preconditioner that corrects slow deformations of the page. A slow deformation
+// moves all dots in a frame together, so a different pose of the frame nearly cancels its effect on
+// the residuals. With only the diagonal blocks of single frames as a preconditioner, slow
+// deformations would need many iterations to converge. This part therefore solves for the
 // deformation and the poses together.
 #pragma once
 
@@ -19,9 +19,9 @@ namespace dotpose::calibrate {
 
 /// The equations for slow deformations. A deformation consists of shifts along x and y, and of a
 /// change of the displacement of the dots. These three values are interpolated bilinearly between
-/// coarse nodes. In a deformation, the field is equal to the shifts, the offset of a dot is the
-/// shift plus the change of its displacement, and the terms of a frame are the least-squares fit to
-/// the offsets of its dots.
+/// coarse nodes and determine all unknowns. The field is equal to the shifts. The offset of a dot
+/// is the shift plus the change of its displacement. The terms of a frame are the least-squares fit
+/// to the offsets of its dots.
 class MapDeformation {
   public:
     MapDeformation(const MapGrid& grid, const EarlierOffsets& earlier,
@@ -62,7 +62,7 @@ class MapDeformation {
                                 const MapSolution& solution, const MapFrame& frame) const;
     void add_frames(const MapGrid& grid, const std::vector<MapObservation>& observations,
                     const MapSolution& solution, Eigen::MatrixXd& matrix);
-    /// Adds the equations of the offsets in the earlier map, and those of the prior of the offsets.
+    /// Adds the equations for the offsets in the earlier map and for the prior of the offsets.
     void add_dots(const MapGrid& grid, const EarlierOffsets& earlier, const MapSolution& solution,
                   Eigen::MatrixXd& matrix) const;
     void add_smoothness(const MapField& field, Eigen::MatrixXd& matrix) const;

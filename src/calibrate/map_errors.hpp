@@ -1,5 +1,5 @@
-// Map errors: covariances of the errors that all dots of a view share, because the errors of the
-// map change slowly over the page.
+// Covariances of the map errors that all dots of a view share. The dots share errors because the
+// errors of the map vary slowly over the page.
 #pragma once
 
 #include "calibrate/map_deformation.hpp"
@@ -7,8 +7,8 @@
 
 namespace dotpose::calibrate {
 
-/// Source of the mean offset, turn and scale of the seen dots. They are those of an earlier map, or
-/// fixed at 0 by `fix_gauge`.
+/// How the mean offset, turn and scale of the seen dots are determined: by an earlier map, or fixed
+/// at 0 by `fix_gauge`.
 enum class Gauge : bool { earlier, fixed };
 
 /// Returns the covariances of the shift and turn of a view, at the nodes of a grid over the page.

@@ -1,4 +1,4 @@
-// Map field: the slow distortion of a page, interpolated bilinearly between nodes.
+// The slow distortion of a page, interpolated bilinearly between nodes.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ class MapField {
     };
 
     MapField() = default;
-    /// Makes a field with the value 0 for a page with `columns` x `rows` dots at a distance of
+    /// Creates a field with the value 0 for a page with `columns` x `rows` dots at a distance of
     /// `pitch_mm`.
     MapField(int columns, int rows, double pitch_mm);
 
@@ -48,8 +48,8 @@ class MapField {
     /// Weight of a squared second difference.
     static constexpr double kDifferenceWeight = 1 / (kDifference_mm * kDifference_mm);
 
-    /// Calls `use` for each second difference along x, along y, and for each mixed difference. The
-    /// arguments are the nodes of the difference and their coefficients.
+    /// Calls `use` for each second difference: along x, along y, and mixed. The arguments are the
+    /// nodes of the difference and their coefficients.
     template <typename Use>
     void for_each_difference(Use use) const;
 

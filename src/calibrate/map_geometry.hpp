@@ -1,4 +1,4 @@
-// Map geometry: the residuals of the observations of a frame and their derivatives.
+// The residuals of the observations of a frame, and their derivatives.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Map parts: divides the work on the frames and dots of a print map among the cores.
+// Divides the work on the frames and dots of a print map among the cores.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 
 namespace dotpose::calibrate {
 
-/// Number of parts of the work. Constant, because sums must not depend on the number of cores.
+/// Number of parts into which the work is divided. It is constant, because sums must not depend on
+/// the number of cores.
 inline constexpr int kMapParts = 8;
 
 /// Calls `work(part)` for all parts, on all cores.

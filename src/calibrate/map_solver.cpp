@@ -22,7 +22,7 @@ using Eigen::Vector2d;
 /// Number of linearisations. After each of them, the variances are estimated and the outliers are
 /// marked again.
 constexpr int kRounds = 3;
-/// Mean square of the preconditioned residual at which conjugate gradients end, in units of the
+/// Mean square of the preconditioned residual at which conjugate gradients stop, in units of the
 /// variance of an unknown. Smaller values do not change the errors of the map. All rounds but the
 /// last use kFirstConverged, because they only estimate variances and find outliers.
 constexpr double kConverged = 1e-6;

@@ -1,5 +1,5 @@
-// Map solver: computes the offsets of the dots of a page and the poses of all frames together, by
-// sparse least squares.
+// Computes the offsets of the dots of a page and the poses of all frames together, by sparse least
+// squares.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace dotpose::calibrate {
 
-/// A dot in one frame: its index on the page, and its place on the paper in mm, in the frame of the
-/// camera.
+/// Observation of a dot in one frame: the index of the dot on the page, and its place on the paper
+/// in mm, in the camera frame.
 struct MapObservation {
     /// Bit that marks an observation as an outlier. Outliers are not used.
     static constexpr std::uint32_t kOutlier = 1U << 31;
@@ -31,7 +31,7 @@ struct MapObservation {
 
 /// Number of view terms, which may differ between frames: scale, two shears, two perspectives.
 inline constexpr int kViewTerms = 5;
-/// Number of terms that all frames have in common: the view terms and the lens distortion.
+/// Number of terms that all frames share: the view terms and the lens distortion.
 inline constexpr int kCameraTerms = kViewTerms + 1;
 /// Parameters of a frame: place (2), angle, displacement of the dots, and the view terms.
 inline constexpr int kFrameTerms = 4 + kViewTerms;
@@ -91,7 +91,7 @@ struct MapErrorGrid {
 /// Unknowns and statistics of a map.
 struct MapSolution {
     std::vector<MapFrame> frames;
-    CameraVector camera = CameraVector::Zero();  ///< terms that all frames have in common
+    CameraVector camera = CameraVector::Zero();  ///< terms that all frames share
     double reach_mm = 1;                         ///< unit of lengths in the view terms
     MapField field;                              ///< mean offset around each place
     std::vector<Eigen::Vector2f> offset_mm;      ///< offset of each dot
@@ -105,7 +105,7 @@ struct MapSolution {
     int iterations = 0;  ///< iterations of conjugate gradients in all rounds
 };
 
-/// Called after each part of the work with the fraction of the work that is done. May throw to end
+/// Called after each step of the work with the completed fraction of the work. May throw to cancel
 /// the work.
 using MapProgress = std::function<void(double share)>;
 

@@ -154,7 +154,7 @@ double misfit(const MapGrid& grid, const EarlierOffsets& earlier, double reach_m
     double without = 0;
     for (const MapFrame& frame : solution.frames) {
         const MapView view(grid, frame, reach_mm);
-        // Removes the parts of the residuals that a fit of the pose and the view would remove.
+        // Removes the components of the residuals that a fit of the pose and the view would absorb.
         Eigen::MatrixXd design(2 * static_cast<Eigen::Index>(frame.count), kFrameTerms);
         Eigen::MatrixXd residuals(design.rows(), 2);
         for (std::size_t k = 0; k < frame.count; ++k) {

@@ -1,5 +1,4 @@
-// Map start: collects the dots of a page and of its frames, and computes approximate poses of the
-// frames.
+// Collects the dots of a page and of its frames, and computes approximate poses of the frames.
 #pragma once
 
 #include <optional>
@@ -31,11 +30,11 @@ bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::
                   std::vector<MapSighting>& frames, std::vector<MapObservation>& observations);
 
 /// Converts the observations to places on the paper in the frame of the camera, and sets the
-/// approximate poses of the frames of `solution`. All frames use the view of the camera file. If it
-/// has none, they use their median view or, if the views differ because the camera was hand-held,
-/// each frame uses its own view. All places are scaled such that the median scale between the
-/// frames and the page, including the offsets of the earlier map, is 1. Returns the maximum
-/// distance between a dot and the origin of the camera frame, in mm.
+/// approximate poses of the frames of `solution`. All frames use the view of the camera file. If
+/// the camera file has no view, all frames use their median view. If their views differ because the
+/// camera was hand-held, each frame uses its own view instead. All places are scaled such that the
+/// median scale between the frames and the page, including the offsets of the earlier map, is 1.
+/// Returns the maximum distance between a dot and the origin of the camera frame, in mm.
 double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
                  const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
                  std::vector<MapObservation>& observations, MapSolution& solution);

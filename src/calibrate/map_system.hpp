@@ -1,5 +1,6 @@
-// Map system: the linear equations of a print map. The offsets of the dots are eliminated, because
-// each of them is in the equations of one dot only (Schur complement).
+// The linear equations of a print map, from which the offsets of the dots are eliminated (Schur
+// complement). This elimination is cheap, because each offset occurs only in the equations of one
+// dot.
 #pragma once
 
 #include <array>
@@ -18,10 +19,10 @@ class MapSystem {
     MapSystem(const MapGrid& grid, const EarlierOffsets& earlier,
               const std::vector<MapObservation>& observations, const MapSolution& solution);
 
-    /// Solves the equations by preconditioned conjugate gradients, until the mean square of the
-    /// preconditioned residual is at most `converged` times the variance of an unknown, or for
-    /// kMaxIterations. Updates frames, camera, field and offsets of `solution`, which must be the
-    /// solution of the constructor.
+    /// Solves the equations by preconditioned conjugate gradients. Stops when the mean square of
+    /// the preconditioned residual is at most `converged` times the variance of an unknown, or
+    /// after kMaxIterations. Updates frames, camera, field and offsets of `solution`, which must be
+    /// the solution passed to the constructor.
     void solve(MapSolution& solution, double converged, const MapProgress& progress);
     const MapDeformation& deformation() const { return deformation_; }
 
@@ -49,8 +50,8 @@ class MapSystem {
     const EarlierOffsets& earlier_;
     const std::vector<MapObservation>& observations_;
     const MapSolution& solution_;
-    double weight_;                    ///< weight of an observation: 1 / noise^2
-    double prior_weight_;              ///< weight of the field in the offset of a dot: 1 / jitter^2
+    double weight_;        ///< weight of an observation: 1 / noise^2
+    double prior_weight_;  ///< weight of the prior of an offset given the field: 1 / jitter^2
     std::vector<double> information_;  ///< for each offset, sum of the weights of its equations
     std::vector<Eigen::Vector2d> offsets_;
     std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< for each part of the work, a sum per dot

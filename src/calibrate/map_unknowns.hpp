@@ -1,4 +1,4 @@
-// Map unknowns: the unknowns of a print map that remain after the elimination of the offsets.
+// The unknowns of a print map that remain after the elimination of the offsets.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,8 @@
 
 namespace dotpose::calibrate {
 
-/// Unknowns that remain after the elimination of the offsets. The places, the angles (times the
-/// reach) and the displacements of the frames are relative to the frames of the solution. All other
-/// values are absolute.
+/// The places, the angles (times the reach) and the displacements of the frames are relative to the
+/// frames of the solution. All other values are absolute.
 struct MapUnknowns {
     std::vector<FrameVector> frames;
     CameraVector camera = CameraVector::Zero();

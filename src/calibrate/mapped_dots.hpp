@@ -1,4 +1,4 @@
-// Mapped dots: the dots of a fix, with their offsets in a print map.
+// The dots of a fix, with their offsets in a print map.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Mapped fix: fits the pose of a frame to the dots at their mapped places.
+// Fits the pose of a frame to the dots at their mapped places.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -171,8 +171,8 @@ void shrink(const ViewPrior& prior, const Vector2d& present, double unit, Correc
 }
 
 /// Shrinks perspective and shear to their posterior means. Without the shrinkage, the noise of
-/// these terms would make the place less accurate. The terms that the plane of the fix already
-/// contains cannot replace them, because they were fitted without the map and have larger errors.
+/// these terms would make the place less accurate. The perspective and shear in the plane of the
+/// fix cannot be used instead, because they were fitted without the map and have larger errors.
 void shrink_view(const FixPlane& plane, const std::vector<MapDot>& dots, Correction& fit) {
     double reach_px = 1;
     for (const MapDot& dot : dots)

@@ -112,7 +112,7 @@ PoseFit fit_pose(const std::vector<MappedDot>& dots, const Camera& camera, const
     return fit;
 }
 
-/// Dots without offsets.
+/// Returns the dots with all offsets set to 0.
 std::vector<MappedDot> without_map(std::vector<MappedDot> dots) {
     for (MappedDot& dot : dots)
         dot.offset.setZero();

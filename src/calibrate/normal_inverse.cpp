@@ -19,7 +19,7 @@ struct UnsharedBlock {
     MatrixXd squares;      ///< products within the block
 };
 
-/// The matrix J^T J. The products of two different unshared blocks are 0 and not stored.
+/// The matrix J^T J. The products of different unshared blocks are 0 and are not stored.
 struct Normal {
     ceres::CRSMatrix jacobian;  ///< columns of the shared blocks come first
     MatrixXd shared;

@@ -1,4 +1,4 @@
-// Normal inverse: covariances for problems in which many poses share a few parameters.
+// Covariances for problems in which many poses share a few parameters.
 #pragma once
 
 #include <vector>

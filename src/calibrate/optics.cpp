@@ -48,7 +48,7 @@ void set_field(const Optics& o, OpticsReport& r) {
     r.dots_in_view = r.field_width_mm * r.field_height_mm / (o.spacing_mm * o.spacing_mm);
 }
 
-/// Computes whether the field of view contains 8 x 8 dots (paper III-A.3).
+/// Determines whether the field of view contains 8 x 8 dots (paper III-A.3).
 void set_block(const Optics& o, OpticsReport& r) {
     const double side_mm = o.spacing_mm * (7 + 2.0 / 6) + o.dot_mm;
     r.block_diagonal_mm = std::numbers::sqrt2 * side_mm;

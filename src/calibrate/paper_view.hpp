@@ -1,4 +1,4 @@
-// Paper view: scale, tilt and focal length of a camera, from its lens fit.
+// Computes scale, tilt and focal length of a camera from its lens fit.
 #pragma once
 
 #include "calibrate/lens_fit.hpp"

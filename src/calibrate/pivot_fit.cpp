@@ -49,8 +49,8 @@ Matrix36d by_pose(const PivotView& view, const Vector3d& tip_mm) {
     return result;
 }
 
-/// Returns the transformation of residuals to independent residuals of variance 1, for an exactly
-/// known tip in the camera frame.
+/// Returns the matrix that transforms residuals to independent residuals of variance 1, assuming
+/// that the tip is exactly known in the camera frame.
 Matrix3d whitening_at(const PivotView& view, const Vector3d& tip_mm) {
     return whitening_of(propagated(by_pose(view, tip_mm), view.covariance));
 }
@@ -98,7 +98,7 @@ Points robust_start(const std::vector<PivotView>& views) {
     return best;
 }
 
-/// A weighted fit to the views that agree with `start`.
+/// Result of one improvement: a weighted fit to the views that agree with `start`.
 struct Step {
     Points points;
     Matrix6d covariance;  ///< for independent poses

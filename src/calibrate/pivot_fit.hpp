@@ -1,4 +1,4 @@
-// Pivot fit: finds the point of a device that is at rest while the device turns about this point.
+// Finds the point of a device that is at rest while the device turns about this point.
 #pragma once
 
 #include <cstdint>

@@ -14,14 +14,14 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Direction of view at one place on the paper, and its derivative with respect to the place.
+/// Viewing direction at one place on the paper, and its derivative with respect to the place.
 struct LocalView {
     Vector2d place_mm;
     Vector2d ray;  ///< (x, y) of the direction (x, y, 1) in the camera frame
     Matrix2d per_mm;
 };
 
-/// Fits a homography from the paper to the directions of view. Returns its value and its derivative
+/// Fits a homography from the paper to the viewing directions. Returns its value and its derivative
 /// at the middle of the dots.
 LocalView local_view(const std::vector<SpaceDot>& dots, const Vector2d& focal_px) {
     const double displacement = SpaceState().displacement;

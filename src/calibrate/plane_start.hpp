@@ -1,4 +1,4 @@
-// Plane start: the two poses of a camera that explain the image of a small plane.
+// Computes the two poses of a camera that explain the image of a small plane.
 #pragma once
 
 #include <array>

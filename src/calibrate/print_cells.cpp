@@ -23,8 +23,8 @@ constexpr double kMinLength = 0.15;
 constexpr double kMinRightShare = 0.7;
 
 /// Returns the located tiles whose maps predict the cells of a tile. The result contains the tile
-/// itself or, if the tile has no fix, its neighbours. A tile that shows only the edge of a field
-/// has no fix.
+/// itself or, if the tile has no fix, its neighbours. For example, a tile that shows only the edge
+/// of a field has no fix.
 std::vector<const LocatedTile*> views_of(int tile, const Tiling& tiling, const Field& field) {
     if (const auto& own = field.tiles[static_cast<std::size_t>(tile)]) return {&*own};
     std::vector<const LocatedTile*> views;
@@ -49,8 +49,8 @@ bool is_nearest(const LocatedTile& view, const SeenCell& cell,
     });
 }
 
-/// Returns a grid without measurements. The grid covers the cells of all tiles of a field, which
-/// the maps of the tiles predict, plus a margin of two cells.
+/// Returns a grid without measurements. It covers all cells that the maps of the tiles of a field
+/// predict in these tiles, plus a margin of two cells.
 CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;

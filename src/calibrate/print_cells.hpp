@@ -1,4 +1,4 @@
-// Print cells: collects all cells of one field.
+// Collects all cells of one field.
 #pragma once
 
 #include <vector>

@@ -23,7 +23,7 @@ constexpr double kFloorShare = 0.15;
 constexpr double kReach = 1.0 / 3;
 /// Minimum darkness at which the border of a cell is considered other print, such as text or
 /// pictures. The first limit is relative to the darkness of a dot. The second limit is in standard
-/// deviations of blank paper, and is at most the darkness of a dot. The larger limit applies.
+/// deviations of blank paper, capped at the darkness of a dot. The larger limit applies.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
 /// Displacement that is assumed while levels are measured, in spacings. An approximate value is
@@ -318,7 +318,7 @@ std::vector<SeenCell> measure_cells(const ImageView& scan, const PixelRect& rect
     std::vector<SeenCell> cells;
     std::vector<Vector2d> offsets;
     if (levels.paper <= 0) return cells;
-    // Ink that is as dark as a dot counts as other print, regardless of the noise.
+    // Ink that is as dark as a dot is considered other print, regardless of the noise.
     const double other_print = std::max(kOtherPrintShare * levels.dot,
                                         std::min(kOtherPrint_sigmas * levels.noise, levels.dot));
     const Meter meter(scan, map, code.displacement, levels.paper);

@@ -1,4 +1,4 @@
-// Print dots: measures dots of a scan at the places where a map expects them.
+// Measures dots of a scan at the places where a map predicts them.
 #pragma once
 
 #include <cstdint>

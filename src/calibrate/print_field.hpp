@@ -1,4 +1,4 @@
-// Print fields: contiguous regions of the code in a scan, and their tiles.
+// Fields of a print: contiguous regions of the code in a scan, with their tiles.
 #pragma once
 
 #include <optional>

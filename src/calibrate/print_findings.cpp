@@ -32,8 +32,8 @@ constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
 constexpr double kNotableShare = 0.01;
 constexpr double kMinContrast = 0.2;
-/// If a spacing is less than kCoarse_px in the scan, faults of single dots may be due to the scan.
-/// These faults are attributed to the scan if the scatter of the dots is more than kCoarseScatter
+/// If the spacing in the scan is less than kCoarse_px, faults of individual dots may be due to the
+/// scan. They are attributed to the scan if the scatter of the dots is more than kCoarseScatter
 /// spacings, or if more than kCoarseWrongShare of the bits are wrong.
 constexpr double kCoarse_px = 10;
 constexpr double kCoarseScatter = 0.05;

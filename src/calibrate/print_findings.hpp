@@ -1,4 +1,4 @@
-// Print findings: converts the measurements of a print to messages for the user.
+// Converts the measurements of a print to messages for the user.
 #pragma once
 
 #include "dotpose/tools/check_print.hpp"

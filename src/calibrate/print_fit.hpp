@@ -1,4 +1,4 @@
-// Print fit: one map for a whole field, fitted to all its dots.
+// Fits one map to all dots of a field.
 #pragma once
 
 #include <vector>

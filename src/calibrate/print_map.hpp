@@ -1,4 +1,4 @@
-// Print map: maps from the cells of the code to the pixels of a scan.
+// Maps between the pixels of a scan and the cells of the code.
 #pragma once
 
 #include <algorithm>

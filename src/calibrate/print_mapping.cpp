@@ -1,4 +1,4 @@
-// Print mapping: collects the dots of the frames of each page, and converts the solution to a map.
+// Collects the dots of the frames of each page, and converts the solution to a map.
 #include "dotpose/tools/print_mapping.hpp"
 
 #include <algorithm>

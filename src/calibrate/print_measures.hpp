@@ -1,4 +1,4 @@
-// Print measures: measurements of a print from the cells of a field.
+// Measures a print from the cells of a field.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Print tiles: runs `locate` on the tiles of a scan.
+// Runs `locate` on the tiles of a scan.
 #pragma once
 
 #include <functional>

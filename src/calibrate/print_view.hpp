@@ -1,4 +1,4 @@
-// Print view: decides whether a flatbed scanner or a camera took the image of a page.
+// Determines whether the image of a page was taken with a flatbed scanner or a camera.
 #pragma once
 
 #include <optional>

@@ -13,15 +13,15 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Maximum distance of the image centre from the page whose dots the frame shows, in mm.
+/// Maximum distance of the image centre, in mm, from the page whose dots are in the frame.
 constexpr double kBeyondPage_mm = 400;
 /// Minimum number of dots of a view. With fewer dots, the scales along the axes of the view are not
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// The search in a frame ends when the located sheets cover this number of the 64 fields of the
-/// frame (SheetView::fields). The number of dots is not a suitable criterion, because a fix
-/// contains only the dots of one sheet.
+/// Number of the 64 fields of a frame (SheetView::fields) that the located sheets must cover to end
+/// the search in this frame. The number of dots is not a suitable criterion, because a fix contains
+/// only the dots of one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.
@@ -88,8 +88,8 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, CodeVariant co
                         place->theta_rad};
 }
 
-/// Sets place, axes and errors of `view` for a camera whose file contains the map to the paper, by
-/// fitting an affine map to the dots. `first` is the position of the intersection with
+/// Sets place, axes and errors of `view` by fitting an affine map to the dots. The camera file must
+/// contain the map to the paper. `first` is the position of the intersection with
 /// `LocatedDot::step` (0, 0) on the sheet, in nominal mm.
 void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
@@ -117,8 +117,9 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
     view.rows = 6;
 }
 
-/// Sets place, axes and errors of `view` for a camera whose map to the paper is not known. The fix
-/// determines only the position of the image centre and the direction of the image x axis.
+/// Sets place, axes and errors of `view` if the map from the camera to the paper is unknown. In
+/// this case, the fix determines only the position of the image centre and the direction of the
+/// image x axis.
 void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,
                        SheetView& view) {
     const double c = std::cos(centre.theta_rad);

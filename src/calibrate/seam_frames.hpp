@@ -1,4 +1,4 @@
-// Seam frames: finds the poses of several sheets in one frame.
+// Finds the poses of several sheets in one frame.
 #pragma once
 
 #include <cstdint>

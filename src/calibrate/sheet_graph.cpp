@@ -18,7 +18,7 @@ namespace {
 /// Whitened residual of a view (scaled to a standard deviation of 1) above which the weight of the
 /// view decreases. By chance, one view in 70 exceeds this limit.
 constexpr double kRobust_sigmas = 4;
-/// Standard deviation that practically fixes a parameter.
+/// Standard deviation that is small enough to fix a parameter.
 constexpr double kPinned = 1e-7;
 /// Prior relative standard deviation of the scale of a camera.
 constexpr double kCameraPrior = 0.03;
@@ -187,7 +187,7 @@ bool SheetGraph::has_scale() const {
     return std::ranges::any_of(views_, &SheetView::has_scale);
 }
 
-/// Returns the image centre in the camera's coordinate frame that the view uses.
+/// Returns the image centre in the camera coordinate frame of the view.
 Eigen::Vector2d SheetGraph::centre_in_camera(const SheetView& view) const {
     if (!view.has_scale()) return {0, 0};
     const CameraPoint point =
@@ -205,8 +205,8 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
 }
 
 /// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. If several
-/// frames show the same two sheets, the search compares the smaller of the two numbers of dots in
-/// each frame, and uses the frame in which this number is largest.
+/// frames show the same two sheets, uses the frame in which the smaller of the two numbers of dots
+/// is largest.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();

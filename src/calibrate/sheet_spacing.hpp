@@ -1,4 +1,4 @@
-// Sheet spacing: the spacing of the sheet in calibration frames.
+// Determines the printed spacing of the sheet in calibration frames.
 #pragma once
 
 #include <vector>

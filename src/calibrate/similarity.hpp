@@ -1,4 +1,4 @@
-// Similarity: fits the place, angle and scale of a frame to its dots.
+// Fits the place, angle and scale of a frame to its dots.
 #pragma once
 
 #include <vector>

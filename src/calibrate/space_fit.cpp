@@ -154,9 +154,9 @@ std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<Weig
     return kept;
 }
 
-/// Error model of the dots. The variance is the sum of the variance of the print errors, which is
-/// equal in all directions on the paper, and the variance of the measured centres. The model
-/// estimates the fraction of the print errors in this sum.
+/// Error model of the dots. The covariance of a dot is the sum of two parts: the print error, which
+/// is isotropic on the paper, and the error of the measured centre. The model estimates the
+/// fraction that is due to print errors.
 class NoiseModel {
   public:
     NoiseModel(const SpaceState& state, const std::vector<WeightedDot>& dots,

@@ -1,5 +1,5 @@
-// Space fit: the maximum-likelihood pose of a camera over a plane of dots. A view of a plane may
-// have a second solution.
+// Maximum-likelihood pose of a camera over a plane of dots. The pose may be ambiguous, so there may
+// be a second solution.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,4 @@
-// Poses in space: fits a pose to the trace of a frame, and converts poses between coordinate
-// frames.
+// Fits a pose in space to the trace of a frame, and converts poses between coordinate frames.
 #include "dotpose/tools/space_pose.hpp"
 
 #include <cmath>
@@ -62,8 +61,8 @@ CameraLean lean_of(const Quaternion& rotation) {
     // Rotation = (rotation by the tilt about an axis in the paper) * (turn about the optical axis).
     const auto [w, x, y, z] = rotation;
     const double turn = 2 * std::atan2(z, w);
-    // The optical axis in the coordinate frame of the paper. The camera leans towards the opposite
-    // side.
+    // The optical axis in the coordinate frame of the paper. The direction in which the camera
+    // leans is opposite to the direction of the axis on the paper.
     const Vector3d axis = eigen_of(rotation) * Vector3d::UnitZ();
     return {std::atan2(axis.head<2>().norm(), axis.z()), std::atan2(-axis.y(), -axis.x()),
             turn > std::numbers::pi ? turn - 2 * std::numbers::pi : turn};

@@ -1,5 +1,5 @@
-// Stitching: computes the relative poses and print scales of sheets from frames that show two or
-// more of the sheets.
+// Computes the relative poses and print scales of sheets from frames that show two or more of the
+// sheets.
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-// Sources of frames: images, folders of images and raw grey frames from a pipe. The layer `video`
+// Sources of frames: images, folders of images and raw grey frames from a pipe. The `video` layer
 // adds cameras and video files.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace dotpose::capture {
 struct Frame {
     GreyImage image;           ///< empty if the camera delivers no frames
     std::int64_t time_us = 0;  ///< time on the clock of the source; increases from frame to frame
-    std::int64_t index = 0;    ///< frame number from 0; dropped frames are counted too
+    std::int64_t index = 0;    ///< frame number, starting at 0 and including dropped frames
     std::string file;          ///< path of an image, or empty for other sources
     bool is_live = false;      ///< true if `time_us` is on the monotonic clock of this computer
 };
@@ -37,8 +37,8 @@ class FrameSource {
     virtual ~FrameSource() = default;
 
     /// Gets the next frame, or the newest frame of a camera. Returns false at the end or when
-    /// `SourceOptions::stop` returns true. Throws Error if the source fails, after returning all
-    /// frames before the failure.
+    /// `SourceOptions::stop` returns true. If the source fails, returns all frames captured before
+    /// the failure, then throws Error.
     virtual bool next(Frame& frame) = 0;
 
     /// Returns the number of frames that were captured but not returned by `next`.
@@ -56,12 +56,11 @@ class FrameSource {
 };
 
 struct SourceOptions {
-    /// Size of raw frames, or size requested from a camera. 0 if not given. Raw frames require a
-    /// size.
+    /// Frame size. Required for raw frames, and optional as a request to a camera. 0 if not given.
     int width_px = 0;
     int height_px = 0;
-    /// Frame rate requested from a camera. For other sources, the times of frames are computed from
-    /// this rate, even if a video file contains times.
+    /// Frame rate requested from a camera. For other sources, frame timestamps are computed from
+    /// this rate, even if a video file contains timestamps.
     std::optional<double> fps;
     std::optional<double> exposure;  ///< in the unit of the driver
     std::optional<double> gain;      ///< in the unit of the driver
@@ -71,7 +70,8 @@ struct SourceOptions {
     /// Required size of frames before cropping. Set if a camera file defines the pixel coordinates
     /// of `region`.
     std::optional<std::pair<int, int>> whole_size_px;
-    /// Maximum number of pixels. A larger image throws ImageTooLarge before it is decoded.
+    /// Maximum number of pixels of an image. Larger images are rejected with ImageTooLarge before
+    /// they are decoded.
     int max_pixels = kMaxFrameSide_px * kMaxFrameSide_px;
     /// Called periodically. If the function returns true, the source ends.
     std::function<bool()> stop = [] { return false; };
@@ -103,7 +103,8 @@ std::int64_t time_of(std::int64_t index, double fps);
 /// the size of the frames.
 std::unique_ptr<FrameSource> open_raw(const SourceOptions& options);
 
-/// Opens the images whose paths `next_path` returns, until it returns an empty optional.
+/// Opens a list of images. `next_path` returns the path of the next image, or an empty optional at
+/// the end of the list.
 std::unique_ptr<FrameSource> open_images(std::function<std::optional<std::string>()> next_path,
                                          const SourceOptions& options);
 

@@ -24,8 +24,9 @@ class SourceList : public FrameSource {
     /// frames is missing.
     bool open();
 
-    /// Gets the next frame of all sources. Throws Error if a source fails, but the following call
-    /// continues with the next source. Throws BadArgument if the region extends beyond the frame.
+    /// Gets the next frame from the concatenated sources. Throws Error if a source fails. A later
+    /// call continues with the next source. Throws BadArgument if the region extends beyond the
+    /// frame.
     bool next(Frame& frame) override;
     std::int64_t dropped() const override;
     double rate() const override { return source_ ? source_->rate() : 0; }
@@ -48,12 +49,12 @@ class SourceList : public FrameSource {
     SourceOptions options_;
     /// Name of the source after the images, if it was already taken from the list.
     std::optional<std::string> pending_name_;
-    std::vector<std::string> images_;  ///< images of the newest folder or glob, or one image
+    std::vector<std::string> images_;  ///< images of the current folder or glob, or a single image
     std::size_t next_image_ = 0;
     std::unique_ptr<FrameSource> source_;
     std::string name_;
     Frame newest_;            ///< newest frame without its image; `index` is relative to its source
-    double bits_per_px_ = 0;  ///< value for the newest source that has returned a frame
+    double bits_per_px_ = 0;  ///< bits per pixel of the latest source that returned a frame
     std::int64_t dropped_before_ = 0;
     std::int64_t next_index_ = 0;
     std::int64_t next_time_us_ = 0;

@@ -1,5 +1,6 @@
-// Publishes the messages of a robot to ROS 2 over DDS, with the topics, types and qualities of
-// service of ROS nodes, but without ROS. Requires Eclipse Cyclone DDS at build time.
+// Publishes the messages of a robot to ROS 2 directly over DDS. Uses the topics, types and
+// quality-of-service settings of ROS nodes, but does not require ROS. Requires Eclipse Cyclone DDS
+// at build time.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,7 @@ using namespace dotpose::draw;
 constexpr double kMargin = 30;
 constexpr double kHead = 74;
 constexpr double kMaxSide = 520;
-/// Minimum full scale of the arrows in px. It ensures that residuals of pure noise have short
-/// arrows.
+/// Minimum full scale of the arrows, in px. It keeps the arrows short for residuals of pure noise.
 constexpr double kMinFullScale_px = 0.05;
 
 using Part = ResidualField::Part;

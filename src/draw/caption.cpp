@@ -70,7 +70,7 @@ std::string with_minus(std::string text) {
     return text;
 }
 
-/// Texts in large letters: the pose and its standard deviations.
+/// Text of the large caption: the pose and its standard deviations.
 struct Shown {
     /// Name of the coordinate frame. It is a suffix of the labels of the coordinates.
     const char* frame;
@@ -120,7 +120,7 @@ Shown on_sheet(const SheetPlace& place) {
                  place.covariance, 1e3);
 }
 
-/// Describes the pose in each coordinate frame except the one in large letters.
+/// Describes the pose in each coordinate frame except the one of the large caption.
 std::string other_frames(const Fix& fix, const DrawOptions& options) {
     const SheetPlace& place = *options.place;
     std::string text = "on sheet " + place.entry->name;
@@ -157,8 +157,8 @@ void draw_pose(const Fix& fix, const DrawOptions& options, double width, Svg& sv
              R"(class="place" fill="#17202a")");
 }
 
-/// Breaks a text between words into lines of at most `max_bytes` bytes. A word that is longer than
-/// this is not split, but gets a line of its own.
+/// Breaks a text between words into lines of at most `max_bytes` bytes. A longer word is placed on
+/// its own line without being split.
 std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes) {
     std::vector<std::string> lines(1);
     std::istringstream words(text);

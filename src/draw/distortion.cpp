@@ -20,7 +20,7 @@ constexpr double kMaxMapSide = 1000;
 /// kMaxStep of the distance between arrows.
 constexpr double kMaxArrow = 45;
 constexpr double kMaxStep = 0.95;
-/// Minimum full scale of the arrows in mm. It ensures that pure noise has short arrows.
+/// Minimum full scale of the arrows, in mm. It keeps the arrows short for pure noise.
 constexpr double kMinMapScale_mm = 0.01;
 
 /// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.

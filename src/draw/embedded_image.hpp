@@ -8,8 +8,8 @@
 namespace dotpose::draw {
 
 /// Returns "data:image/png;base64,...", or an empty string for an image without pixels. If the
-/// longer side of the image exceeds `max_side_px`, both sides are divided by the smallest
-/// sufficient integer, and the number of grey levels is reduced to 64. Throws Error if the image
+/// longer side of the image exceeds `max_side_px`, the image is reduced by the smallest integer
+/// factor that suffices, and the number of grey levels is reduced to 64. Throws Error if the image
 /// cannot be encoded.
 std::string data_uri(ImageView image, int max_side_px);
 

@@ -56,17 +56,17 @@ class FrameView {
     /// Returns true if the dots are too close together in the drawing for legible letters and
     /// rings.
     bool is_dense() const;
-    /// Returns the factor for the width of strokes. It is the grid spacing in the drawing divided
-    /// by 70 units, but at least 0.2 and at most 1.
+    /// Returns the factor for stroke widths: the grid spacing in the drawing divided by 70 units,
+    /// clamped to [0.2, 1].
     double stroke() const { return stroke_; }
     /// Returns the grid spacing in the drawing. If no grid was found, it is estimated from the size
     /// of the dots.
     double spacing() const { return spacing_px_ * scale_; }
 
-    /// Returns the point of the drawing that shows an ideal pixel.
+    /// Converts an ideal pixel to a point of the drawing.
     Point at(Point ideal_px) const;
     Point at_dot(const DetectedDot& dot) const;
-    /// Returns the point of the drawing that shows a point of the grid. Requires `reached().cells`.
+    /// Converts a point of the grid to a point of the drawing. Requires `reached().cells`.
     Point at_grid(double i, double j) const;
     /// Returns the reference point of the pose, in ideal pixels.
     Point reference_px() const { return reference_px_; }
@@ -91,7 +91,7 @@ class FrameView {
     Point reference_px_;
 };
 
-/// Returns the grid cell that is at the top left corner of the 8 x 8 window in the orientation of
+/// Returns the grid cell at the top left corner of the 8 x 8 window, as seen in the orientation of
 /// the pattern. Requires `Reached::place`.
 FixedVec window_corner(const Trace& trace);
 /// Returns the position of a grid cell in the code. Requires `Reached::place`.

@@ -16,11 +16,11 @@ namespace dotpose {
 namespace {
 
 constexpr double kMargin_mm = 5;
-/// Width of the line of a ballpoint pen.
+/// Width of the line of a ballpoint pen, in mm.
 constexpr double kLine_mm = 0.4;
 
-/// Returns the page with its size. If the size is unknown, the page covers the strokes and a
-/// margin.
+/// Returns the page with a size. If the size is unknown, computes the size and position of a page
+/// that contains the strokes and a margin.
 InkPage with_size(InkPage page) {
     if (page.width_mm > 0) return page;
     constexpr double kFar = std::numeric_limits<double>::max();

@@ -108,7 +108,7 @@ class OffsetMap {
                  corner.x, corner.y, width, side_ * rows_ * scale_, colour::kQuiet);
     }
 
-    /// Returns a colour from blue (-1) over white (0) to red (1).
+    /// Returns a colour from blue (-1) through white (0) to red (1).
     static std::string colour_of(double share) {
         const auto part = [](double value) { return static_cast<int>(std::lround(value)); };
         const double pale = 1 - std::min(std::abs(share), 1.0);

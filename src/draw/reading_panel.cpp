@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMaxWeight = 127;  // maximum weight of a bit
 
-/// Returns the likelihood of the symbol as in the paper, |Px Py|, from 0 to 1.
+/// Returns the likelihood |Px Py| of the symbol, as in the paper, in the range [0, 1].
 double quality(const GridCell& cell) {
     return std::abs(cell.x * cell.y) / (kMaxWeight * kMaxWeight);
 }
@@ -67,8 +67,8 @@ class Reading {
     void draw_symbol(int i, int j, const GridCell& cell) const;
     void draw_points() const;
     /// Calls `draw` with the column, row and cell of each dot that was read. Returns the centres of
-    /// the other dots. Such a dot is either far from all intersections, or another dot at the same
-    /// intersection has a higher quality.
+    /// the dots that were not read. Such a dot is far from all intersections, or another dot at the
+    /// same intersection has a higher quality.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
     /// Draws a line of the grid as several strokes, because lens distortion may bend the line.

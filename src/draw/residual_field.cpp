@@ -8,7 +8,7 @@
 namespace dotpose {
 namespace {
 
-/// Number of parts along the longer side of the image.
+/// Number of parts into which the longer side of the image is divided.
 constexpr int kFieldParts = 22;
 
 void add_residual(PixelPoint& sum, PixelPoint residual) {

@@ -16,8 +16,8 @@ namespace {
 
 using namespace dotpose::draw;
 
-/// Minimum full scale of the panel in mm. It ensures that residuals of pure noise fill only a small
-/// part of the panel.
+/// Minimum full scale of the panel, in mm. It keeps residuals of pure noise in a small part of the
+/// panel.
 constexpr double kMinFullScale_mm = 0.001;
 
 class SpinPicture {
@@ -80,8 +80,8 @@ class SpinPicture {
         draw_cross(middle(0), colour::kBad);
     }
 
-    /// For each frame, draws the centre of rotation that is computed from this frame alone. The
-    /// centre computed from all frames is in the middle of the panel.
+    /// Draws, for each frame, the centre of rotation computed from that frame alone. The centre
+    /// computed from all frames is in the middle of the panel.
     void draw_residuals() {
         double full_mm = kMinFullScale_mm;
         for (const SpinStation& station : spin_.stations)

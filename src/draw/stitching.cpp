@@ -20,7 +20,7 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kMaxArrow = 70;
-/// Minimum full scale of the arrows in mm. It ensures that pure noise has short arrows.
+/// Minimum full scale of the arrows, in mm. It keeps the arrows short for pure noise.
 constexpr double kMinArrowScale_mm = 0.002;
 
 /// Image centre of one frame, and the difference between its positions on the two sheets. Both are

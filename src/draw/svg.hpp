@@ -14,8 +14,7 @@
 
 namespace dotpose::draw {
 
-/// A 2D point or vector. Names of variables end with the unit, such as _px or _mm, where it
-/// matters.
+/// A 2D point or vector. Variable names end with the unit, such as _px or _mm, where it matters.
 struct Point {
     double x = 0;
     double y = 0;

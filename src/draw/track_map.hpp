@@ -19,11 +19,12 @@ struct MapSheet {
 
 struct MapRobot {
     std::string name;
-    /// Path of the robot. Where the position jumps, a new stroke begins.
+    /// Path of the robot. A new stroke begins wherever the position jumps.
     std::vector<std::vector<Point>> strokes_mm;
     Point place_mm;
     std::optional<double> heading_rad;  ///< from +x towards +y of the plane, or empty if unknown
-    std::string problem;  ///< shown after the name, such as "lost", or empty if there is none
+    /// Problem to show after the name, such as "lost", or empty if there is none.
+    std::string problem;
 };
 
 struct Map {

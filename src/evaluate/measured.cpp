@@ -91,10 +91,9 @@ double near_limit(std::span<const Pair> pairs, const Map& map) {
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits a similarity transform to the pairs that are not outliers. The first map is the one with
-/// the smallest median residual among the fit to all pairs and maps that are each determined by
-/// only two of the pairs. Then repeatedly fits the pairs whose residuals are within the outlier
-/// limit of the previous map.
+/// Fits a similarity transform to the pairs that are not outliers. Starts with the map that has the
+/// smallest median residual: either the fit to all pairs, or a map determined by two pairs. Then
+/// repeatedly refits the map to the pairs within the outlier limit of the previous map.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;
@@ -104,7 +103,7 @@ Map fit_most(std::span<const Pair> pairs) {
     const std::size_t all = n * (n - 1) / 2;
     for (std::size_t k = 0; k < std::min(all, kTries); ++k) {
         // Combines frames that are far apart in the list, because they are usually also far apart
-        // on the sheet. The map through distant places is more accurate.
+        // on the sheet. A map determined by two distant places is more accurate.
         const std::size_t apart = 1 + (n / 2 + 7 * (k / n)) % (n - 1);
         const Map map = fit(std::array{pairs[k % n], pairs[(k + apart) % n]});
         const double median = median_residual(pairs, map);
@@ -206,7 +205,7 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
         if (frame.truth) result.is_in_world = frame.truth->is_in_world;
         result.errors.push_back(frame.found ? std::optional(error_of(frame, alignment))
                                             : std::nullopt);
-        // A fix counts as wrong if it has no place in the coordinate frame of the true places.
+        // A fix without a place in the coordinate frame of the true places is wrong.
         if (frame.status == Status::ok && !frame.found) ++result.wrong;
     }
     mark_wrong(frames, result.errors);

@@ -57,7 +57,7 @@ std::vector<double> Scale::ticks(int min_count) const {
             result.push_back(i * step + 0.0);  // adding 0 turns -0 into 0
         return result;
     }
-    // If an axis covers more than about two decades, only powers of ten have labels.
+    // If an axis covers more than about two decades, only powers of ten are labelled.
     const bool is_long = last / first > 150;
     for (double power = std::pow(10, std::floor(std::log10(first))); power <= last; power *= 10) {
         for (const double factor : {1.0, 2.0, 5.0}) {

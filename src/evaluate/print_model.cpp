@@ -22,8 +22,8 @@ PrintModel::PrintModel(double worst_x_mm, double worst_y_mm) {
 }
 
 Vec2 PrintModel::shift_mm(Vec2 from_middle_mm) const {
-    // Along the feed (y), the modelled errors come from rollers that turn unevenly and from paper
-    // that slips more on one side. Across the feed, the scan line is bowed and slightly stretched.
+    // Along the feed (y), models rollers that turn unevenly and paper that slips more on one side.
+    // Across the feed, models a scan line that is bowed and slightly stretched.
     constexpr double kTurn = 2 * std::numbers::pi;
     const double x = from_middle_mm.x / kSide_mm;
     const double y = from_middle_mm.y / kSide_mm;

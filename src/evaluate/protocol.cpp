@@ -70,7 +70,7 @@ Station station_of(const Stand& stand, std::span<const Outcome> outcomes) {
         if (!outcome.is_fix() || outcome.is_wrong()) continue;
         ++station.located;
         const double spacing_mm = outcome.truth.spacing_mm;
-        // Whether a fix is wrong is decided relative to the printed pattern, but the accuracy is
+        // A fix is classified as wrong relative to the printed pattern, but the accuracy is
         // measured relative to the commanded pose.
         const Deviation off = deviation_of(outcome.fix, sent_to(stand, spacing_mm));
         x_mm.push_back(off.x_grid * spacing_mm);

@@ -20,8 +20,8 @@ struct Step {
     friend constexpr bool operator==(const Step&, const Step&) = default;
 };
 
-/// Returns the positions of a square in a spiral from the centre outwards. The side must be odd.
-/// The spiral starts to the right and turns clockwise as seen on the page.
+/// Returns the positions of a square grid in spiral order, from the centre outwards. `side` must be
+/// odd. The spiral starts to the right and turns clockwise as seen on the page.
 std::vector<Step> spiral(int side);
 
 /// Returns the mean and the sample standard deviation (divisor n - 1). With fewer than two values,

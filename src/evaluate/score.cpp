@@ -96,8 +96,8 @@ std::vector<std::pair<std::string, std::string>> described(const Score& score) {
     add("error^2 / variance, mean: x / y / theta",
         fmt::format("{} / {} / {}", number(score.normalised[0], 2), number(score.normalised[1], 2),
                     number(score.normalised[2], 2)));
-    // Smallest probability to report, because the model of paper, ink and camera does not justify
-    // smaller values.
+    // Smallest probability to report. The model of paper, ink and camera does not justify smaller
+    // values.
     constexpr double kMinPWrong = 1e-30;
     const bool has_fix = score.located + score.wrong > 0;
     add("largest p_wrong of a fix",

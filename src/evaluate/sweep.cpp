@@ -1,4 +1,4 @@
-// Evaluates a condition, such as blur, at increasing values.
+// Sweeps a condition, such as blur, over increasing values.
 #include "evaluate/sweep.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Draws a sweep over the values of a condition: at the top the fraction of located frames, and at
-// the bottom the errors.
+// Plots a sweep over the values of a condition, with the fraction of located frames at the top and
+// the errors at the bottom.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +20,7 @@ constexpr double kHeight = 690;
 constexpr double kLeft = 80;
 constexpr double kPlotWidth = kWidth - kLeft - 40;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Errors are drawn only for values of the condition that have at least this number of fixes.
+/// Minimum number of fixes at a value of the condition for its errors to be drawn.
 constexpr int kMinFixes = 5;
 
 struct Words {
@@ -75,7 +75,7 @@ void draw_head(Svg& svg, const Sweep& sweep) {
     legend_entry(svg, {x, 39}, {style::kWindow, false, false, true}, "8 x 8 window (paper)");
 }
 
-/// Marks each point that has wrong fixes with a red disc and their number.
+/// Marks each point that has wrong fixes with a red disc and the number of wrong fixes.
 void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder) {
     for (const SweepPoint& point : sweep.points) {
         const Score& score = decoder == Decoder::window ? point.window : point.all;

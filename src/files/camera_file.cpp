@@ -114,7 +114,7 @@ class Writer {
     void line(const char* key, double first, double second, const char* comment = "") {
         line(key, fmt::format("[{}, {}]", text_of(first), text_of(second)), comment);
     }
-    /// Appends an element to the list of the last key.
+    /// Appends an element to the list under the most recent key.
     void item(const std::vector<double>& numbers) {
         text_ += fmt::format("  - [{:.4g}]\n", fmt::join(numbers, ", "));
     }

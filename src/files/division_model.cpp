@@ -15,8 +15,8 @@ namespace {
 constexpr double kMaxUndistorted_px = 1e6;
 
 /// Number of parameters: k, the two coordinates of the centre, and the six of an affine map. The
-/// affine map is fitted as well, because every fit of a pose includes such a map. Lengths are in
-/// units of half the image diagonal.
+/// affine map is included because every pose fit contains such a map. Lengths are in units of half
+/// the image diagonal.
 constexpr std::size_t kParameters = 9;
 using Fit = LeastSquares<kParameters>;
 using Parameters = Fit::Vector;

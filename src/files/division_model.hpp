@@ -5,7 +5,7 @@
 
 namespace dotpose::files {
 
-/// Lens model of OpenCV. Maps undistorted to distorted positions. It is the model plumb_bob in
+/// Lens model of OpenCV. Maps undistorted to distorted positions. This is the plumb_bob model of
 /// http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html.
 struct PlumbBob {
     double fx = 0;
@@ -25,10 +25,10 @@ struct PlumbBob {
     PixelPoint undistorted(PixelPoint pixel) const;
 };
 
-/// Sets `k_per_px2` and `centre_px` to the division model nearest to `lens` over the image, and
-/// `pinhole` to the pinhole camera that has the directions of view of `lens` together with this
-/// model. The image size must be set. Returns the rms difference of the two models over the image,
-/// in px. Returns infinity if the lens cannot be inverted.
+/// Sets `k_per_px2` and `centre_px` to the division model nearest to `lens` over the image. Sets
+/// `pinhole` to the pinhole camera that, combined with this model, has the same viewing directions
+/// as `lens`. The image size must be set. Returns the rms difference of the two models over the
+/// image, in px. Returns infinity if the lens cannot be inverted.
 double fit_division_model(const PlumbBob& lens, Camera& camera);
 
 }  // namespace dotpose::files

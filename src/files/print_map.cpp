@@ -1,4 +1,4 @@
-// Parses print maps, and writes them as bytes.
+// Parses and serialises print maps.
 #include "dotpose/files/print_map.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr std::string_view kMagic = "DOTPOSEM";
-/// Version 1 does not contain the errors of the map.
+/// Version of the format. Version 1 did not contain the errors of the map.
 constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kMaxPages = 10'000;
 constexpr std::size_t kMaxName = 4096;
@@ -173,7 +173,8 @@ MapPage parse_page(Bytes& bytes, std::uint32_t version) {
     page.jitter = bytes.real();
     if (const std::string fault = fault_of(page); !fault.empty())
         throw Error(fmt::format("a page has {}", fault));
-    // Takes all bytes before the vectors are allocated, because the numbers may be wrong.
+    // Checks that all bytes are present before allocating the vectors, because the sizes in the
+    // file may be wrong.
     const std::size_t dots = dots_of(columns, rows);
     Bytes offsets(bytes.take(4 * dots));
     const std::string_view views = bytes.take(dots);

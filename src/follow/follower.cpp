@@ -1,4 +1,4 @@
-// Functions for both single images and sequences: options, sheets, camera file.
+// Functions shared by single images and sequences: options, sheets and camera file.
 #include "dotpose/tools/follower.hpp"
 
 #include <algorithm>
@@ -40,8 +40,8 @@ void Follower::set_sheets(std::vector<SheetEntry> sheets) {
     if (sheets.empty()) throw BadArgument("a follower needs at least one sheet");
     require_pages(options_.print_map, sheets);
     options_.sheets = std::move(sheets);
-    // The track and the prediction are in the coordinates of the previous sheets, so a new track
-    // begins.
+    // Starts a new track, because the track and the prediction are in the coordinates of the
+    // previous sheets.
     start_tracks();
     use_sheets();
 }
@@ -95,11 +95,11 @@ void Follower::set_camera(const Camera& camera) {
     if (options_.fits_space_pose) require_focal_length(camera);
     options_.camera = camera;
     use_flat_field();
-    // The prediction is in the coordinates of the previous lens, so a new track begins.
+    // Starts a new track, because the prediction is in the coordinates of the previous lens.
     start_tracks();
 }
 
-/// Returns the image after the flip and the flat-field correction that the options require.
+/// Returns the image, flipped and flat-field corrected if the options require it.
 ImageView Follower::as_located(ImageView image) {
     if (image.pixels == nullptr) return image;
     if (options_.flip || (options_.camera && options_.camera->flip)) {
@@ -145,7 +145,8 @@ double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {
     return place ? place->entry->sheet.pattern.spacing_mm : unplaced_spacing_mm_;
 }
 
-/// Returns the fix with the spacing of its sheet. The spacing is 0 if it is not known.
+/// Returns the fix with `spacing_nm` set to the spacing of its sheet, or to 0 if the spacing is
+/// unknown.
 Fix Follower::with_spacing(const Fix& fix, const std::optional<SheetPlace>& place) const {
     Fix result = fix;
     const double mm = spacing_mm(place);

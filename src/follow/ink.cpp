@@ -15,7 +15,7 @@ namespace {
 using follow::AxisPlace;
 using follow::AxisSample;
 
-/// A sample next to a lift is part of the lift if its smoothed height is above this value.
+/// Smoothed height above which a sample adjacent to a lift belongs to the lift.
 constexpr double kRest_mm = 0.02;
 
 /// Consecutive samples on one page.
@@ -52,7 +52,7 @@ std::vector<AxisSample> along(const Axis& axis, Run run) {
     return result;
 }
 
-/// Returns the acceleration noise for which the samples of all runs are most likely.
+/// Returns the acceleration noise that maximises the likelihood of the samples of all runs.
 double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> axes) {
     double best = 0;
     double best_likelihood = -std::numeric_limits<double>::infinity();
@@ -71,7 +71,7 @@ double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> ax
     return best;
 }
 
-/// Returns one value per sample, which is true if the pen is on the paper.
+/// Returns, for each sample, true if the pen is on the paper.
 std::vector<bool> contacts_of(Run run, double noise) {
     PenContact contact;
     std::vector<bool> is_down;

@@ -59,7 +59,7 @@ Follower::Found Follower::read_in(CodeVariant code) {
 }
 
 /// If bits contradict a fix on a known sheet, labels or the table beside the sheet may have been
-/// read as dots. In this case, masks everything beside the dots of the sheet and locates the image
+/// read as dots. In this case, masks everything outside the dots of the sheet and locates the image
 /// again. Returns the new fix if fewer bits contradict it and it uses nearly as many dots.
 /// Otherwise returns `fix`.
 Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {

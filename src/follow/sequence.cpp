@@ -26,14 +26,14 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        // The tracker applies its prior to the result, which must therefore not already depend on
-        // this prior. The image is therefore located without a prediction.
+        // Locates the image without a prediction, because the tracker then applies its prior to the
+        // result. With a prediction, the result would already depend on the prior.
         found = find(options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
-    // A fix that is not certain without the prior counts only if the tracker accepted it with the
+    // A fix that is not certain without the prior is used only if the tracker accepted it with the
     // prior.
     const bool is_with_prior = result.track.verdict == Verdict::with_prior;
     const bool is_fix = strict.status == Status::ok || is_with_prior;
@@ -98,8 +98,8 @@ Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Predict
 
 Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
                                const std::optional<Prediction>& expected) {
-    // The given code may be wrong. If there is no prediction, the other codes are therefore also
-    // tried, to warn that a different code is in view.
+    // The given code may be wrong. Without a prediction, the other codes are also tried, to warn if
+    // a different code is in view.
     if (!expected && options_.sheets.empty()) {
         const CodeReading reading = locator(options).locate_in_code(image);
         return by_camera_file(reading.fix, {}, reading);
@@ -107,8 +107,7 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
     Fix fix = locate_near(image, options, expected);
     auto place = find_sheet(options_.sheets, options.code, fix);
     // A prediction keeps the fix on the same page, but another page may now be at the image centre.
-    // If the image centre is on no known page, the image is therefore located again without the
-    // prediction.
+    // If the image centre is on no known page, locates the image again without the prediction.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place &&
         !options_.sheets.empty()) {
         fix = locator(options).locate(image);
@@ -119,8 +118,9 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
 
 /// Locates an image, with the prediction if there is one. The tracked attempt measures dots in
 /// small windows at their nominal places, so the measured centre of a displaced dot is biased
-/// towards its nominal place. This bias matters with a print map, which contains the displacements.
-/// The prediction is then only used for images that have no fix without it.
+/// towards its nominal place. This bias matters with a print map, because the map contains the
+/// displacements. With a print map, the prediction is therefore used only for images that have no
+/// fix without it.
 Fix Follower::locate_near(ImageView image, const DeviceOptions& options,
                           const std::optional<Prediction>& expected) {
     const bool needs_exact_centres = !options_.print_map.pages.empty();
@@ -145,8 +145,8 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {
-        // The image may show two patterns. This fix only determines the edge of the page, so a fix
-        // on the clearer pattern is sufficient.
+        // The image may show two patterns. This fix only serves to find the edge of the page, so a
+        // fix on the clearer pattern is sufficient.
         DeviceOptions any = used_;
         any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};
         guess = look(image_, any, {});
@@ -156,8 +156,8 @@ Follower::Found Follower::without_neighbours(const Found& found) {
     if (!cut) return found;
     Found again = look(cut->view(), used_, Prediction::like(guess.seen));
     if (!again.place || again.place->entry != guess.place->entry) return found;
-    // The prediction comes from the same image and not from an earlier one, so the fix does not
-    // count as tracked.
+    // The prediction comes from the same image and not from an earlier one, so the fix is not a
+    // tracked fix.
     if (again.fix.attempt == Attempt::tracked) {
         again.seen.attempt = again.fix.attempt = guess.seen.attempt;
     }

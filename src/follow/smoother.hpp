@@ -1,4 +1,4 @@
-// Smoother: estimates the path of a point along one axis from noisy positions.
+// Estimates the path of a point along one axis from noisy positions.
 #pragma once
 
 #include <span>

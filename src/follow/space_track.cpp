@@ -25,9 +25,9 @@ using Vector18 = Eigen::Matrix<double, 18, 1>;
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
 /// Changes of the logarithm of the agility after consecutive innovations with equal and with
-/// opposite signs. If the magnitudes were equal, as in the tracker of the plane, the normalised
-/// squared errors of single axes would be up to 1.4 instead of 1 at 200 frames per second
-/// (tests/unit/follow/space_track_test.cpp).
+/// opposite signs. If both changes had the same magnitude, as in the tracker of the plane, the
+/// normalised squared errors of individual axes would be up to 1.4 instead of 1 at 200 frames per
+/// second (tests/unit/follow/space_track_test.cpp).
 constexpr double kAgilityIncrease = 0.451;
 constexpr double kAgilityDecrease = -0.405;
 /// Change of the logarithm of the agility for each unit by which the squared normalised innovation

@@ -21,9 +21,8 @@ namespace {
 using images::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Returns the maximum size of a file in bytes. Without a limit, reading an endless pipe or device
-/// would never end. The limit exceeds the size of any image of `max_pixels` pixels with four
-/// channels of 16 bits.
+/// Returns the maximum size of a file in bytes. A limit is needed because a pipe or device may be
+/// endless. It exceeds the size of any image of `max_pixels` pixels with four channels of 16 bits.
 std::size_t max_file_bytes(int max_pixels) {
     return std::size_t{8} * static_cast<std::size_t>(max_pixels) + (std::size_t{1} << 20);
 }
@@ -147,7 +146,7 @@ void require_page(const Content& content, int page) {
 }
 
 /// Returns true for 72 and 96 dpi. Cameras and programs write these values by default, so they do
-/// not describe the page.
+/// not indicate the real resolution of the page.
 bool is_of_screen(const Resolution& resolution) {
     // PNG and BMP store whole pixels per metre, so the comparison needs a tolerance.
     const auto is = [&](double dpi) {

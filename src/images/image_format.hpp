@@ -1,6 +1,5 @@
-/// The formats of image files: how a file is recognized and decoded. image_file.hpp describes the
-/// conversions and limits. Errors contain only the reason, and the caller adds the name of the
-/// file.
+/// Detects and decodes the formats of image files. image_file.hpp describes the conversions and
+/// limits. Error messages contain only the reason, and the caller adds the name of the file.
 #pragma once
 
 #include <array>
@@ -84,8 +83,8 @@ inline constexpr double kCentimetresPerInch = 2.54;
 /// because the resolution is then unknown.
 std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
-/// EXIF tags that cameras write and scanners do not (CIPA DC-008): exposure time, f-number,
-/// sensitivity and focal length.
+/// EXIF tags that are written by cameras but not by scanners (CIPA DC-008): exposure time,
+/// f-number, sensitivity and focal length.
 inline constexpr std::array<std::uint16_t, 4> kCameraTags{0x829A, 0x829D, 0x8827, 0x920A};
 
 /// Returns true if EXIF data contain one of kCameraTags. The name "Exif" may precede the TIFF

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kQuality = 95;
 constexpr int kExifMarker = JPEG_APP0 + 1;
-// Maximum number of scans. Each scan processes all pixels, so without a limit, a small file could
+// Maximum number of scans. Each scan processes all pixels, so a small file with many scans could
 // occupy the decoder for hours. Progressive images of cameras have about ten scans.
 constexpr int kMaxScans = 100;
 

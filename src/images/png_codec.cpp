@@ -60,7 +60,7 @@ class PngReader {
         const png_uint_32 height = png_get_image_height(png_, info_);
         require_size(width, height, max_pixels);
         guarded([&] {
-            // Expands palettes, samples of less than 8 bits and a transparent colour.
+            // Expands palettes, samples of fewer than 8 bits and a transparent colour.
             png_set_expand(png_);
             if (std::endian::native == std::endian::little) png_set_swap(png_);
             png_set_interlace_handling(png_);

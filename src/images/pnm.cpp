@@ -46,7 +46,7 @@ class Reader {
     }
 
     /// Reads a decimal number and the white space after it. The white space is required, because
-    /// without it the number may be incomplete.
+    /// the number may otherwise be truncated.
     std::uint32_t number() {
         std::uint32_t value = 0;
         char character = symbol();
@@ -61,8 +61,8 @@ class Reader {
         return value;
     }
 
-    /// If the lines of the header end with a carriage return and a line feed, skips the line feed
-    /// after the header. It is present if more than `pixel_bytes` bytes are left.
+    /// If lines end with a carriage return and a line feed, skips the line feed after the header.
+    /// This line feed is present if more than `pixel_bytes` bytes are left.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }
@@ -147,8 +147,8 @@ std::uint32_t read_level(Reader& reader, const Header& header) {
     return level;
 }
 
-/// Returns the level of white. `reader` is a copy, because the samples must be read again after the
-/// search for the largest level.
+/// Returns the white level. `reader` is passed by value, because the samples are read again after
+/// the search for the largest level.
 std::uint32_t white_of(Reader reader, const Header& header) {
     if (header.max_level < kMaxLevel) return header.max_level;
     std::uint32_t largest = 0;

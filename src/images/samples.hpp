@@ -21,9 +21,8 @@ struct Samples {
 GreyImage to_grey(Samples<std::uint8_t> samples);
 GreyImage to_grey(Samples<std::uint16_t> samples);
 
-/// Returns the level of white in a 16-bit image whose maximum level is `max_level`. Many sensors
-/// store 8 to 12 bits in the lower bits of 16-bit samples. White is then the maximum value of these
-/// bits.
+/// Returns the white level of a 16-bit image whose maximum level is `max_level`. Many sensors store
+/// 8 to 12 bits in the lower bits of 16-bit samples. White is then the maximum value of these bits.
 std::uint32_t white_level(std::uint32_t max_level);
 
 }  // namespace dotpose::images

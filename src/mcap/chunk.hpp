@@ -1,4 +1,4 @@
-// A chunk: consecutive messages with an index for each channel.
+// A chunk of an MCAP file: consecutive messages with an index for each channel.
 #pragma once
 
 #include <algorithm>

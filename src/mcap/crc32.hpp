@@ -26,7 +26,7 @@ inline constexpr std::array<std::uint32_t, 256> kTable = table();
 
 }  // namespace crc_detail
 
-/// Computes the checksum of bytes that are added in parts.
+/// Computes a checksum incrementally.
 class Crc32 {
   public:
     void add(std::span<const std::uint8_t> bytes) {

@@ -16,7 +16,8 @@ struct Contents {
 };
 
 /// Appends the end of the data, the summary and the footer to `out`. The first appended byte will
-/// be at offset `place` in the file. `data` is the checksum of all bytes before it.
+/// be at offset `place` in the file. `data` is the checksum of all bytes of the file before
+/// `place`.
 void append_end(Bytes& out, std::uint64_t place, const Contents& contents, const Crc32& data);
 
 /// Appends the eight bytes that are both the first and the last bytes of a file.

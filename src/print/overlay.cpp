@@ -98,8 +98,8 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password,
     }
 }
 
-/// Returns the result of `work`. If qpdf throws an exception, throws an Error instead, which
-/// reports that the document is damaged.
+/// Returns the result of `work`. Converts exceptions of qpdf to an Error that reports a damaged
+/// document.
 template <typename Work>
 auto with_damage_errors(const fs::path& path, const Work& work) {
     try {
@@ -236,9 +236,8 @@ class Overlay {
         }
     }
 
-    /// Draws the dots over or under the content of the page. The operators q and Q are added around
-    /// this content to restore the initial graphics state. The streams of the content do not
-    /// change.
+    /// Draws the dots over or under the content of the page. Encloses this content in the operators
+    /// q and Q to restore the initial graphics state, without changing its streams.
     void draw(const OverlaidPage& laid_out) {
         const auto& [number, sheet, document_page] = laid_out;
         validate(sheet);
@@ -372,9 +371,9 @@ class Overlay {
     print::UnpackedBytes unpacked_;
     print::ColourConverter colours_;
     OverlayReport report_;
-    /// The pages of the document, followed by those of each further copy (OverlayOptions::copies).
+    /// Pages of the document, followed by the pages of each further copy (OverlayOptions::copies).
     std::vector<QPDFPageObjectHelper> pages_;
-    /// Result of `scan_page` for each page of the document that gets dots, by page number.
+    /// Result of `scan_page` for each page of the document to which dots are added, by page number.
     std::map<int, print::PageContent> contents_;
     std::vector<int> dotted_;
     std::vector<int> black_;

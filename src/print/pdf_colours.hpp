@@ -14,9 +14,9 @@
 
 namespace dotpose::print {
 
-/// Converts the colours of pages. Objects that the content uses are not changed. Instead, converted
-/// copies are made, which all converted pages share. Pages that are not converted keep the
-/// originals. The content of streams is only rewritten while the file is written.
+/// Converts the colours of pages. Leaves the original objects unchanged and creates converted
+/// copies, which all converted pages share. Pages that are not converted keep the originals.
+/// Streams are rewritten only while the file is written.
 class ColourConverter {
   public:
     /// `unpacked` counts the bytes of all converted content, and must outlive this object.

@@ -37,13 +37,13 @@ struct RowCount {
 /// glyphs draw the pattern exactly.
 bool is_whole_pixels(const Pattern& pattern, double dpi);
 
-/// Replaces `DotDrawing::automatic` by the best choice for this pattern. Throws BadArgument if
+/// Replaces `DotDrawing::automatic` with the best choice for this pattern. Throws BadArgument if
 /// glyphs are requested but cannot draw the pattern exactly.
 DotDrawing resolve_drawing(DotDrawing asked, const Pattern& pattern, double dpi);
 
-/// Makes content streams with the dots of sheets, one stream per band of rows. The data of a stream
-/// are computed only while the file is written, and only one compressed stream at a time is in
-/// memory. The memory needed is therefore independent of the size of the page.
+/// Creates content streams with the dots of sheets, one stream per band of rows. The data of a
+/// stream are computed only while the file is written, and only one compressed stream at a time is
+/// in memory. The memory needed is therefore independent of the size of the page.
 class DotContent {
   public:
     /// `pdf` must outlive this object. `rows` counts the rows that all streams write.

@@ -26,9 +26,9 @@ std::size_t components(ColourKind kind);
 /// [/ICCBased stream], or a name that is defined in the resources `spaces`, which may be null.
 ColourKind kind_of_space(QPDFObjectHandle space, QPDFObjectHandle spaces);
 
-/// Returns the amount of black ink, 0 to 1, with which a colour is printed. Because the printer
-/// converts grey and RGB, the result for these kinds is the amount of black in the usual
-/// conversion. Returns 0 for `ColourKind::other`.
+/// Returns the amount of black ink, 0 to 1, with which a colour is printed. For grey and RGB, which
+/// the printer converts, returns the amount of black after the usual conversion. Returns 0 for
+/// `ColourKind::other`.
 double black_of(ColourKind kind, std::span<const double> colour);
 
 /// Changes of colours that `OverlayOptions` requests.

@@ -33,7 +33,7 @@ constexpr double kRulerRoom_mm = kNumberAway_mm + kNumberHeight_mm + kEdge_mm;
 
 // Distance between the numbers of a ruler and the arrow beside them.
 constexpr double kArrowGap_mm = 0.9;
-constexpr double kArrow_mm = 6;  // length of an arrow beyond the other arrow
+constexpr double kArrow_mm = 6;  // length by which an arrow extends beyond the other arrow
 constexpr double kArrowHead_mm = 1.3;
 constexpr double kNoteAway_mm = 3;  // distance from the x arrow to the note
 
@@ -109,7 +109,7 @@ std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     return lines;
 }
 
-/// Sides of the area of dots at which a ruler may be.
+/// Sides of the dot area along which a ruler can be placed.
 enum class Side { top, left };
 double free_margin_mm(const Sheet& sheet, Side side) {
     return (side == Side::top ? sheet.origin_y_mm : sheet.origin_x_mm) - reach_mm(sheet.pattern);
@@ -194,7 +194,7 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     std::vector<std::string> lines = wrap(base::printable(text), fits);
     const std::vector<std::string> command = wrap(base::printable(options.command), fits);
     // The command is printed only if it fits completely, because an incomplete command would print
-    // another sheet.
+    // a different sheet.
     if (!options.command.empty() && lines.size() + command.size() <= max_lines) {
         lines.insert(lines.end(), command.begin(), command.end());
     }
@@ -292,8 +292,8 @@ std::string label_at(const Sheet& sheet, double x_mm, double baseline_mm, const 
     return fmt::format("1 0 0 1 {} Tm {} Tj\n", point(sheet, x_mm, baseline_mm), shown(text));
 }
 
-/// Returns the PDF content of the x arrow and the y arrow at the corner of the page, and of the
-/// note about the corner if it fits beside the x arrow.
+/// Returns the PDF content of the x arrow and the y arrow at the corner of the page. If the note
+/// about the corner fits beside the x arrow, the content includes the note.
 std::string origin_content(const Sheet& sheet) {
     const auto arrows = arrows_of(sheet);
     if (!arrows) return {};

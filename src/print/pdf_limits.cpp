@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* kTooDeep = "streams whose lengths are in other streams";
 
-/// Maximum size of the stack that qpdf may use while it reads. Valid documents need far less, and
+/// Maximum size of the stack that qpdf may use while reading. Valid documents need far less, and
 /// the stack of a program's main thread is larger.
 constexpr std::ptrdiff_t kMaxStack_bytes = 2 << 20;
 

@@ -29,8 +29,8 @@ void require_shallow_page_tree(QPDF& pdf);
 /// warning (see `is_too_deep`). Throws Error for directories, pipes and devices.
 std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path);
 
-/// Returns true if qpdf gave this warning because a read would have used too much of the stack, or
-/// because objects are nested too deeply.
+/// Returns true if qpdf issued this warning because a read would have used too much of the stack,
+/// or because objects are nested too deeply.
 bool is_too_deep(const std::string& warning);
 
 /// Counts the bytes of streams after unpacking, before they are stored in memory. The limit is

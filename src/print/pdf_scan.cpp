@@ -48,7 +48,7 @@ struct Operand {
     std::string text;  ///< characters of a name or number
 };
 
-/// Scans content token by token. Parsed objects would need many times as much memory as the bytes.
+/// Scans content token by token. Parsed objects would need many times the memory of the raw bytes.
 class Scan : public QPDFObjectHandle::TokenFilter {
   public:
     Scan(QPDFObjectHandle resources, Colours start, PageScan& page, int level)

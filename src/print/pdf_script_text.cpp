@@ -81,7 +81,7 @@ std::string document_of(const std::string& text, double size_pt, double width_pt
     return document;
 }
 
-/// Prints the text of a form with black ink only. cairo writes RGB black, for which printers mix
+/// Changes the text of a form to pure black ink. cairo writes RGB black, which printers mix from
 /// all inks.
 void use_black_ink(QPDFObjectHandle form) {
     constexpr std::string_view kOfScreens = "0 0 0 rg";

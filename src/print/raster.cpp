@@ -24,8 +24,8 @@ int diameter_px(const Sheet& sheet, double dpi) {
 }
 
 /// Returns the first pixel that a dot covers along one axis. The dot has a diameter of `dot_px`
-/// pixels, and its centre is as close as possible to `centre_mm`, but the whole dot is on the page.
-/// Pixel k extends from k to k + 1.
+/// pixels. Its centre is as close to `centre_mm` as possible without moving a part of the dot off
+/// the page. Pixel k extends from k to k + 1.
 int first_px(double centre_mm, double dpi, int dot_px, int page_px) {
     const double first = centre_mm * dpi / kInch_mm - 0.5 * dot_px;
     return std::clamp(static_cast<int>(std::floor(first + 0.5 + kTie_px)), 0, page_px - dot_px);
@@ -156,8 +156,8 @@ void validate_resolution(const Sheet& sheet, double dpi) {
             dpi, sheet.pattern.displacement_mm, displacement_px,
             std::ceil(print::kInch_mm / sheet.pattern.displacement_mm - print::kTie_px)));
     }
-    // Each dot is rounded to pixels independently, so the distance of two dots may decrease by up
-    // to one pixel.
+    // Each dot is rounded to pixels independently, so the distance between two dots may decrease by
+    // up to one pixel.
     const int dot_px = print::diameter_px(sheet, dpi);
     const double closest_px = sheet.pattern.spacing_mm * px_per_mm - 2 * displacement_px;
     if (closest_px < dot_px + 1 - print::kTie_px) {

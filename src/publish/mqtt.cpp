@@ -16,11 +16,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Maximum time for which `start` waits for the answer of the broker.
+/// Maximum time that `start` waits for the broker's answer.
 constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
-/// Maximum time of one wait for the socket.
+/// Timeout of one wait for the socket.
 constexpr int kWait_ms = 100;
 
 /// Initializes libmosquitto once per program.
@@ -85,7 +85,7 @@ void parse_url(const std::string& url, MqttOptions& options) {
     options.host = rest;
 }
 
-/// C callbacks of libmosquitto, which call the methods of the object.
+/// Callbacks of libmosquitto, which forward to the methods of the client.
 struct MqttClient::Callbacks {
     static MqttClient& client(void* object) { return *static_cast<MqttClient*>(object); }
     static void on_connect(mosquitto*, void* object, int code) { client(object).answered(code); }
@@ -156,8 +156,8 @@ void MqttClient::start() {
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    // Reserves one more place than `publish` uses, so that presence messages are sent without
-    // waiting.
+    // Allows one more message in flight than `publish` uses, so that presence messages are sent
+    // without waiting.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
     // Messages are published by threads other than the thread of `run`.
     mosquitto_threaded_set(mosquitto_, true);

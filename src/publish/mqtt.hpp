@@ -88,7 +88,7 @@ class MqttClient {
     /// code of libmosquitto.
     virtual int work();
 
-    /// Returns true if the newest attempt to connect failed or the connection is lost. Requires the
+    /// Returns true if the latest attempt to connect failed or the connection is lost. Requires the
     /// lock.
     bool has_failed() const {
         return (was_reached_ && !is_connected_) || !failure_.empty() || !refusal_.empty();
@@ -96,9 +96,9 @@ class MqttClient {
     mosquitto* handle() const { return mosquitto_; }
     std::string place() const;
 
-    /// Maximum number of messages that libmosquitto has not sent (QoS 0) or the broker has not
-    /// acknowledged (QoS 1). The number is small, because libmosquitto sends its messages in order,
-    /// while the publisher sends the newest messages first.
+    /// Maximum number of messages in flight, which libmosquitto has not sent yet (QoS 0) or the
+    /// broker has not acknowledged yet (QoS 1). It is small, because libmosquitto sends its
+    /// messages in order, but the publisher sends the newest messages first.
     static constexpr std::size_t kMaxUnderWay = 20;
     /// Quality of service of presence messages: at least once.
     static constexpr int kPresenceQos = 1;
@@ -117,7 +117,7 @@ class MqttClient {
     std::condition_variable changed_;
     bool is_connected_ = false;
     bool was_reached_ = false;
-    std::string failure_;  ///< reason why the newest attempt to connect failed
+    std::string failure_;  ///< reason why the latest attempt to connect failed
     bool ends_ = false;
     std::chrono::steady_clock::time_point ends_by_;
     std::string refusal_;  ///< reason why the broker refused the connection
@@ -160,9 +160,9 @@ class MqttPublisher : public MqttClient {
     void send_offline();
 
     std::deque<Message> waiting_;
-    /// Messages in libmosquitto: not yet sent (QoS 0) or not yet acknowledged (QoS 1).
+    /// IDs of the messages in flight: not yet sent (QoS 0) or not yet acknowledged (QoS 1).
     std::set<int> under_way_;
-    std::set<int> presence_under_way_;  ///< presence messages that are not yet acknowledged
+    std::set<int> presence_under_way_;  ///< IDs of presence messages that are not yet acknowledged
     bool is_online_published_ = false;  ///< true if `online` was published on this connection
     std::condition_variable done_;
     std::int64_t sent_ = 0;

@@ -1,6 +1,6 @@
-// Definitions of the message types as text in the format of the .msg files of ROS 2 (ros2msg). A
-// definition consists of the type itself and the types that it contains. A line of equal signs
-// precedes each contained type.
+// Definitions of the message types as text, in the format of ROS 2 .msg files (ros2msg). A
+// definition consists of the type itself, followed by the types that it contains. Each contained
+// type is preceded by a line of equal signs.
 #include <algorithm>
 #include <array>
 #include <sstream>

@@ -40,7 +40,7 @@ TransformStamped transform_of(const Header& header, std::string child, const Pla
         header, std::move(child), {{planar.x_m, planar.y_m, 0}, rotation_about_z(planar.yaw_rad)}};
 }
 
-/// Returns the pose of a camera. The covariance needs no conversion, because its rotation vector is
+/// Returns the pose of a camera. The covariance needs no conversion, because it refers to rotations
 /// about the axes of `map`, as in the message.
 PoseWithCovariance pose_of(const CameraInWorld& camera) {
     const dotpose::Quaternion& q = camera.rotation;

@@ -1,6 +1,6 @@
-// Rules that decide which requests a server answers. They protect a server at a loopback address
-// from the pages of other sites in the same browser, and a server on a network from clients without
-// the token.
+// Rules that determine which requests a server answers. They protect a server at a loopback address
+// from pages of other sites in the same browser. They protect a server on a network from clients
+// without the token.
 #pragma once
 
 #include <string>
@@ -23,10 +23,11 @@ std::string make_token();
 /// token does not consist of 16 to 256 letters, digits and the characters '-', '_', '.', '~'.
 std::string read_token(const std::string& path);
 
-/// Compares two texts. The time depends on their lengths only.
+/// Compares two texts. The running time depends only on their lengths.
 bool equals_in_constant_time(std::string_view a, std::string_view b);
 
-/// The parts of a request that decide whether it is answered. A missing header is empty.
+/// The properties of a request that determine whether it is answered. The member for a missing
+/// header is empty.
 struct RequestHead {
     std::string host;           ///< header Host
     std::string origin;         ///< header Origin, which browsers send from scripts

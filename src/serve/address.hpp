@@ -13,7 +13,7 @@ struct Address {
     std::string ip = "127.0.0.1";  ///< IPv4 or IPv6 address; 0.0.0.0 and :: are all interfaces
     std::uint16_t port = 0;        ///< 0 to let the system choose a free port
 
-    /// Returns true if only programs on this computer reach the address.
+    /// Returns true if only programs on this computer can reach the address.
     bool is_loopback() const;
     /// Returns true if the address represents all interfaces of this computer.
     bool is_any() const;
@@ -26,8 +26,8 @@ Address parse_address(const std::string& text);
 /// Returns "IP:PORT", with IPv6 addresses in brackets.
 std::string text_of(const Address& address);
 
-/// Throws Error with the reason if no program may listen at the address, for example because
-/// another program does.
+/// Throws Error with the reason if it is not possible to listen at the address, for example because
+/// another program already does.
 void require_free(const Address& address);
 
 }  // namespace dotpose::serve

@@ -14,7 +14,7 @@ inline constexpr int kMaxSilence_s = 40;    ///< time without an answer after wh
 inline constexpr std::size_t kMaxHeadBytes = 4096;     ///< maximum size of the head of a request
 inline constexpr std::size_t kChunkBytes = 32 * 1024;  ///< maximum size of one write
 inline constexpr std::size_t kMaxWaitingCommands = 32;
-/// Maximum number of messages of a client, per second and in one burst.
+/// Maximum number of messages from a client, per second and in one burst.
 inline constexpr double kMaxMessages_per_s = 200;
 inline constexpr double kMaxBurst = 200;
 

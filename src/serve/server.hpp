@@ -12,10 +12,10 @@
 // Protocol of the WebSocket /live: the client sends {"do": "subscribe", "topic": NAME}, then {"do":
 // "next", "topic": NAME} after each message that it has shown, and may send {"do": "unsubscribe",
 // "topic": NAME}. The values of some topics depend on further arguments of "subscribe", which the
-// client may send again with other arguments. Each message of the server is the name of a topic, a
-// line break, and the value. Other commands are for the program.
+// client can change by sending "subscribe" again. Each message from the server consists of the name
+// of a topic, a line break, and the value. Other commands are passed to the program.
 //
-// The server opens no file whose name is part of a request. Its limits are in limits.hpp.
+// The server never opens a file whose name is part of a request. Its limits are in limits.hpp.
 #pragma once
 
 #include <functional>
@@ -32,7 +32,7 @@
 
 namespace dotpose::serve {
 
-/// A file of the web page. The file is part of the program.
+/// A file of the web page, embedded in the program.
 struct Page {
     std::string_view path;  ///< path in URLs, such as "/live.js"
     std::string_view type;  ///< MIME type
@@ -43,11 +43,11 @@ struct Page {
 struct Answer {
     std::string type = {};  ///< MIME type
     std::string body = {};
-    /// Path of a file that is sent instead of `body`, or empty for none. The program must choose
-    /// the path. It must not be made from a request.
+    /// Path of a file that is sent instead of `body`, or empty for none. The path must not be
+    /// derived from a request.
     std::string file = {};
-    /// Name under which browsers save the answer; empty if they show it. Must consist of letters,
-    /// digits, '.', '-' and '_'.
+    /// Name under which browsers save the answer, or empty if they display it. Must consist of
+    /// letters, digits, '.', '-' and '_'.
     std::string download = {};
 };
 
@@ -96,12 +96,12 @@ class Server {
     /// Replaces the value of a topic and wakes the server.
     void publish(Topic& topic, Topic::Encode encode);
 
-    /// Replaces the value of a topic by one that depends on the request of each client
+    /// Replaces the value of a topic with one that depends on the request of each client
     /// (Topic::publish_for_each), and wakes the server.
     void publish_for_each(Topic& topic, Topic::EncodeFor encode);
 
-    /// Returns the next command of a client, or none. At most 32 commands wait; further commands
-    /// are refused.
+    /// Returns the next command from a client, or none. The queue contains at most 32 commands, and
+    /// further commands are refused.
     std::optional<Command> take_command();
 
     /// Returns the number of connected clients.

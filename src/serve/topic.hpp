@@ -1,9 +1,9 @@
 // A topic: a value that the program may replace at any time. Clients receive only its newest
 // version.
 //
-// A client receives a value only after it acknowledged earlier values (Subscription). The program
-// therefore produces values at the rate of the fastest client, and produces no values while no
-// client is ready:
+// A client receives a value only after it has acknowledged earlier values (Subscription). The
+// program therefore produces values at the rate of the fastest client, and produces no values while
+// no client is ready:
 //
 //     if (frames.is_wanted()) frames.publish([image = copy_of(image)] { return encode(image); });
 //
@@ -63,10 +63,11 @@ class Topic {
     const bool is_binary_;
     std::atomic<int> ready_clients_{0};
     mutable std::mutex mutex_;
-    Encode encode_;  ///< encoder of the newest value; null after it was called
+    Encode encode_;  ///< encoder of the newest value; null after it has been called
     /// Encoder of the newest value if the value depends on the client, otherwise null.
     std::shared_ptr<const EncodeFor> encode_for_;
-    std::uint64_t version_ = 0;  ///< number of the newest value, from 1; 0 if there is none
+    /// Number of the newest value, counted from 1, or 0 if there is none.
+    std::uint64_t version_ = 0;
     std::shared_ptr<const std::string> message_;  ///< newest encoded value
     std::uint64_t message_version_ = 0;
 };
@@ -81,7 +82,7 @@ struct Subscription {
     int unacknowledged = 0;
     std::uint64_t seen = 0;   ///< number of the last value that was sent
     Command request;          ///< the command with which the client subscribed
-    bool is_changed = false;  ///< true if no value was sent for the request yet
+    bool is_changed = false;  ///< true if no value has been sent for the request yet
 
     /// Begins the subscription, or changes its request.
     void begin(Command command = {}) {

@@ -51,8 +51,8 @@ Vec2 shift_of(const Page& page, Cell cell) {
 }
 
 /// Returns the reflectance of a dot. If `palest_ink` is less than 1, each direction of displacement
-/// is printed with its own ink. The inks from the darkest to the palest are those for right, down,
-/// left and up.
+/// is printed with its own ink. The order of the inks, from the darkest to the palest, is right,
+/// down, left, up.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
     const double paleness = displacement.x > 0   ? 0
                             : displacement.y > 0 ? 1
@@ -72,8 +72,8 @@ View::View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperf
                 std::hypot(blurred.motion_px.x, blurred.motion_px.y) / 2) {}
 
 OffsetBox visible_offsets(const View& view) {
-    // Number of steps along each side of the image. If the lens distorts the sides, the extreme
-    // offsets may be anywhere on them.
+    // Number of steps along each side of the image. With lens distortion, the extreme offsets may
+    // be anywhere on a side.
     constexpr int kSteps = 16;
     OffsetBox box{{1e300, 1e300}, {-1e300, -1e300}};
     const auto include = [&](double along_u, double along_v) {
@@ -123,9 +123,9 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
     const Pattern& pattern = page.pattern;
     const OffsetBox box = visible_offsets(view);
     const CameraPose& pose = view.pose;
-    // Cells are relative to the cell of the pose, so offsets are exact anywhere on the plane. The
-    // range has one more cell on each side, because displacement or jitter may move dots from
-    // outside the view into it.
+    // Cell indices are relative to the cell of the pose, so offsets are precise anywhere on the
+    // plane. The range includes an additional cell on each side, because displacement or jitter may
+    // move dots from outside the view into it.
     const AxisScale scale = page.print_scale;
     const Vec2 spacing_mm{scale.x * pattern.spacing_mm, scale.y * pattern.spacing_mm};
     const auto first = [](double low, double fraction) {

@@ -75,8 +75,8 @@ class Sensor {
         return paper_.data() + (static_cast<std::size_t>(row) * (width_ + 2 * border_));
     }
 
-    // Computes the light that the ink of a sub-row absorbs, and the ranges of row_ that change
-    // because of it.
+    // Computes the light that the ink of a sub-row absorbs, and the ranges of row_ that are
+    // affected.
     void gather(std::span<const Raster::Spot> spots, const float* paper) {
         losses_.assign(spots.begin(), spots.end());
         reaches_.clear();
@@ -337,8 +337,8 @@ std::vector<float> expose(const PageImage& page, const View& view,
 
 namespace {
 
-/// Returns the offset of the grey level of a pixel of the simulated sensor, in units of the
-/// standard deviation over all pixels.
+/// Returns the fixed-pattern offset of a pixel of the simulated sensor, in units of the standard
+/// deviation over all pixels.
 double offset_of_pixel(std::size_t index) {
     constexpr std::uint64_t kSensor = 0x5e4503;
     return Rng(kSensor, index).normal();

@@ -34,8 +34,8 @@ struct View {
     CameraModel camera;
     CameraPose pose;
     Projection projection;
-    /// Maximum distance from the image border, in px, of ink that blur and motion spread into the
-    /// image.
+    /// Maximum distance from the image border, in px, at which ink can affect the image through
+    /// blur and motion.
     double margin_px;
 
     View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperfections& blurred);

@@ -67,8 +67,8 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     kernel.per_pixel =
         imperfections.sub_pixels > 0 ? imperfections.sub_pixels : sub_pixels_for(dot_px);
     // Drawing ink as the covered fractions of sub-pixels blurs it like a triangle filter two
-    // sub-pixels wide, with a variance of 1/6 sub-pixel^2. The Gaussian adds the rest of the
-    // requested blur.
+    // sub-pixels wide, with a variance of 1/6 sub-pixel^2. The Gaussian provides the remaining
+    // blur.
     const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);
     const double sigma_px = std::sqrt(
         std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));

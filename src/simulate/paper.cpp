@@ -17,8 +17,8 @@ double PageArea::distance(double x, double y) const {
 namespace simulate {
 namespace {
 
-// Rounds down. This is faster than std::floor, which is a function call on the baseline processor.
-// Returns 0 for values outside the range of a 64-bit integer.
+// Rounds down. This is faster than std::floor, which compiles to a function call for the baseline
+// processor. Returns 0 for values outside the range of a 64-bit integer.
 std::int64_t floor_of(double x) {
     // Near the horizon of an extreme tilt, coordinates exceed the range of a 64-bit integer.
     if (!(std::abs(x) < 4e18)) return 0;
@@ -66,8 +66,8 @@ class Texture {
         return nodes_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
-    // Computes the values of the nodes in view in advance, because about 36 pixels use each node.
-    // Makes no table if the view contains more nodes than pixels, as it does at an extreme tilt.
+    // Precomputes the values of the nodes in view, because about 36 pixels share each node. Makes
+    // no table if the view contains more nodes than pixels, as it does at an extreme tilt.
     void tabulate(const View& view) {
         const OffsetBox box = visible_offsets(view);
         const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;

@@ -1,4 +1,5 @@
-// Generates views that the pattern covers only partly: edges of sheets, and islands of pattern.
+// Generates views that are only partly covered by the pattern: edges of sheets, and islands of
+// pattern.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -82,9 +83,9 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     return area;
 }
 
-/// Draws a random rectangle of pattern that contains enough dots. Its centre is far enough from the
-/// border of the image that most of the rectangle is in view. The caller checks that the whole
-/// rectangle is in view.
+/// Draws a random rectangular island of pattern that contains enough dots. Its centre is far enough
+/// from the border of the image that most of the rectangle is in view. The caller checks that the
+/// whole rectangle is in view.
 PageArea draw_island(const Shot& shot, Rng& rng) {
     constexpr double kMinDots = PartialView::kMinIslandDots * 1.05;
     PageArea area;
@@ -139,8 +140,8 @@ void cover_partly(Shot& shot, const PartialView& view) {
         }
         return;
     }
-    // At the border of the sheet, some dots are only partly visible. The sheet therefore covers an
-    // area for at least 15 % more than `min_dots` dots.
+    // At the border of the sheet, some dots are only partly visible. The sheet is therefore large
+    // enough for at least 15 % more than `min_dots` dots.
     const double min_share = std::max(view.min_share, 1.15 * view.min_dots / intersections(shot));
     const double share = rng.uniform(min_share, std::max(min_share, view.max_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);

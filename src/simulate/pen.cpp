@@ -40,8 +40,8 @@ void move_to(double x_grid, double y_grid, CameraPose& pose) {
     pose.fraction_y = y_grid - std::floor(y_grid);
 }
 
-/// Returns the position at time `t` on a path with minimum jerk that begins and ends at rest. Time
-/// and position are from 0 to 1.
+/// Returns the position at time `t` on a minimum-jerk path that starts and ends at rest. Time and
+/// position are from 0 to 1.
 double smooth_step(double t) {
     return t * t * t * (10 + t * (6 * t - 15));
 }

@@ -146,8 +146,8 @@ Shot draw_shot(const Setup& setup, std::uint64_t index) {
     shot.pose.tilt_x_rad = shot.imperfections.tilt_x_rad;
     shot.pose.tilt_y_rad = shot.imperfections.tilt_y_rad;
 
-    // The whole frame must be inside the code plane, so the distance of the place from the border
-    // of the plane is at least half the diagonal of the frame.
+    // The whole frame must be inside the code plane. The distance from the pose to the border of
+    // the plane is therefore at least half the diagonal of the frame.
     const Projection projection(shot.camera, shot.pose);
     double reach_mm = 0;
     for (const int u : {0, shot.camera.width_px - 1}) {

@@ -97,7 +97,7 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
         constexpr double kStep_px = 1e-3;
         const double slope = (seen_at(row_px + kStep_px).y - seen.y) / kStep_px;
         row_px += (seen.y - row_px) / (1 - slope);
-        // If the scene rotates, a point far beside the image may be visible in several rows or in
+        // If the scene rotates, a point far outside the image may be visible in several rows or in
         // none. Newton's method may then diverge, so the row is clamped.
         if (is_turning) row_px = std::clamp(row_px, -height_px_, height_px_);
         seen = seen_at(row_px);
@@ -132,7 +132,7 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     return {(d * rx - b * ry) * factor, (a * ry - c * rx) * factor};
 }
 
-// Inlining all calls halves the time of this function.
+// Inlining all calls halves the run time of this function.
 [[gnu::flatten]] void Projection::offsets_from_row(Vec2 first_pixel,
                                                    std::span<Vec2> offsets_mm) const {
     for (std::size_t i = 0; i < offsets_mm.size(); ++i)

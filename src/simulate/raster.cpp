@@ -88,10 +88,10 @@ void Raster::draw_band(int top) {
     }
 }
 
-// Darkens each sub-pixel in proportion to the part of its area that a convex shape covers. Along
-// the row, this area is computed exactly. Across the row, it is integrated by Gauss quadrature with
-// four chords, with an error below 0.1 % even at the round ends of a dot. `chord_at(y)` returns the
-// left and the right end of the chord at y.
+// Darkens each sub-pixel in proportion to the fraction of its area that is covered by a convex
+// shape. Along the row, the covered area is computed exactly. Across the row, it is integrated by
+// Gauss quadrature with four chords, with an error below 0.1 % even at the round ends of a dot.
+// `chord_at(y)` returns the left and the right end of the chord at y.
 template <typename ChordAt>
 void Raster::fill(double top, double bottom, double darkness, const ChordAt& chord_at) {
     struct Line {

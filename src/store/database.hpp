@@ -27,8 +27,8 @@ struct Place {
     auto operator<=>(const Place&) const = default;
 };
 
-/// A state of a robot. Texts must be valid UTF-8 without null characters. Many states belong to the
-/// same robot and place, so they share the objects with the names.
+/// A state of a robot. Texts must be valid UTF-8 without null characters. States of the same robot
+/// and place share the objects that contain the names.
 struct State {
     std::shared_ptr<const std::string> robot;
     std::shared_ptr<const Place> place;
@@ -38,7 +38,8 @@ struct State {
     std::int64_t number = 0;       ///< sequence number
     std::int32_t delay_us = 0;     ///< time from sending to receiving
     Motion motion = Motion::lost;  ///< if `lost`, only members up to `reason` are stored
-    Status reason = Status::ok;    ///< why the robot is lost; `ok` if it is not lost or if unknown
+    /// Why the robot is lost, or `ok` if it is not lost or the reason is unknown.
+    Status reason = Status::ok;
     std::int32_t theta_urad = 0;
     std::int64_t x_nm = 0;
     std::int64_t y_nm = 0;
@@ -61,12 +62,11 @@ struct RobotSpan {
     std::int64_t last_us = 0;
 };
 
-/// Access to a database. If the access is `read`, neither a missing database nor missing tables are
-/// created.
+/// Access to a database. With `read`, missing databases and tables are not created.
 enum class Access { read, write };
 
-/// A connection to a database. It is opened by the first call that needs it, and again by the next
-/// call after an Error. Not thread-safe.
+/// A connection to a database. It is opened by the first call that needs it, and reopened by the
+/// next call after an Error. Not thread-safe.
 class Database {
   public:
     Database() = default;
@@ -81,15 +81,16 @@ class Database {
     virtual void prepare() = 0;
 
     /// Writes all states in one transaction. Skips states that are already stored. If the
-    /// transaction fails, throws Error. Either all states or none are then stored, so the call may
-    /// be repeated.
+    /// transaction fails, throws Error. In this case, either all states or none are stored, so the
+    /// call can safely be repeated.
     virtual void write(std::span<const State> states) = 0;
 
     /// Removes the states of all days before the day of `time_us`. Throws Error if this fails.
     virtual void remove_days_before(std::int64_t time_us) = 0;
 
     /// Calls `take` with each state that the query selects, in the order of their times. An
-    /// exception thrown by `take` ends the reading and is passed on. Throws Error if reading fails.
+    /// exception thrown by `take` ends the reading and is propagated. Throws Error if reading
+    /// fails.
     virtual void read(const Query& query, const std::function<void(const State&)>& take) = 0;
 
     /// Returns all robots that have states, with the times of their first and last states, in the

@@ -90,8 +90,8 @@ void Queue::run() {
     }
 }
 
-/// Waits for states, and takes those of the next transaction from the queue. Returns false if the
-/// queue is empty and has ended.
+/// Waits for states, and moves the states of the next transaction from the queue to `batch_`.
+/// Returns false if the queue is empty and `finish` was called.
 bool Queue::take_batch() {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, options_.period,

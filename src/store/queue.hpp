@@ -23,7 +23,7 @@ struct QueueOptions {
     /// one that is not in the current transaction. A state takes 96 bytes.
     std::size_t max_states = 1'000'000;
     /// Time between two transactions. PostgreSQL stores the states of a transaction together,
-    /// sorted by robot, so with a longer period the states of one robot can be read faster.
+    /// sorted by robot. With a longer period, the states of one robot can therefore be read faster.
     std::chrono::milliseconds period{5000};
     int keep_days = 0;  ///< number of days to keep, or 0 to keep all days
     /// Called with messages for the user, for example that the database is not available. May be
@@ -35,7 +35,7 @@ struct QueueStatus {
     std::int64_t stored = 0;
     std::int64_t waiting = 0;
     std::int64_t dropped = 0;
-    bool is_away = false;  ///< true from a failure to the next successful write
+    bool is_away = false;  ///< true after a failed write, until the next successful write
 };
 
 class Queue {

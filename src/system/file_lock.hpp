@@ -22,9 +22,9 @@ class FileLock {
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
 
-    /// Takes the lock. Returns std::errc::resource_unavailable_try_again if another program holds
-    /// it. Returns another error if the file cannot be created or the file system does not support
-    /// locks.
+    /// Tries to acquire the lock. Returns std::errc::resource_unavailable_try_again if another
+    /// program holds it. Returns another error if the file cannot be created or the file system
+    /// does not support locks.
     std::error_code try_lock();
 
   private:

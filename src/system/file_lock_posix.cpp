@@ -18,8 +18,9 @@ std::error_code FileLock::try_lock() {
             close(descriptor);
             return {error_number, std::generic_category()};
         }
-        // The previous owner removes the lock file when it releases the lock. A lock on a removed
-        // file has no effect, so it must then be taken on a new file.
+        // The previous owner removes the lock file when it releases the lock. If `path_` no longer
+        // refers to the locked file, the lock has no effect, and the loop tries again with a new
+        // file.
         const auto named = numbers_of(path_);
         if (named && named == numbers_of(descriptor)) {
             handle_ = descriptor;

@@ -20,15 +20,15 @@ namespace dotpose::system {
 /// Opens a file as std::fopen does. Returns nullptr if that fails.
 std::FILE* open_file(const std::filesystem::path& path, const char* mode);
 
-/// Creates a file for writing, with the mode that the user's umask allows. Returns nullptr if that
-/// fails. errno is EEXIST if the file exists.
+/// Creates a file for writing, with the default mode as restricted by the user's umask. Returns
+/// nullptr if that fails. errno is EEXIST if the file exists.
 std::FILE* create_new_file(const std::filesystem::path& path);
 
 /// Returns true if the user may write to an existing file.
 bool is_writable(const std::filesystem::path& path);
 
-/// Creates an empty file, or truncates an existing one. Returns its descriptor, which
-/// `close_descriptor` closes, or -1 if that fails.
+/// Creates an empty file, or truncates an existing one. Returns its descriptor, or -1 if that
+/// fails. The caller must close the descriptor with `close_descriptor`.
 int create_descriptor(const std::filesystem::path& path);
 
 /// Writes all bytes at an offset in bytes from the start of the file. Returns false if that fails.
@@ -37,7 +37,7 @@ bool write_at(int descriptor, const void* data, std::size_t size_bytes, std::uin
 /// Closes a descriptor. Returns false if that fails.
 bool close_descriptor(int descriptor);
 
-/// Numbers that identify a file on this computer, whatever its name.
+/// Numbers that identify a file on this computer, regardless of its name.
 struct FileNumbers {
     std::uint64_t device = 0;
     std::uint64_t file = 0;

@@ -31,10 +31,10 @@ bool is_terminal(std::FILE* stream);
 std::optional<std::size_t> read_available(int descriptor, void* data, std::size_t max_bytes);
 
 /// Sets the handler of the signals that request the end of the program: Ctrl-C, SIGTERM and a
-/// closed terminal. System calls that a signal interrupts are continued.
+/// closed terminal. System calls that are interrupted by one of these signals are restarted.
 void on_end_signals(void (*handler)(int signal_number));
 
-/// Makes writing to a pipe without a reader fail with EPIPE. Otherwise, it would end the program.
+/// Makes writing to a pipe without a reader fail with EPIPE instead of ending the program.
 void ignore_broken_pipes();
 
 }  // namespace dotpose::system

@@ -28,8 +28,8 @@ bool Screen::is_wanted() {
 
 bool has_display() {
     // Qt ends the program if it cannot connect to the X server, so the connection is tested before
-    // Qt opens the window. The X library is loaded at run time, so that dotpose, which needs it
-    // only with Qt, is not linked to it.
+    // Qt opens the window. The X library is loaded at run time instead of being linked, because
+    // dotpose needs it only with Qt.
     void* library = dlopen("libX11.so.6", RTLD_LAZY);
     if (library == nullptr) return false;
     const auto connect = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay"));

@@ -39,18 +39,18 @@ struct CalibrationScene {
 
     CalibrationCoverage coverage;
     std::vector<Gauge> gauges;
-    std::optional<double> theta_rad;  ///< angle of the image x axis on the sheet; empty if not
-                                      ///< located
-    bool is_taken = false;            ///< true if this frame was added to the calibration
+    /// Angle of the image x axis on the sheet, or empty if not located.
+    std::optional<double> theta_rad;
+    bool is_taken = false;  ///< true if this frame was added to the calibration
 };
 
 /// Contents of the picture of one frame.
 struct Scene {
     ImageView image;
     Trace trace;
-    bool is_good = false;                    ///< if false, captions and place have a warning colour
-    std::vector<std::string> lines;          ///< captions: pose, rate, quality
-    std::span<const PathMark> path;          ///< the path up to this frame
+    bool is_good = false;            ///< false to show captions and place in a warning colour
+    std::vector<std::string> lines;  ///< captions: pose, rate, quality
+    std::span<const PathMark> path;  ///< the path up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
     bool y_up = false;                       ///< true if y points up in the plane
     /// Gauges of a calibration. They are shown instead of the sheets and the path.
@@ -77,8 +77,8 @@ class ScreenOutput {
 
 class Screen {
   public:
-    /// The window and the file are opened with the first scene. Throws Error if the module for them
-    /// cannot be loaded.
+    /// The window and the file are opened when the first scene is shown. Throws Error if the module
+    /// for them cannot be loaded.
     explicit Screen(const ScreenOptions& options);
 
     /// Returns true if there is a window or a recording.
@@ -102,8 +102,8 @@ class Screen {
     std::unique_ptr<ScreenOutput> output_;
 };
 
-/// Returns true if a window can be opened because an X server answers, possibly as a part of a
-/// Wayland session.
+/// Returns true if a window can be opened because an X server answers, possibly within a Wayland
+/// session.
 bool has_display();
 
 }  // namespace dotpose::video

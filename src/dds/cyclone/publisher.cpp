@@ -23,12 +23,11 @@ constexpr int kDepth = 100;
 /// Quality of service of a topic, as in ROS.
 struct Quality {
     bool is_reliable = true;
-    bool is_kept = false;  ///< true if messages are stored for later readers
+    bool is_kept = false;  ///< true if messages are kept for readers that connect later
     int depth = kDepth;
 };
 
-/// Maximum time for which a reliable message waits for space in the queue. The wait delays the
-/// frame.
+/// Maximum time that a reliable message waits for space in the queue. The wait delays the frame.
 constexpr dds_duration_t kMaxWait_ns = DDS_MSECS(10);
 
 /// Maximum time to wait for slow readers. A reader that ended without disconnecting is dropped

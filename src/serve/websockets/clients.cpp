@@ -1,4 +1,4 @@
-// WebSockets: commands of clients, and the messages that clients receive.
+// WebSockets: handles the commands of clients and sends messages to clients.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -55,7 +55,8 @@ int Server::Service::receive(lws* socket, std::string_view part) {
     return 0;
 }
 
-/// Returns false if the command is for a topic that does not exist, or if too many commands wait.
+/// Returns false if the command is for a topic that does not exist, or if the queue of commands is
+/// full.
 bool Server::Service::obey(Client& client, const Command& command) {
     const bool begins = command.name == "subscribe";
     const bool ends = command.name == "unsubscribe";

@@ -1,5 +1,5 @@
-// Draws the progress of a calibration: a tint on the parts of the frame that are not covered yet,
-// and gauges beside the frame.
+// Draws the progress of a calibration: tints the parts of the frame that are not covered yet, and
+// draws gauges beside the frame.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -8,8 +8,8 @@
 
 namespace dotpose::video {
 
-/// Tints the parts of the image in which no dots have been seen. `frame` is the part of the picture
-/// with the image.
+/// Tints the parts of the image in which no dots have been seen. `frame` is the region of the
+/// picture that contains the image.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
 /// Draws the gauges. Below them, draws the directions in which frames were taken.

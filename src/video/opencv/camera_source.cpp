@@ -124,9 +124,9 @@ class Camera : public capture::FrameSource {
         if (options_.gain) capture_.set(cv::CAP_PROP_GAIN, *options_.gain);
     }
 
-    /// Returns the time of the frame on the monotonic clock: the time from the driver if available,
-    /// otherwise the time at which the frame was read. Times of network streams are not used,
-    /// because their clock is unknown.
+    /// Returns the timestamp of the frame on the monotonic clock: the timestamp from the driver if
+    /// available, otherwise the time at which the frame was read. Timestamps of network streams are
+    /// not used, because their clock is unknown.
     std::int64_t time_us() const {
         const double driver_ms = is_remote_ ? 0 : capture_.get(cv::CAP_PROP_POS_MSEC);
         if (driver_ms > 0) return std::llround(driver_ms * 1e3);

@@ -17,8 +17,8 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
-/// Encoders to try. Only software encoders are listed, because FFmpeg also offers encoders of
-/// graphics cards that are not installed.
+/// Encoders to try. Only software encoders are listed, because FFmpeg also offers hardware encoders
+/// of graphics cards that are not installed.
 constexpr const char* kEncoders[] = {"libx264", "libopenh264"};
 
 const AVCodec* h264_encoder() {

@@ -16,7 +16,8 @@ namespace dotpose::video {
 
 class Recording : public GreyVideo {
   public:
-    /// The file is created with the first picture. `tell` receives messages for the user.
+    /// The file is created when the first picture is written. `tell` receives messages for the
+    /// user.
     Recording(std::string path, double fps, Tell tell);
 
     /// Append a BGR or a grey picture. Throw Error if that fails, for example because the disk is

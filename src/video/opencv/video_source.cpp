@@ -1,5 +1,5 @@
-// Reads video files with the libraries of FFmpeg, because unlike OpenCV, they provide the time of
-// each frame and report damaged frames.
+// Reads video files with the libraries of FFmpeg. Unlike OpenCV, they provide the timestamp of each
+// frame and report damaged frames.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -156,8 +156,8 @@ class VideoFile : public capture::FrameSource {
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
-    /// Returns the number of frames that the file reports, or otherwise a number computed from the
-    /// duration.
+    /// Returns the number of frames that the file reports, or an estimate from the duration if the
+    /// file does not report it.
     std::int64_t expected_frames() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
@@ -204,9 +204,9 @@ class VideoFile : public capture::FrameSource {
         avcodec_send_packet(decoder_.get(), nullptr);
     }
 
-    /// Corrects the time of a packet in an AVI file. AVI stores no times, so FFmpeg counts packets,
-    /// which gives wrong times after damage. The index of the file contains the positions of all
-    /// frames, so it gives the correct times.
+    /// Corrects the timestamp of a packet in an AVI file. AVI files contain no timestamps, so
+    /// FFmpeg counts packets, which gives wrong timestamps after damaged data. The index of the
+    /// file contains the positions of all frames, so it gives the correct timestamps.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;
         int first = 0;
@@ -268,7 +268,7 @@ class VideoFile : public capture::FrameSource {
     GreyConverter to_grey_;
     double rate_ = 30;
     double begin_s_ = 0;  ///< time of the first picture in the file
-    double time_s_ = 0;   ///< time of the newest picture since the first one
+    double time_s_ = 0;   ///< time of the latest picture, relative to the first one
     bool is_lossy_ = false;
     std::int64_t packet_bytes_ = 0;  ///< total size of the decoded packets
     std::int64_t packet_px_ = 0;     ///< total number of pixels of the returned frames
