@@ -87,7 +87,8 @@ struct PixelLine {
 
 DotImages draw(const ModelDot& dot, int half_px) {
     DotImages images;
-    auto& [by_u, by_v, by_radius_u, by_radius_v, by_blur_u, by_blur_v] = images.derivatives;
+    auto& [by_u, by_v, by_radius_u, by_radius_v, by_blur_u, by_blur_v, by_blur_uv] =
+        images.derivatives;
     const FloatVec radius{std::sqrt(dot.radius_2.x), std::sqrt(dot.radius_2.y)};
     const bool is_small = std::max(dot.radius_2.x, dot.radius_2.y) < kSmall_px2;
     const std::span<const float> cosines =
@@ -111,13 +112,17 @@ DotImages draw(const ModelDot& dot, int half_px) {
             const float down_by_blur = fraction * (below.point_by_blur[v] + above.point_by_blur[v]);
             for (std::size_t u = begin; u < end; ++u) {
                 const float across = left.step[u] - right.step[u];
+                const float across_by_u = right.point[u] - left.point[u];
                 images.dot.all[v][u] += down * across;
-                by_u.all[v][u] += down * (right.point[u] - left.point[u]);
+                by_u.all[v][u] += down * across_by_u;
                 by_v.all[v][u] += down_by_v * across;
                 by_radius_u.all[v][u] += down * sine * (left.point[u] + right.point[u]);
                 by_radius_v.all[v][u] += down_by_radius * across;
                 by_blur_u.all[v][u] += down * (left.step_by_blur(u) - right.step_by_blur(u));
                 by_blur_v.all[v][u] += down_by_blur * across;
+                // By the heat equation, the derivative with respect to the covariance of the blur
+                // is the second derivative with respect to u and v.
+                by_blur_uv.all[v][u] += down_by_v * across_by_u;
             }
         }
     }
@@ -129,6 +134,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);
             by_radius_v.all[v][u] /= 2 * radius.y;
+            images.dot.all[v][u] += dot.blur_uv * by_blur_uv.all[v][u];
         }
     }
     return images;

@@ -1,5 +1,6 @@
 // Dot model: the image of a dot, and its derivatives with respect to the model parameters. The dot
-// is an ellipse, blurred by a Gaussian and averaged over square pixels.
+// is an ellipse, blurred by a Gaussian and averaged over square pixels. The Gaussian also
+// represents motion blur, so it may be oblique.
 #pragma once
 
 #include <array>
@@ -14,6 +15,8 @@ struct ModelDot {
     FloatVec centre;    ///< relative to the middle of the central pixel
     FloatVec radius_2;  ///< squared half axes along u and v
     FloatVec blur_2;    ///< blur variance along u and v
+    /// Covariance of the blur along u and v. Only its first-order effect is modelled.
+    float blur_uv = 0;
 };
 
 /// Darkness of a square block of pixels, by row and column.
@@ -37,8 +40,9 @@ struct DotPixels {
 struct DotImages {
     DotPixels dot;
     /// Derivatives with respect to the centre, the squared half axes and the blur variance, each
-    /// along u and then along v.
-    std::array<DotPixels, 6> derivatives;
+    /// along u and then along v, and with respect to the covariance of the blur. The effect of this
+    /// covariance on the other derivatives is neglected.
+    std::array<DotPixels, 7> derivatives;
 };
 
 /// Draws a dot. Computes only the pixels within `half_px` of the central pixel along each axis, and

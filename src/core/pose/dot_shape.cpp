@@ -55,6 +55,7 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
     normal.expect(radius_u, first[radius_u], first[radius_u], terms);
     normal.expect(blur_u, tuned::kBlur_2, tuned::kBlur_2, terms);
     normal.expect(blur_v, tuned::kBlur_2, tuned::kBlur_2, terms);
+    normal.expect(blur_uv, 0, tuned::kBlur_2, terms);
     // Prior: dots are about as wide as they are high.
     Terms by_width{};
     by_width[radius_u] = 1 / first[radius_u];
@@ -90,7 +91,7 @@ bool DotShape::fit(const StackedDots& stacks) {
     const float noise_2 = stacks.noise_2();
     const float darkness = stacks.mass();
     const float radius_2 = std::max(darkness / (kPi * tuned::kContrast), tuned::kMin_px2);
-    const Terms first{0, 0, radius_2, radius_2, tuned::kBlur_2, tuned::kBlur_2, darkness, 0};
+    const Terms first{0, 0, radius_2, radius_2, tuned::kBlur_2, tuned::kBlur_2, 0, darkness, 0};
     terms_ = first;
     Normal normal = equations(stacks, terms_, first, noise_2);
     float damping = tuned::kFirstDamping;

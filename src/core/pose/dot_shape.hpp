@@ -10,7 +10,8 @@ namespace dotpose::core {
 class DotShape {
   public:
     /// Terms of the fit. `offset_u` and `offset_v` are the mean offset of the dots from their
-    /// expected places. The radii are squared half axes, and the blurs are variances. `mass` is the
+    /// expected places. The radii are squared half axes, and the blurs are two variances and their
+    /// covariance. `mass` is the
     /// total darkness of a dot. `paper` is the darkness of a pixel without ink, which is close to
     /// 0, because darkness is relative to the local paper level.
     enum Term : std::size_t {
@@ -20,6 +21,7 @@ class DotShape {
         radius_v,
         blur_u,
         blur_v,
+        blur_uv,
         mass,
         paper,
         count
@@ -60,7 +62,10 @@ class DotShape {
     };
 
     static ModelDot dot(const Terms& terms, FloatVec centre) {
-        return {centre, {terms[radius_u], terms[radius_v]}, {terms[blur_u], terms[blur_v]}};
+        return {centre,
+                {terms[radius_u], terms[radius_v]},
+                {terms[blur_u], terms[blur_v]},
+                terms[blur_uv]};
     }
     static Normal equations(const StackedDots& stacks, const Terms& terms, const Terms& first,
                             float noise_2);

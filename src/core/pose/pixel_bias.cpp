@@ -71,15 +71,15 @@ struct CentroidError {
 
 enum class Along : std::uint8_t { u, v };
 
-/// Returns the centroid error along one axis. `dot_px` and `window_px` are the coordinates of the
-/// dot and of the window centre along this axis, relative to a pixel centre. Like the kernels,
-/// divides the moments of both axes by the slope of the moment along u.
-CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
+/// Returns the centroid error along one axis. `dot_px` and `window_px` are the places of the dot
+/// and of the window centre, relative to a pixel centre. Like the kernels, divides the moments of
+/// both axes by the slope of the moment along u.
+CentroidError centroid_error(const DotShape& shape, Along axis, FloatVec dot_px, FloatVec window_px,
                              float radius_px) {
     const bool is_u = axis == Along::u;
-    const WindowWeights u(is_u ? window_px : 0, radius_px);
-    const WindowWeights v(is_u ? 0 : window_px, radius_px);
-    const DotImages images = shape.drawn_at({is_u ? dot_px : 0, is_u ? 0 : dot_px});
+    const WindowWeights u(window_px.x, radius_px);
+    const WindowWeights v(window_px.y, radius_px);
+    const DotImages images = shape.drawn_at(dot_px);
     const auto moment = [&](const DotPixels& pixels) {
         return radius_px *
                (is_u ? weighted(pixels, u.moment, v.weight) : weighted(pixels, u.weight, v.moment));
@@ -87,8 +87,9 @@ CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, fl
     const float by = 1 / weighted(images.dot, u.slope, v.weight);
     const float offset = moment(images.dot) * by;
     const float slope = is_u ? 1 / by : weighted(images.dot, u.weight, v.slope);
-    CentroidError error{window_px + offset - dot_px, {}, slope * by};
-    for (std::size_t i = DotShape::radius_u; i <= DotShape::blur_v; ++i) {
+    const float window_to_dot = is_u ? dot_px.x - window_px.x : dot_px.y - window_px.y;
+    CentroidError error{offset - window_to_dot, {}, slope * by};
+    for (std::size_t i = DotShape::radius_u; i <= DotShape::blur_uv; ++i) {
         const DotPixels& pixels = images.derivatives[i];
         error.by_shape[i] = (moment(pixels) - offset * weighted(pixels, u.slope, v.weight)) * by;
     }
@@ -101,8 +102,9 @@ class AxisBias {
   public:
     AxisBias(const DotShape& shape, Along axis, float radius_px) {
         constexpr float kQuarter_px = 0.25F;  // phase at which the sine is 1
-        const CentroidError error =
-            centroid_error(shape, axis, kQuarter_px, kQuarter_px, radius_px);
+        const FloatVec quarter =
+            axis == Along::u ? FloatVec{kQuarter_px, 0} : FloatVec{0, kQuarter_px};
+        const CentroidError error = centroid_error(shape, axis, quarter, quarter, radius_px);
         const float of_model =
             tuned::kOfModel + tuned::kOfMisfit * std::max(shape.misfit() - tuned::kMisfit, 0.0F);
         amplitude_px_ = error.px;
@@ -140,21 +142,32 @@ class AxisBias {
     float dots_ = 0;
 };
 
-/// Returns the centroid error, in px, of a dot at offset `d` from its window centre. There are two
-/// causes. The kernels take a single Newton step, which is exact only if the moment is linear in d,
-/// but the moment is proportional to d - bend d^3. The kernels also divide the moments of both axes
-/// by the slope along u at the window centre. `slope_ratio` is the slope along v divided by the
-/// slope along u.
-FloatVec error_off_centre(float bend, float slope_ratio, FloatVec d) {
-    return {2 * bend * d.x * d.x * d.x,
-            d.y * (slope_ratio * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
-}
+/// Centroid errors of dots that are not at the centres of their windows.
+struct WindowBias {
+    float bend;         ///< cubic term of the moment: the moment is proportional to d - bend d^3
+    float shear;        ///< error along either axis for each px of offset along the other axis
+    float slope_ratio;  ///< slope of the moment along v, divided by the slope along u
 
-float bend_of_moment(const DotShape& shape, float amplitude_px, float radius_px) {
+    /// Returns the centroid error, in px, of a dot at offset `d` from its window centre. There are
+    /// three causes. The kernels take a single Newton step, which is exact only if the moment is
+    /// linear in d. They also divide the moments of both axes by the slope along u at the window
+    /// centre. An oblique blur tilts the dot, so the weights, which decrease along each axis, shift
+    /// its centroid along the other axis.
+    FloatVec at(FloatVec d) const {
+        return {2 * bend * d.x * d.x * d.x + shear * d.y,
+                d.y * (slope_ratio * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1) + shear * d.x};
+    }
+};
+
+WindowBias window_bias(const DotShape& shape, const AxisBias& along_u, const AxisBias& along_v,
+                       float radius_px) {
     constexpr float kBeside_px = 0.1F;
-    const float error = centroid_error(shape, Along::u, kBeside_px, 0, radius_px).px -
-                        amplitude_px * sine_of_turns(kBeside_px);
-    return error / (2 * kBeside_px * kBeside_px * kBeside_px);
+    const auto error_beside = [&](Along axis) {
+        return centroid_error(shape, axis, {kBeside_px, 0}, {}, radius_px).px;
+    };
+    const float pixel_bias = along_u.amplitude_px() * sine_of_turns(kBeside_px);
+    return {(error_beside(Along::u) - pixel_bias) / (2 * kBeside_px * kBeside_px * kBeside_px),
+            error_beside(Along::v) / kBeside_px, along_v.slope_ratio()};
 }
 
 /// Expected image points of the dots that are inliers of a plane.
@@ -226,20 +239,19 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);
-    const float bend = bend_of_moment(shape, along_u.amplitude_px(), window.radius_px);
+    const WindowBias off_centre = window_bias(shape, along_u, along_v, window.radius_px);
     constexpr float kMax_px = 0.2F;
     constexpr float kMaxBend = 4;
     if (!(std::abs(along_u.amplitude_px()) < kMax_px) ||
-        !(std::abs(along_v.amplitude_px()) < kMax_px) || !(std::abs(bend) < kMaxBend)) {
+        !(std::abs(along_v.amplitude_px()) < kMax_px) || !(std::abs(off_centre.bend) < kMaxBend)) {
         return {};
     }
     const FloatVec offset = shape.offset();
     expected.visit(1, [&](std::size_t k, const Phase& phase) {
         const float u = place_of_window(dots.window_u[k], dots.sum_u[k], dots.mass[k]);
         const float v = place_of_window(dots.window_v[k], dots.sum_v[k], dots.mass[k]);
-        const FloatVec window_error = error_off_centre(
-            bend, along_v.slope_ratio(),
-            {dots.x[k] + window.centre_px.x - u, dots.y[k] + window.centre_px.y - v});
+        const FloatVec window_error =
+            off_centre.at({dots.x[k] + window.centre_px.x - u, dots.y[k] + window.centre_px.y - v});
         dots.x[k] -= along_u.of(phase.rest.x + offset.x) + window_error.x;
         dots.y[k] -= along_v.of(phase.rest.y + offset.y) + window_error.y;
     });

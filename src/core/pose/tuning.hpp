@@ -103,8 +103,8 @@ inline constexpr int kDots = 256;
 /// Width of the border around a dot that is included in the stacked images, because it contains the
 /// blurred edge.
 inline constexpr float kBeyondEdge_px = 1.5F;
-/// Blur variance above which the bias is negligible.
-inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
+/// Blur variance above which dots may be larger than the model image, and the bias is negligible.
+inline constexpr float kBlurred_px2 = 1.2F;
 /// Variance of the remaining bias after a correction, divided by the squared amplitude of the
 /// computed bias. The variance is kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is
 /// `DotShape::misfit()`. For round dots, the second term is 0.

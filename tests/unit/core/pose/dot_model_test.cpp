@@ -47,6 +47,28 @@ TEST(DotModel, IsABlurredEllipse) {
     }
 }
 
+TEST(DotModel, HasAnObliqueBlur) {
+    const Vec2 centre{0.23, -0.41};
+    const Vec2 motion{1, 0.6};
+    constexpr double kBlur_px = 0.7;
+    const DrawnDot expected = moving_dot(disc(1), centre, kBlur_px, motion);
+    // A uniform motion has the variance motion^2 / 12.
+    const auto plus_motion = [](double blur_2, double by) {
+        return static_cast<float>(blur_2 + by / 12);
+    };
+    const DotImages images =
+        core::draw({{static_cast<float>(centre.x), static_cast<float>(centre.y)},
+                    {1, 1},
+                    {plus_motion(kBlur_px * kBlur_px, motion.x * motion.x),
+                     plus_motion(kBlur_px * kBlur_px, motion.y * motion.y)},
+                    plus_motion(0, motion.x * motion.y)},
+                   6);
+    for_each_pixel([&](int u, int v) {
+        EXPECT_NEAR(std::numbers::pi * double{images.dot.at(u, v)}, expected.at(u, v), 0.003)
+            << "pixel " << u << ", " << v;
+    });
+}
+
 TEST(DotModel, KnowsItsDerivatives) {
     constexpr float kStep = 0.02F;
     const ModelDot dot{{0.15F, -0.3F}, {1.4F, 1.1F}, {0.16F, 0.3F}};
@@ -56,7 +78,8 @@ TEST(DotModel, KnowsItsDerivatives) {
         const auto moved = [&](float by) {
             ModelDot other = dot;
             float* const terms[] = {&other.centre.x,   &other.centre.y, &other.radius_2.x,
-                                    &other.radius_2.y, &other.blur_2.x, &other.blur_2.y};
+                                    &other.radius_2.y, &other.blur_2.x, &other.blur_2.y,
+                                    &other.blur_uv};
             *terms[i] += by;
             return core::draw(other, 6).dot;
         };

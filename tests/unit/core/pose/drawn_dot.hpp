@@ -79,4 +79,18 @@ inline DrawnDot drawn_dot(const InkAt& ink, Vec2 centre, double blur_px) {
     return dot;
 }
 
+/// Draws a dot that moves by `motion_px` during the exposure. It is at `centre` in the middle of
+/// the exposure.
+inline DrawnDot moving_dot(const InkAt& ink, Vec2 centre, double blur_px, Vec2 motion_px) {
+    constexpr int kMoments = 9;
+    DrawnDot mean{std::vector<double>(static_cast<std::size_t>(DrawnDot::kSide * DrawnDot::kSide))};
+    for (int i = 0; i < kMoments; ++i) {
+        const double time = (i + 0.5) / kMoments - 0.5;
+        const DrawnDot dot = drawn_dot(ink, centre + time * motion_px, blur_px);
+        for (std::size_t pixel = 0; pixel < mean.darkness.size(); ++pixel)
+            mean.darkness[pixel] += dot.darkness[pixel] / kMoments;
+    }
+    return mean;
+}
+
 }  // namespace dotpose::core_test

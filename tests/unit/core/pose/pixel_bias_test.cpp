@@ -2,6 +2,8 @@
 // drawn with the shape of the dot model, and with other shapes.
 #include "core/pose/pixel_bias.hpp"
 
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "../canvas.hpp"
@@ -30,9 +32,8 @@ struct MeanError {
 /// whole numbers of pixels.
 class AlikeFrame {
   public:
-    AlikeFrame(const InkAt& ink, Vec2 phase, Rng& rng)
+    AlikeFrame(const DrawnDot& dot, Vec2 phase, Rng& rng)
         : image_(blank(188, 120, kPaper)), light_(image_.pixels.size(), kPaper) {
-        const DrawnDot dot = drawn_dot(ink, phase, kBlur_px);
         for (int row = -4; row <= 4; ++row) {
             for (int column = -7; column <= 7; ++column) {
                 const auto symbol = static_cast<Symbol>(rng.below(4));
@@ -115,8 +116,11 @@ class AlikeFrame {
     std::vector<Vec2> truth_;
 };
 
+/// Draws a dot with the given sub-pixel phase.
+using DotAt = std::function<DrawnDot(Vec2)>;
+
 /// Returns the rms errors per axis over frames with random phases.
-MeanError typical_error(const InkAt& ink, float dot_radius_px) {
+MeanError typical_error(const DotAt& dot_at, float dot_radius_px) {
     constexpr int kFrames = 40;
     Rng rng(kSeed);
     Vec2 before;
@@ -124,7 +128,7 @@ MeanError typical_error(const InkAt& ink, float dot_radius_px) {
     float variance = 0;
     for (int i = 0; i < kFrames; ++i) {
         const Vec2 phase{rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5)};
-        const MeanError error = AlikeFrame(ink, phase, rng).measure(dot_radius_px);
+        const MeanError error = AlikeFrame(dot_at(phase), phase, rng).measure(dot_radius_px);
         before = before + Vec2{error.before.x * error.before.x, error.before.y * error.before.y};
         after = after + Vec2{error.after.x * error.after.x, error.after.y * error.after.y};
         variance += (error.variance_px2.x + error.variance_px2.y) / 2;
@@ -133,6 +137,11 @@ MeanError typical_error(const InkAt& ink, float dot_radius_px) {
     return {{root(before.x), root(before.y)},
             {root(after.x), root(after.y)},
             {variance / kFrames, variance / kFrames}};
+}
+
+MeanError typical_error(const InkAt& ink, float dot_radius_px) {
+    return typical_error([&](Vec2 phase) { return drawn_dot(ink, phase, kBlur_px); },
+                         dot_radius_px);
 }
 
 TEST(PixelBias, IsTakenFromDiscs) {
@@ -151,6 +160,15 @@ TEST(PixelBias, IsTakenFromSmallAndLargeDiscs) {
         EXPECT_LT(error.after.x, 0.75 * error.before.x);
         EXPECT_LT(error.after.y, 0.75 * error.before.y);
     }
+}
+
+/// An oblique motion blur tilts the dots. The centroid of a dot that is beside the centre of its
+/// window is then shifted along the other axis.
+TEST(PixelBias, IsTakenFromObliquelyMovingDots) {
+    const DotAt moving = [](Vec2 phase) { return moving_dot(disc(1), phase, kBlur_px, {1, -0.7}); };
+    const MeanError error = typical_error(moving, 1.15F);
+    EXPECT_LT(error.after.x, 0.0024);
+    EXPECT_LT(error.after.y, 0.0024);
 }
 
 /// Real dots consist of square printer pixels, and are elongated if the paper is fed unevenly.
