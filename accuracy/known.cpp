@@ -194,10 +194,11 @@ void print_head(const char* what) {
         what);
 }
 
-constexpr std::array kSizes{ViewSize{11, 58, 58}, ViewSize{11, 62, 62},   ViewSize{11, 66, 66},
-                            ViewSize{11, 72, 72}, ViewSize{11, 77, 77},   ViewSize{11, 88, 88},
-                            ViewSize{11, 96, 96}, ViewSize{11, 120, 120}, ViewSize{6, 36, 36},
-                            ViewSize{6, 40, 40},  ViewSize{6, 44, 44}};
+constexpr std::array kSizes{
+    ViewSize{11, 54, 54},   ViewSize{11, 58, 58},  ViewSize{11, 62, 62}, ViewSize{11, 66, 66},
+    ViewSize{11, 72, 72},   ViewSize{11, 77, 77},  ViewSize{11, 88, 88}, ViewSize{11, 96, 96},
+    ViewSize{11, 120, 120}, ViewSize{4.5, 36, 36}, ViewSize{5, 36, 36},  ViewSize{6, 36, 36},
+    ViewSize{6.5, 36, 36},  ViewSize{7, 36, 36},   ViewSize{6, 40, 40},  ViewSize{6, 44, 44}};
 
 }  // namespace
 

@@ -291,7 +291,7 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
 bool has_few_cells(const Frame& frame, const Hypothesis& hypothesis) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);
-    return !frame.known.any() && pixels < tuned::kMaxCellsWithCutDots * spacing * spacing;
+    return pixels < tuned::kMaxCellsWithCutDots * spacing * spacing;
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
 /// Range of spacings in the smoothed patch, in patch pixels. In a finer grid, the dots merge. In a
 /// coarser grid, a dot has more than one minimum.
-inline constexpr float kFinest_px = 5.2F;
+inline constexpr float kFinest_px = 4.4F;
 inline constexpr float kCoarsest_px = 40;
 /// Limits of a plausible fit: minimum and maximum spacing relative to the first spacing, and
 /// maximum difference between the perspective divisor and 1 within the reach. The limits reject

@@ -2,6 +2,7 @@
 // plane.
 #include <array>
 #include <memory>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,27 @@ TEST_F(Known, SixCellsSufficeIfNoOtherSheetIsPossible) {
         EXPECT_LE(fix.p_wrong_log2, -30);
     }
     EXPECT_GE(located, kFrames - 1);
+}
+
+/// Dots that are cut off by the border of the image are also read, and grids may be as fine as 4.5
+/// px per spacing.
+TEST_F(Known, FiveCellsSufficeAtAnySpacing) {
+    know(OtherSheets::impossible);
+    constexpr int kFrames = 40;
+    for (const auto& [spacing_px, side_px] :
+         {std::pair{4.6, 36}, {5.0, 36}, {6.5, 36}, {9.0, 49}, {11.0, 60}}) {
+        SCOPED_TRACE(spacing_px);
+        int located = 0;
+        for (std::uint64_t i = 0; i < kFrames; ++i) {
+            const Shot shot = shot_on_sheet(
+                {.spacing_px = spacing_px, .width_px = side_px, .height_px = side_px}, i);
+            const Fix fix = locator_.locate(render(shot).view());
+            if (fix.status != Status::ok) continue;
+            ++located;
+            EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
+        }
+        EXPECT_GE(located, kFrames * 9 / 10);
+    }
 }
 
 TEST_F(Known, SmallViewsOfFlatSheetsAreEven) {

@@ -140,7 +140,7 @@ TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
     const Series series =
         run_series(locator_, {.width_px = 54, .height_px = 54}, 40, 0.02F, 0.005F, true);
     EXPECT_EQ(series.wrong, 0);
-    EXPECT_EQ(series.located[0], 0);
+    EXPECT_LE(series.located[0], 5);
     EXPECT_GE(series.located[1], 35);
     EXPECT_EQ(series.located[3], 40);
 }
