@@ -1,6 +1,6 @@
 /// Measured motion: the displacement and rotation of the camera between two frames, from wheel
-/// odometry or an inertial unit. A Locator uses it to combine frames that are not certain alone. A
-/// Tracker uses it to follow a robot over areas without a pattern.
+/// odometry or an inertial unit. A Locator uses it to combine frames that do not give a certain
+/// position individually. A Tracker uses it to follow a robot over areas without a pattern.
 #pragma once
 
 #include "dotpose/export.hpp"
@@ -27,7 +27,7 @@ struct MeasuredMotion {
     bool is_usable() const;
 };
 
-/// Returns the motion that consists of `first` and then `second`.
+/// Returns the composition of two successive motions.
 MeasuredMotion followed_by(const MeasuredMotion& first, const MeasuredMotion& second);
 
 }  // namespace dotpose

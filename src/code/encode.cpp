@@ -59,7 +59,7 @@ struct AxisPlace {
     std::uint8_t cross;
 };
 
-/// Returns the place of the position `target`, which is outside [0, L), where L =
+/// Returns `place` moved to the position `target`, which is outside [0, L), where L =
 /// kPositionsPerAxis. Not inlined, because the function is rarely called.
 [[gnu::noinline]] AxisPlace wrapped(CodeVariant code, AxisPlace place, std::int64_t target) {
     // For a move by L along x, the rolls of columns p and p + L differ by roll(L), so the column
