@@ -1,4 +1,4 @@
-/// Camera files: a `Camera` as YAML.
+/// Camera files: reads and writes a `Camera` as YAML.
 ///
 ///     const Camera camera = read_camera("camera.yaml");
 ///     DeviceOptions options;
@@ -39,8 +39,8 @@ Camera parse_camera(const std::string& text, const std::string& name);
 /// the file cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 
-/// Writes the file completely or not at all. Throws Error if the file cannot be written, and
-/// BadArgument if the camera is not valid (see `validate` in camera.hpp).
+/// Writes the file atomically. Throws Error if the file cannot be written, and BadArgument if the
+/// camera is not valid (see `validate` in camera.hpp).
 void write_camera(const std::filesystem::path& path, const Camera& camera);
 
 }  // namespace dotpose

@@ -1,6 +1,6 @@
 /// Print map: the measured offset of each printed dot from its nominal place, for the pages of a
-/// sheet file. `PrintMapping` (tools/print_mapping.hpp) makes a map, and `with_print_map` corrects
-/// a fix by a map.
+/// sheet file. `PrintMapping` (tools/print_mapping.hpp) creates a map, and `with_print_map` uses it
+/// to correct a fix.
 ///
 ///     const PrintMap map = read_print_map("desk.map");
 ///     require_pages(map, sheets);  // throws Error if the map is of other pages
@@ -38,16 +38,16 @@ struct DotOffset {
     double y() const { return y_q14 / 16384.0; }
 };
 
-/// Error of a map: the error that the mapped places of all dots in a view have in common, because
-/// the map bends slowly. Contains its covariance at the nodes of a grid. The first and the last
-/// node of a row are at the first and the last column of dots, and likewise for the rows.
+/// Error of a map. It varies slowly over the page, so all dots in a view have nearly the same
+/// error. This struct contains the covariance of the error at the nodes of a grid, which extends
+/// from the first to the last column and row of dots.
 struct MapErrors {
     /// Covariance of the shift along x and y, in spacings, and of the rotation, in rad: the
     /// elements xx, xy, yy, x rotation, y rotation, rotation^2.
     using Node = std::array<float, 6>;
 
-    int columns = 0;  ///< number of nodes along x: 0 if the errors are not known, else at least 2
-    int rows = 0;     ///< number of nodes along y
+    int columns = 0;          ///< number of nodes along x, at least 2; 0 if the errors are unknown
+    int rows = 0;             ///< number of nodes along y
     std::vector<Node> nodes;  ///< row by row
 };
 
@@ -85,9 +85,9 @@ struct MapPage {
         return std::size_t{y} * std::size_t(columns) + x;
     }
 
-    /// Returns the covariance of the error of the map in a view whose centre is at a place on the
-    /// page: shift along x and y, in spacings, and rotation, in rad. The covariance is 0 if the
-    /// errors are not known. `with_print_map` adds this covariance to the covariance of the fix.
+    /// Returns the covariance of the map error in a view that is centred at `place`: shift along x
+    /// and y, in spacings, and rotation, in rad. All elements are 0 if the errors are unknown.
+    /// `with_print_map` adds this covariance to the covariance of the fix.
     std::array<std::array<double, 3>, 3> error_covariance(const Place& place) const;
 };
 
@@ -104,11 +104,10 @@ const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& pla
 enum class MapUse : std::uint8_t {
     no_map,  ///< there is no map of the page, or there is no fix
     used,    ///< the fix is corrected by the map
-    /// Fewer than 20 of the dots in view, or less than 75 % of them, were seen by the frames of the
-    /// map.
+    /// The frames of the map saw fewer than 20, or less than 75 %, of the dots in view.
     not_covered,
-    contradicted  ///< the dots in view contradict the map, because the print was moved or is
-                  ///< another print
+    contradicted  ///< the dots in view contradict the map, for example because the print was moved
+                  ///< or replaced
 };
 
 /// Maximum size of a map file, in bytes. The map of a page with the size of A0 is about 20 MB.

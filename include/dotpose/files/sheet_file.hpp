@@ -5,7 +5,7 @@
 ///
 /// `find_sheet` (sheet_place.hpp) returns the place of a fix on the sheets.
 ///
-/// To print sheets, reserve their regions first, because every page must have an entry:
+/// To print sheets, reserve their regions first, because every printed page must have an entry:
 ///
 ///     std::vector<SheetEntry> added;
 ///     SheetReservation reservation("sheets.json", [&](SheetFile& file) {
@@ -48,7 +48,7 @@ inline constexpr int kSheetFileVersion = 1;
 /// pose computed from the dots of one sheet can therefore not be in the region of the other sheet.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
-/// Place and direction of a page in the world.
+/// Pose of a page in the world.
 struct WorldPose {
     double x_m = 0;
     double y_m = 0;
@@ -97,8 +97,8 @@ struct SheetEntry {
 void validate(const SheetEntry& entry);
 
 /// Returns true if two sheets share cells. Sheets in different sections never overlap. The code
-/// variants anoto and libdots count as one variant, because their dots are the same on most of the
-/// plane. The variant microdots is separate.
+/// variants anoto and libdots are treated as one variant, because they print the same dots on most
+/// of the plane.
 bool overlap(const Sheet& a, const Sheet& b);
 
 /// Reads a sheet file. Throws Error, with the names of the file and the key, in these cases:
@@ -121,7 +121,7 @@ struct SheetFileWait {
 /// destroyed. Readers do not wait. Not thread-safe.
 class SheetFile {
   public:
-    /// Waits for exclusive access, then reads the file. A missing file counts as a file without
+    /// Waits for exclusive access, then reads the file. A missing file is treated as a file without
     /// sheets. Throws Error if the file exists but cannot be read or is not valid (see
     /// `read_sheets`), or if the file cannot be locked, for example because another program holds
     /// the lock for longer than `wait` allows.
@@ -137,8 +137,8 @@ class SheetFile {
     /// "name-2" and so on.
     ///
     /// A free region is at least kSheetGap_cells away from the ends of the plane and from all other
-    /// regions, regardless of their code variant and section. Cells alone therefore distinguish
-    /// allocated sheets. The next free region is the topmost, then leftmost free region.
+    /// regions, regardless of their code variant and section. A cell alone therefore identifies an
+    /// allocated sheet. The next free region is the topmost, then leftmost free region.
     ///
     /// Returns the added entries. Throws BadArgument if an entry would not be valid (see
     /// `validate`), if the name is taken, if the plane is full, or if the count is below 1.
@@ -167,9 +167,9 @@ class SheetFile {
     /// Removes the sheet with this name, if there is one.
     void remove(const std::string& name);
 
-    /// Writes the file completely or not at all. Preserves unrecognised keys of the previous file.
-    /// Throws Error if the file cannot be written, or if a program that does not use the lock, such
-    /// as an editor, has changed it since it was read.
+    /// Writes the file atomically. Preserves unrecognised keys of the previous file. Throws Error
+    /// if the file cannot be written, or if a program that does not use the lock, such as an
+    /// editor, has changed it since it was read.
     void save();
 
   private:
@@ -185,7 +185,7 @@ class SheetFile {
 };
 
 /// Adds sheets to a sheet file before their pages are written. The sheets are marked as reserved,
-/// so their regions remain taken even if this program is killed. `confirm` removes the mark. Other
+/// and keep their regions even if this program is killed. `confirm` removes the mark. Other
 /// programs may change the file in the meantime.
 class SheetReservation {
   public:

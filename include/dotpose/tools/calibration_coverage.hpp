@@ -1,6 +1,6 @@
-/// Coverage: the parts of the image, the places and the directions that the frames of a lens
-/// calibration cover so far, and the requirements that are not met yet. Intended for programs that
-/// take frames while the camera moves, such as `dotpose calibrate --live`.
+/// Coverage of a lens calibration: which parts of the image, places and directions the frames cover
+/// so far, and which requirements are not met yet. Intended for programs that capture frames while
+/// the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -100,7 +100,7 @@ class CalibrationCoverage {
     /// Creates an empty coverage for images of the given size, which must be positive.
     CalibrationCoverage(int width_px, int height_px);
 
-    /// Returns the number of parts of the image that the frame would add to the coverage.
+    /// Returns how many parts of the image the frame would add to the coverage.
     int parts_added_by(const CalibrationView& view) const;
     /// Adds a frame.
     void add(const CalibrationView& view);
@@ -109,7 +109,7 @@ class CalibrationCoverage {
     const ImageCoverage& image() const { return image_; }
     /// Returns the number of distinct places. A frame adds a place if the pattern position under
     /// its image centre is far enough from all earlier places in the same section. The minimum
-    /// distance is the length on the paper of a quarter of the shorter image side.
+    /// distance corresponds to a quarter of the shorter image side.
     int places() const { return static_cast<int>(places_.size()); }
     /// Returns the number of sectors that contain the direction of at least one frame.
     int directions() const;

@@ -10,7 +10,7 @@
 /// paper's own experiment (section IV). `run_sweep` (sweep.hpp) degrades one condition step by
 /// step.
 ///
-/// Except for times, results depend only on the frames, not on the number of threads. Functions
+/// Apart from times, results depend only on the frames, not on the number of threads. The functions
 /// share no state. They throw Error for problems with files and BadArgument for invalid arguments.
 #pragma once
 
@@ -54,8 +54,8 @@ FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<Tr
 /// Returns the rendered frames of `draw_shot(setup, index)`.
 FrameSource frames_of_setup(const Setup& setup);
 
-/// Called regularly from the thread that called `evaluate`. If it returns false, the work ends with
-/// an Error.
+/// Called regularly, from the thread that called `evaluate`. Returning false aborts the evaluation
+/// with an Error.
 using Progress = std::function<bool(int done, int total)>;
 
 /// The frames to locate, and the options for `locate`.
@@ -76,7 +76,8 @@ struct FrameRun {
 
 /// Locates all frames. Element [k][i] of the result is the outcome of frame i with options[k].
 /// Throws BadArgument if there is no `frame_at` or `frames` is negative, and Error if `progress`
-/// returned false. Exceptions of `frame_at` end the work and are passed on.
+/// returned false. Exceptions thrown by `frame_at` abort the evaluation and propagate to the
+/// caller.
 std::vector<std::vector<Outcome>> evaluate(const FrameRun& run);
 
 }  // namespace dotpose

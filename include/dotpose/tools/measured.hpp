@@ -68,8 +68,8 @@ struct Similarity {
 /// and a found place on the same sheet.
 Similarity align(std::span<const MeasuredFrame> frames);
 
-/// Difference between the found and the true place of a frame, after the alignment. 0 if the frame
-/// has no true place.
+/// Error of a frame: its found place minus its true place, after the alignment. 0 if the frame has
+/// no true place.
 struct MeasuredError {
     double x_mm = 0;
     double y_mm = 0;

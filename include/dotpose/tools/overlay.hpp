@@ -6,7 +6,7 @@
 ///
 /// Pages keep their content and functions, such as text, links, forms, outlines, boxes and
 /// rotation. Each page with dots has its own region of the code plane. Copies of a page also have
-/// different regions. Functions share no state.
+/// different regions. The functions share no state.
 #pragma once
 
 #include <filesystem>
@@ -57,7 +57,7 @@ struct OverlayOptions {
     bool black_to_cmy = false;
     double lighten = 0;  ///< fraction of the ink that is removed from the document, 0 to below 1
     /// Maximum size of the uncompressed content of one page, in megabytes. The limit for all pages
-    /// together is eight times as large. Processing a page needs a few times this size in memory.
+    /// together is eight times as large. Processing a page needs a few times this amount of memory.
     /// Increase the limit for large maps.
     int max_content_mb = 64;
     Progress progress;
@@ -75,7 +75,7 @@ struct OverlayReport {
     int card_pages = 0;  ///< number of pages with cards; 0 if there are no cards
 };
 
-/// Writes `in` with dots to `out`. Writes `out` completely or not at all.
+/// Adds dots to the document `in`, and writes the result to `out`. Writes `out` atomically.
 ///
 /// `black_to_cmy` and `lighten` change colours only on pages with dots. They change the colours of
 /// text, drawings, forms, fonts and appearances, and of images if their colour space permits. The

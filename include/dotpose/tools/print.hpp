@@ -6,7 +6,7 @@
 ///     const dotpose::Sheet sheet = dotpose::make_sheet(options);
 ///     dotpose::write_sheet(sheet, "page.png");
 ///
-/// Rows are written immediately, so memory use grows with the width of the page, not with its area.
+/// Pages are written row by row, so memory use grows with the width of the page, not with its area.
 /// Functions throw BadArgument or Error (error.hpp). They share no state, so threads may write
 /// different files at the same time.
 #pragma once
@@ -91,8 +91,8 @@ enum class PrintFormat {
 /// lower case. Throws BadArgument for other extensions.
 PrintFormat print_format(const std::filesystem::path& path);
 
-/// Called after each part of the work, usually a row of the pattern. `rows` is the total number of
-/// parts. Returning false stops the work with an Error.
+/// Called after each step, usually a row of the pattern. `rows` is the total number of steps.
+/// Returning false aborts the operation with an Error.
 using Progress = std::function<bool(int rows_done, int rows)>;
 
 /// Methods of drawing dots in a PDF.
@@ -137,9 +137,9 @@ struct PrintOptions {
 /// same directory, and then renamed. After an error, and if `progress` returned false, an existing
 /// file is unchanged and no temporary file remains.
 ///
-/// Throws BadArgument as `print_format`, `validate` and `validate_resolution` do, and for
-/// DotDrawing::glyphs if lengths are not whole numbers of pixels. Throws Error if the file cannot
-/// be created or written (with the system's reason), or if `progress` returned false.
+/// Throws BadArgument in the same cases as `print_format`, `validate` and `validate_resolution`,
+/// and for DotDrawing::glyphs if lengths are not whole numbers of pixels. Throws Error if the file
+/// cannot be created or written (with the system's reason), or if `progress` returned false.
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
 

@@ -1,4 +1,4 @@
-/// Print mapping: makes a map of a printed page from many frames, and corrects fixes by a map.
+/// Print mapping: creates a map of a printed page from many frames, and corrects fixes with it.
 ///
 ///     PrintMapping mapping({.sheets = read_sheets("sheets.json"), .camera = camera});
 ///     for (const GreyImage& image : images) mapping.add(image.view());
@@ -88,10 +88,9 @@ class PrintMapping {
     /// Minimum number of frames of a page. If fewer frames were used, the page is not mapped.
     static constexpr std::size_t kMinFrames = 10;
 
-    /// Computes the map. `progress` is called with the completed fraction of the work on one page,
-    /// and starts again at 0 for each page. If it returns false, the work ends with an Error.
-    /// Throws Error if no page was seen in kMinFrames frames, or if the frames contradict the
-    /// earlier map.
+    /// Computes the map. `progress` is called with the completed fraction of the current page.
+    /// Returning false aborts the computation with an Error. Throws Error if no page was seen in
+    /// kMinFrames frames, or if the frames contradict the earlier map.
     PrintMapResult solve(const std::function<bool(double share)>& progress = {});
 
   private:
@@ -105,12 +104,13 @@ struct MappedFix {
     MapUse use = MapUse::no_map;
 };
 
-/// Corrects a fix by a map of the print, given the trace of the frame. Fits the place, angle and
+/// Corrects a fix with a map of the print, given the trace of the frame. Fits the place, angle and
 /// scale to the dots at their mapped places. Also fits perspective and shear if they are
 /// significant. The covariance is that of the absolute position on the page. It is computed from
 /// the residuals and from the error of the map (`MapPage::error_covariance`), so it no longer
-/// contains the errors of the print. Fixes at the same place have the same error of the map. To
-/// obtain the covariance of differences between such fixes, subtract the covariance of this error.
+/// contains the errors of the print. Fixes at the same place share the same map error. To obtain
+/// the covariance of the difference between such fixes, first subtract the covariance of the map
+/// error from both.
 ///
 /// A map that contains the dots in view is used only if the variance of the residuals with the map
 /// is at most 0.8 times the variance without the map, or at most twice the square of

@@ -23,7 +23,7 @@ constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
 /// generator.
 class Rng {
   public:
-    /// Starts the sequence of numbers of a seed.
+    /// Seeds the generator.
     explicit constexpr Rng(std::uint64_t seed) noexcept : state_(seed) {}
 
     /// Starts an independent sequence for item `index` of a run.
@@ -36,7 +36,7 @@ class Rng {
         return scramble(state_);
     }
 
-    /// Returns a uniform number in [0, 1), a multiple of 2^-53.
+    /// Returns a uniformly distributed number in [0, 1), a multiple of 2^-53.
     constexpr double uniform() noexcept { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
     /// Returns a uniform number in [low, high), or `low` if the limits are equal.
@@ -52,9 +52,9 @@ class Rng {
         return static_cast<std::uint32_t>((high * limit + ((low * limit) >> 32)) >> 32);
     }
 
-    /// Returns a normal number with mean 0 and standard deviation 1: the number of ones among 128
-    /// random bits, smoothed by a uniform number. The excess kurtosis is -0.016, and the absolute
-    /// value is at most 11.4. Uses no logarithm, because the last digit of a logarithm differs
+    /// Returns a normally distributed number with mean 0 and standard deviation 1: the number of
+    /// ones among 128 random bits, smoothed by a uniform number. The excess kurtosis is -0.016, and
+    /// the absolute value is at most 11.4. Avoids logarithms, because their last digits differ
     /// between machines.
     constexpr double normal() noexcept {
         constexpr double kInverseDeviation = 0.1765469659009499;  // 1 / sqrt(128 / 4 + 1 / 12)

@@ -17,12 +17,12 @@
 ///
 /// `camera_optical` is the camera, with z along the optical axis and x and y along the axes of the
 /// image. It is constant in `base_link` (`camera_mount`). With poses in space
-/// (`FollowerOptions::fits_space_pose`), it is in `map` instead, with a new pose in each frame. Do
-/// not publish the mount then, because a frame has only one parent.
+/// (`FollowerOptions::fits_space_pose`), it is in `map` instead, with a new pose in each frame. In
+/// that case, do not publish the mount, because a frame can have only one parent.
 ///
 /// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
-/// robot is found again after it was lost or moved by hand, and when the robot enters another
-/// plane. The transform from `odom` to `base_link` is always continuous.
+/// robot is found again after being lost or moved by hand, and when the robot enters another plane.
+/// The transform from `odom` to `base_link` is always continuous.
 #pragma once
 
 #include <array>
@@ -71,7 +71,7 @@ struct PlanarMotion {
     std::array<std::array<double, 6>, 6> covariance{};
 };
 
-/// The results of a frame, in the frame `map`.
+/// Results for one camera frame, in the coordinate frame `map`.
 struct RobotUpdate {
     std::int64_t time_ns = 0;            ///< middle of the exposure
     std::optional<PlanarFix> fix;        ///< none if there is no fix, or if the place of the fix is
@@ -102,9 +102,9 @@ struct RobotFrames {
     std::string camera = "camera_optical";
 };
 
-/// Returns the frames with `prefix`, for example "anna/", before the names of the frames of the
-/// robot: `odom`, `base` and `camera`. Robots with different prefixes share one tree of transforms,
-/// with one `map`. Throws BadArgument if ROS does not allow the prefix, because it begins with a
+/// Returns the frame names with `prefix`, for example "anna/", prepended to the frames of the
+/// robot: `odom`, `base` and `camera`. Robots with different prefixes share one transform tree with
+/// a common `map`. Throws BadArgument if ROS does not allow the prefix, because it begins with a
 /// slash or contains a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 

@@ -147,8 +147,8 @@ std::vector<std::uint8_t> to_cdr(const TFMessage& message);
 std::vector<std::uint8_t> to_cdr(const DiagnosticArray& message);
 std::vector<std::uint8_t> to_cdr(const CompressedImage& message);
 
-/// Name and definition of a message type. Recordings contain them, so that programs without ROS can
-/// read the messages.
+/// Name and definition of a message type. They are stored in recordings, so that programs without
+/// ROS can read the messages.
 struct MessageType {
     std::string name;  ///< such as "geometry_msgs/msg/PoseWithCovarianceStamped"
     /// The .msg files of the type and of all types in it, in the format ros2msg.

@@ -16,7 +16,7 @@
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
 /// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
 /// the pose point, which is the pattern point under the image centre. Offsets are small numbers, so
-/// they are not rounded noticeably, although the plane is 2.1e8 mm wide.
+/// their rounding errors are negligible, although the plane is 2.1e8 mm wide.
 #pragma once
 
 #include <array>
@@ -56,9 +56,9 @@ struct CameraModel {
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
-    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows. The
-    /// limit is 75 % of the side of the image along each axis. The pose applies to the time of the
-    /// middle row. (0, 0) for a global shutter.
+    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows. At most
+    /// 75 % of the image size along each axis. The pose refers to the time at which the middle row
+    /// is read. (0, 0) for a global shutter.
     Vec2 readout_px;
     /// Rotation of the scene about the image centre while a rolling shutter reads the rows, in
     /// addition to the motion. The direction is from the image x axis towards the image y axis.
@@ -88,7 +88,7 @@ double y_grid(const CameraPose& pose);
 
 /// Effects of printer, paper, light and sensor on a frame. The defaults are those of the preset
 /// `clean`, in which all of these effects are absent. Fractions and reflectances are in [0, 1].
-/// Sigmas, lengths and counts are not negative.
+/// Sigmas, lengths and counts must not be negative.
 struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
     double ink_reflectance = 0.15;  ///< reflectance relative to paper
@@ -103,7 +103,7 @@ struct Imperfections {
     double fall = 0;
     double fall_direction_rad = 0;  ///< direction in which the light decreases, from +u towards +v
     double blur_sigma_px = 0;
-    Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose applies to
+    Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose refers to
                      ///< the middle of the exposure
     double noise_sigma = 0;  ///< standard deviation of the noise, in grey levels
     /// Standard deviation of the offsets of the pixels, in grey levels. The offsets belong to the
@@ -197,12 +197,12 @@ class Projection {
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
-    /// Returns the image point at `time` of the scene point that is at `undistorted` at the time of
+    /// Returns where a scene point appears at `time` if it appears at `undistorted` at the time of
     /// the middle row. Points are in px from the image centre of the undistorted image. `time` is
     /// in units of the readout time, from the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
-    /// Returns the motion of the pose point in the undistorted image, along an arc, from the time
-    /// of the middle row to `time`.
+    /// Returns the displacement of the pose point in the undistorted image, along an arc, from the
+    /// time of the middle row to `time`.
     Vec2 way_at(double time) const;
 
     Vec2 centre_px_;
@@ -237,9 +237,9 @@ struct PageImage {
     Vec2 centre_mm;
 };
 
-/// Renders the camera's image of a page image. Ignores the position in `pose`, because the page
-/// image contains it. Also ignores the imperfections of the printer (jitter, missing dots), dirt
-/// and graphics.
+/// Renders the camera's image of a page image. Ignores the position in `pose`, because
+/// `PageImage::centre_mm` replaces it. Also ignores the imperfections of the printer (jitter,
+/// missing dots), dirt and graphics.
 GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
@@ -273,7 +273,7 @@ struct PartialView {
     int islands = 0;
     static constexpr int kMinIslandDots = 60;
     /// Minimum and maximum fraction of the image that the single area covers. The area has at least
-    /// `min_dots` dots, even if it must therefore cover more than `max_share`.
+    /// `min_dots` dots, even if it then covers more than `max_share`.
     double min_share = 0.15;
     double max_share = 0.45;
     int min_dots = 150;
@@ -290,8 +290,8 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Kinds of frames without a unique valid position. A locator must refuse them. The two seams are
-/// an exception: the position and section of either side of a seam also count as correct.
+/// Kinds of frames without a unique valid position. A locator must reject them. At the two seams,
+/// however, a fix with the position and section of either side is also correct.
 enum class Scene : std::uint8_t {
     black,
     white,

@@ -53,8 +53,8 @@ struct PenSample {
 
 /// Returns a path of random strokes with loops, in lines of four strokes from left to right.
 /// Between the strokes, the pen is lifted by 1 to 3 mm. After the last stroke, it remains above the
-/// paper. At both ends of a stroke, the pen does not move along the paper, but it has a vertical
-/// velocity. The tilt varies slowly between 20 and 40 degrees.
+/// paper. At both ends of a stroke, the pen moves only vertically. The tilt varies slowly between
+/// 20 and 40 degrees.
 std::vector<PenSample> simulate_handwriting(const Handwriting& options);
 
 }  // namespace dotpose

@@ -91,8 +91,8 @@ struct SpacePose {
     /// The second pose that explains the view, if there is one. It may be improbable.
     std::optional<SecondPose> second;
 
-    /// Limit of `SecondPose::odds_log2`. The dots exclude a second pose if its odds are at most
-    /// this limit. The limit is low because the errors of dots on bent paper are not independent.
+    /// Limit of `SecondPose::odds_log2`, at or below which the dots exclude the second pose. The
+    /// limit is low because the errors of dots on bent paper are not independent.
     static constexpr double kMaxOdds_log2 = -30;
     /// Returns true if the dots do not exclude the second pose.
     bool is_ambiguous() const { return second && second->odds_log2 > kMaxOdds_log2; }
@@ -111,12 +111,12 @@ void require_focal_length(const Camera& camera);
 /// errors of the dot centres in the image. Both variances are estimated from the residuals. Dots
 /// with residuals above four standard deviations are not used.
 ///
-/// `print` is the print scale of the sheet. `map` is the map of the page, or null: with a map, the
-/// dots are at their mapped places, and only dots that the map has seen are used. Check the map
-/// with `with_print_map` first, because this function does not detect that the map is of a
-/// different print. Returns none if there is no fix, if the spacing is unknown (`Fix::spacing_nm`
-/// is 0), or if there are fewer than 12 dots. Throws BadArgument if `camera` has neither a focal
-/// length nor a pinhole model.
+/// `print` is the print scale of the sheet. `map` is the map of the page, or null. With a map, the
+/// mapped places of the dots replace their nominal places, and dots that no frame of the map has
+/// seen are ignored. Check the map with `with_print_map` first, because this function does not
+/// detect a map of a different print. Returns none if there is no fix, if the spacing is unknown
+/// (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument if `camera` has
+/// neither a focal length nor a pinhole model.
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
                                     const Trace& trace, const AxisScale& print = {},
                                     const MapPage* map = nullptr);

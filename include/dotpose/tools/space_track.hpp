@@ -1,5 +1,5 @@
-/// Tracker of a camera in space: smooths the poses of single frames, predicts the pose at other
-/// times, and rejects outliers and wrong second poses.
+/// Tracks a camera in space: smooths the poses of single frames, predicts the pose at other times,
+/// and rejects outliers and wrong second poses.
 ///
 ///     SpaceTracker tracker;
 ///     for (;;) {
@@ -67,7 +67,7 @@ struct SpaceTrackOptions {
     std::int64_t lost_after_us = 200'000;
 };
 
-/// Decision of a tracker about the pose of a frame.
+/// Verdict of the tracker on the sighting of a frame.
 enum class SpaceVerdict : std::uint8_t {
     none,             ///< there was no sighting
     accepted,         ///< the first pose was used
@@ -125,7 +125,7 @@ struct Motion {
     /// Process noise along each axis: the ratio of the variance of the acceleration noise to the
     /// variance in the options.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
-    std::array<double, 6> innovation{};  ///< of the latest accepted sighting
+    std::array<double, 6> innovation{};  ///< innovation of the latest accepted sighting
 };
 
 }  // namespace space_track
@@ -135,11 +135,11 @@ class SpaceTracker {
   public:
     explicit SpaceTracker(const SpaceTrackOptions& options = {}) : options_(options) {}
 
-    /// Takes the sighting of a frame. A sighting in another plane, or not later than the previous
-    /// frame, starts a new track. An ambiguous sighting cannot start a track, so the camera is then
-    /// lost.
+    /// Processes the sighting of a frame. A sighting in another plane, or not later than the
+    /// previous frame, starts a new track. An ambiguous sighting cannot start a track, so the
+    /// camera is then lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
-    /// Takes a frame without a sighting. The camera is lost if the frame is earlier than the
+    /// Processes a frame without a sighting. The camera is lost if the frame is earlier than the
     /// previous frame, or too late (see `lost_after_us`).
     const SpaceTrack& update(std::int64_t time_us);
 
@@ -158,8 +158,8 @@ class SpaceTracker {
     SpaceTrack track_;
     space_track::Motion motion_;
     std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
-    // The newest unambiguous sighting that was rejected since then, and the length of the series of
-    // rejected sightings up to it in which each is consistent with the one before.
+    // The newest unambiguous sighting that was rejected since then, and the number of consecutive
+    // rejected sightings, up to and including it, that are each consistent with the previous one.
     std::optional<SpaceSighting> rejected_;
     int rejections_ = 0;
 };

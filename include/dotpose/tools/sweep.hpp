@@ -1,4 +1,4 @@
-/// Sweep: the score of `locate` for simulated frames with increasing degradation of one condition.
+/// Sweep: the score of `locate` for simulated frames as one condition is degraded step by step.
 #pragma once
 
 #include <array>
@@ -43,8 +43,8 @@ struct SweepOptions {
     /// Options for `locate`. Both decoders are run, so `decoder` is ignored.
     DeviceOptions locate;
     int threads = 0;
-    /// Called with the number of frames that are done and the number of all frames. Returning false
-    /// ends the sweep. If at least two values are complete, the result contains the complete
+    /// Called with the number of frames done and the total number of frames. Returning false ends
+    /// the sweep. If at least two values are complete, the result contains only the complete
     /// values. Otherwise, `run_sweep` throws Error.
     Progress progress;
 };
