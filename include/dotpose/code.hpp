@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Number of sections per axis. Also the length of the main sequence.
 inline constexpr int kSections = 63;
 
-/// Variant of the position code. Variants differ only in sequence a4.
+/// Variant of the position code. The variants differ only in sequence a4.
 enum class CodeVariant : std::uint8_t {
     /// The patent's sequence a4 with its misprint corrected (docs/position-code.md). Windows are
     /// unique on the whole plane. The default for printing.
@@ -35,7 +35,7 @@ enum class CodeVariant : std::uint8_t {
     /// Sequence a4 as misprinted in the patent. Used by libdots and other open tools. Windows
     /// smaller than 8 x 8 symbols may be ambiguous.
     libdots,
-    /// Sequence a4 as in py-microdots and its ports. It differs from the patent's a4.
+    /// Sequence a4 as in py-microdots and its ports, which differs from the patent's a4.
     microdots,
 };
 /// Number of code variants.
@@ -100,8 +100,7 @@ int main_bit(std::uint32_t index) noexcept;
 /// column and once per row is faster.
 Symbol symbol_at(CodeVariant code, Cell cell, Section section) noexcept;
 
-/// Rectangle of symbols, stored row by row. The rectangle must have 6 to 32 columns and 6 to 32
-/// rows.
+/// Rectangle of symbols, stored row by row. Must have 6 to 32 columns and 6 to 32 rows.
 struct SymbolWindow {
     std::span<const Symbol> symbols;  ///< columns * rows symbols
     int columns = 0;

@@ -81,11 +81,10 @@ struct CodeReading {
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence including this frame
-    /// True if a place in another code variant also explains the frame. The members below contain
-    /// this other place. `Locator::locate_in_any_code` sets the flag only with the status
-    /// ambiguous_code. `Locator::locate_in_code` also sets it in the other cases listed there. If
-    /// the fix is ok, its `p_wrong_log2` does not include the probability that the other place is
-    /// correct.
+    /// True if a place in another code variant also explains the frame. The members below describe
+    /// that place. `Locator::locate_in_any_code` sets the flag only with the status ambiguous_code.
+    /// `Locator::locate_in_code` also sets it in the other cases listed there. If the fix is ok,
+    /// its `p_wrong_log2` does not include the probability that the other place is correct.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
     Cell other_cell{};  ///< `Fix::cell` of the other place; the fractions and the angle are those

@@ -20,8 +20,8 @@ struct FixedLens {
     /// means no distortion. [any]
     std::int32_t k_q40 = 0;
     /// Distortion centre m relative to the image centre, in units of 2^-8 px. Default: the image
-    /// centre, as in the paper. In a real camera, the distortion centre is typically a few pixels
-    /// from the image centre. [-1024 to 1024 px]
+    /// centre, as in the paper. In a real camera, the two centres are typically a few pixels apart.
+    /// [-1024 to 1024 px]
     std::int32_t centre_dx_q8 = 0;
     std::int32_t centre_dy_q8 = 0;
 

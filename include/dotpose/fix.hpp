@@ -15,8 +15,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Attempt of `locate` that produced a fix. Each attempt has its own file in src/locate or
-/// src/device.
+/// The attempt of `locate` that produced a fix. Each attempt is implemented in a file of its own in
+/// src/locate or src/device.
 enum class Attempt : std::uint8_t {
     tracked,  ///< the dots were measured at their predicted places
     first,    ///< the grid was found in patches of the image, without a prediction
@@ -30,7 +30,7 @@ const char* name(Attempt attempt) noexcept;
 enum class Surface : std::uint8_t {
     even,     ///< one plane explains all dots
     divided,  ///< one part of the paper is displaced, for example at a step between two sheets; the
-              ///< pose is that of the part under the reference point
+              ///< pose refers to the part under the reference point
     uneven,   ///< neighbouring dots have correlated residuals, as on wrinkled paper; the covariance
               ///< includes the effect of this correlation
 };
@@ -92,7 +92,7 @@ struct Fix {
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
                                         ///< 2^-16 spacing
     /// Change of theta during the readout of a rolling shutter, from the first to the last row. 0
-    /// if the frame shows no significant rotation. The pose and `pattern_from_image` apply to the
+    /// if the frame shows no significant rotation. The pose and `pattern_from_image` refer to the
     /// time at which the middle row was read.
     float readout_turn_rad = 0;
 

@@ -3,7 +3,7 @@
 ///     dotpose::Locator locator;
 ///     if (const dotpose::Fix fix = locator.locate(image)) use(fix.x_mm(), fix.y_mm());
 ///
-/// An image can also be given row by row, as a camera delivers it: call `begin`, then `push_row`
+/// An image can also be pushed row by row, as the camera delivers it: call `begin`, then `push_row`
 /// for every row from the top, then `finish`. A DeviceLocator then needs no frame buffer.
 ///
 /// Dots are dark on light paper. For white dots on black, invert the pixels first:
@@ -39,8 +39,8 @@ namespace core {
 struct Workspace;
 }  // namespace core
 
-/// Base class of Locator and DeviceLocator. Contains the options, the memory, and the state of a
-/// frame that is pushed row by row.
+/// Base class of Locator and DeviceLocator. Holds the options, the memory, and the state of a frame
+/// that is pushed row by row.
 class RowLocator {
   public:
     RowLocator(const RowLocator&) = delete;
@@ -63,7 +63,7 @@ class RowLocator {
     /// Stores the status that `begin` returns, and the number of rows of the frame. Returns
     /// `status`.
     Status note_begin(Status status, int height_px);
-    /// Counts a row. Returns false if all rows of the frame have already been pushed.
+    /// Counts a pushed row. Returns false if all rows of the frame have already been pushed.
     bool takes_row();
     /// Returns true if a frame was begun. Otherwise, sets the status of the fix to the status of
     /// `begin`, or to bad_argument if `begin` was not called.
@@ -164,7 +164,7 @@ class Locator : public RowLocator {
     CodeReading locate_in_any_code(const ImageView& image, const MeasuredMotion& since_last,
                                    const CodeEvidence& evidence);
 
-    /// Locates an image in `options().code`. The fix is that of `locate`. In addition, sets
+    /// Locates an image in `options().code`. Returns the same fix as `locate`, but also sets
     /// `has_other` in three cases:
     /// - A different place, in another code variant, explains the image about as well as the place
     ///   of the fix.
@@ -223,11 +223,11 @@ class DeviceLocator : public RowLocator {
     /// bad_argument.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// Sets the known regions (see Locator::set_known). `locate` and `finish` then search for the
-    /// position in the regions first, and in the rest of the plane only if other sheets are
-    /// possible. `locate` and `finish` ignore regions in a code other than `options().code`. The
-    /// search needs no additional memory. The search time is proportional to the total number of
-    /// columns and rows of all regions, so use few regions.
+    /// Sets the known regions (see Locator::set_known). `locate` and `finish` then search the
+    /// regions first, and the rest of the plane only if other sheets are possible. They ignore
+    /// regions in a code other than `options().code`. The search needs no additional memory. The
+    /// search time is proportional to the total number of columns and rows of all regions, so use
+    /// few regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 

@@ -18,8 +18,8 @@ namespace dotpose {
 /// Options for a Locator. All options apply to every attempt, and also to images that are pushed
 /// row by row.
 struct LocatorOptions {
-    /// Code variant of the sheet. Default: detected from all frames so far. If two code variants
-    /// explain a frame about equally well, the status is ambiguous_code.
+    /// Code variant of the sheet. By default, it is detected from all frames so far. If two code
+    /// variants explain a frame about equally well, the status is ambiguous_code.
     std::optional<CodeVariant> code;
     /// Spacing of the printed grid. Used to convert a fix to millimetres. Default: 0.508 mm, as in
     /// the paper. Use 0 if the spacing is unknown. [0 to 1000 mm]
@@ -43,10 +43,9 @@ struct LocatorOptions {
     /// A larger fraction indicates that the frame contains two patterns. [0 to 1]
     double max_bit_errors = 0.18;
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast fails
-    /// with no_contrast. A larger value is useful for noisy cameras. With the default of 0, each
-    /// attempt applies only its own limit: about 12 grey levels in the first attempt
-    /// (`kMinDarkness` in core/detect/tuning.hpp), and 6 in the second attempt (locate/tuning.hpp).
-    /// [0 to 255]
+    /// with no_contrast. Increase the value for noisy cameras. With the default of 0, each attempt
+    /// applies only its own limit: about 12 grey levels in the first attempt (`kMinDarkness` in
+    /// core/detect/tuning.hpp), and 6 in the second attempt (locate/tuning.hpp). [0 to 255]
     int min_contrast = 0;
     /// Minimum number of dots required to search for a grid. A position needs at least 6 x 6 dots.
     /// [0 to 2^20]

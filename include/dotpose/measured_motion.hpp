@@ -10,8 +10,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Camera motion since the previous frame, with its uncertainty. The displacement is that of the
-/// reference point, along the axes of the previous image.
+/// Camera motion since the previous frame, with its uncertainty. The displacement is the motion of
+/// the reference point along the axes of the previous image.
 struct MeasuredMotion {
     float right_mm = 0;  ///< displacement along the image x axis
     float down_mm = 0;   ///< displacement along the image y axis

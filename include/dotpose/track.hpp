@@ -86,21 +86,21 @@ struct TrackOptions {
     /// accepted.
     int confirmations = 3;
 
-    /// Time without an accepted sighting or a motion after which the robot is lost.
+    /// Time without an accepted sighting or a measured motion after which the robot is lost.
     std::int64_t lost_after_us = 70'000;
-    /// Maximum standard deviation of the position along either axis while the pose is updated only
-    /// by motions. Above this limit, the robot is lost.
+    /// Maximum standard deviation of the position along either axis while only measured motions
+    /// update the pose. Above this limit, the robot is lost.
     float max_sigma_mm = 5;
 
-    /// Limits of the motion of a stationary robot. A robot is stationary if its pose changes by at
+    /// Limits for detecting a stationary robot. The robot is stationary if its pose changes by at
     /// most these limits along each axis for `stationary_after_us`.
     float still_mm = 0.1F;
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
     /// Standard deviations of printing errors. Their squares are added to the covariance of each
-    /// sighting. Printing errors do not average out, because they are the same in every frame at
-    /// one place.
+    /// sighting. Printing errors do not average out, because all frames at one place have the same
+    /// printing errors.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
@@ -238,8 +238,8 @@ class Tracker {
     /// consistent with it.
     ///
     /// Returns Prediction::like(newest) if no prediction is possible:
-    /// - `seen` is neither the newest sighting of the track nor the newest of the sightings that
-    ///   contradict the track,
+    /// - `seen` is neither the newest sighting of the track nor the newest sighting that
+    ///   contradicts the track,
     /// - the robot will be considered lost at `time_us`,
     /// - `time_us` is not after the time of `seen`,
     /// - the spacing is not known, or
@@ -276,7 +276,7 @@ class Tracker {
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
     /// Filter state after the newest accepted sighting or measured motion.
     track::MotionEstimate last_;
-    /// Estimate from the newest sightings that contradict the track. It is updated like the track,
+    /// Estimate from the newest sightings that contradict the track. It is filtered like the track,
     /// because the robot may have been put down elsewhere.
     track::MotionEstimate candidate_;
     int agreeing_ = 0;  ///< number of sightings in `candidate_`

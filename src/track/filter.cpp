@@ -10,9 +10,9 @@ namespace {
 constexpr float kHold_s = 0.5F;
 
 /// Factor by which a sighting raises or lowers the agility, which scales the process noise (see
-/// filter.hpp). With equal steps in both directions, the agility settles where consecutive
-/// innovations have equal signs as often as opposite signs, as in a filter with the correct noise
-/// variance.
+/// filter.hpp). The factor is the same in both directions. The agility therefore settles where
+/// consecutive innovations have equal signs as often as opposite signs, as in a filter with the
+/// correct noise variance.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
 /// Maximum innovation, in standard deviations, that is attributed to noise.
@@ -346,8 +346,8 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         const float pushed = push(i, dt_s, options);
         const float possible = squared(moved / kSurprise) / motion.scatter;
         const auto surprise = [&] { return possible - motion.covariance[i][i] - noise[i][i]; };
-        // If the filter lags behind the robot, successive innovations have the same sign, and the
-        // agility is increased. If the filter follows the noise, the signs alternate, and the
+        // If the filter lags behind the robot, consecutive innovations have the same sign, so the
+        // agility is increased. If the filter follows the noise, their signs alternate, so the
         // agility is decreased.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));

@@ -4,8 +4,8 @@
 /// - *pixel*: the centre of the first pixel is (0, 0), and v points down.
 /// - *undistorted* pixel: the pixel that a camera without distortion would show at the same point.
 ///   It may be outside the image.
-/// - *camera*: coordinates on the paper in mm, relative to the point that the distortion centre
-///   shows. x is along the image x axis, and y points DOWN.
+/// - *camera*: coordinates on the paper in mm, relative to the point that is visible at the
+///   distortion centre. x is along the image x axis, and y points DOWN.
 #pragma once
 
 #include <map>
@@ -42,8 +42,8 @@ struct PaperScale {
     double perspective_v = 0;
 };
 
-/// Tilt of the paper relative to the image plane. The angles and their signs are those of
-/// `CameraPose` in tools/simulate.hpp.
+/// Tilt of the paper relative to the image plane. Angles and signs are defined as in `CameraPose`
+/// (tools/simulate.hpp).
 struct Tilt {
     /// About the image x axis. If it is positive, the paper recedes towards the bottom.
     double x_rad = 0;
@@ -127,8 +127,8 @@ struct Camera {
     std::optional<double> exposure_us;
     std::optional<double> gain;
 
-    /// Standard deviations of the calibrated values, in the units of the values. The key is the
-    /// name of the value in the camera file, for example "centre_u_px".
+    /// Standard deviations of the calibrated values, in the units of these values. Each key is the
+    /// name of a value in the camera file, for example "centre_u_px".
     std::map<std::string, double> sigma;
 };
 
@@ -145,9 +145,9 @@ void validate(const Camera& camera);
 
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Inverse of `undistorted`: returns the pixel with the given undistorted pixel. If k is positive,
-/// undistorted pixels far from the distortion centre have no such pixel. For these, returns a pixel
-/// in the same direction from the distortion centre, at twice the distance.
+/// Inverse of `undistorted`. If k is positive, it has no solution far from the distortion centre.
+/// In this case, returns a pixel in the same direction from the distortion centre as `undistorted`,
+/// at twice the distance.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// Returns `pinhole` if there is one. Otherwise, returns a model with square pixels, `focal_px`,

@@ -5,7 +5,7 @@
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///
 /// `read_camera` also reads the `camera_info` files of ROS with the distortion model `plumb_bob`,
-/// and converts this model to that of the paper.
+/// and converts this model to the distortion model of the paper.
 #pragma once
 
 #include <filesystem>
@@ -34,9 +34,9 @@ Camera read_camera(const std::filesystem::path& path);
 /// `read_camera`.
 Camera parse_camera(const std::string& text, const std::string& name);
 
-/// Returns true if the file is a camera_info file of ROS. Programs should not write cameras to such
-/// a file, because `write_camera` would replace it with a file in another format. Throws Error if
-/// the file cannot be read.
+/// Returns true if the file is a camera_info file of ROS. Do not write a camera to such a file,
+/// because `write_camera` would replace it with a file in another format. Throws Error if the file
+/// cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 
 /// Writes the file atomically. Throws Error if the file cannot be written, and BadArgument if the

@@ -54,7 +54,7 @@ struct MapErrors {
 /// Maximum number of nodes along each axis.
 inline constexpr int kMaxErrorNodes = 256;
 
-/// Map of one page. Code variant, section, region and nominal spacing are those of the sheet.
+/// Map of one page. Code variant, section, region and nominal spacing equal those of the sheet.
 struct MapPage {
     std::string name;  ///< name of the sheet
     CodeVariant code = CodeVariant::anoto;
@@ -69,8 +69,8 @@ struct MapPage {
     /// Standard deviation, per axis, of the difference between the offset of a dot and the mean
     /// offset of the dots around it, in spacings.
     double jitter = 0;
-    /// Offsets of the dots, row by row. A dot that was never seen has the mean offset of the dots
-    /// around it.
+    /// Offsets of the dots, row by row. A dot that was never seen is assigned the mean offset of
+    /// the dots around it.
     std::vector<DotOffset> offsets;
     std::vector<std::uint8_t> views;  ///< number of views of each dot, at most 255
     MapErrors errors;                 ///< empty in a map of file version 1
@@ -113,9 +113,8 @@ enum class MapUse : std::uint8_t {
 /// Maximum size of a map file, in bytes. The map of a page with the size of A0 is about 20 MB.
 inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
 
-/// Parses the contents of a map file. Throws Error if the contents are not those of a map, are
-/// truncated or damaged, or have a newer version. Files of version 1 do not contain the errors of
-/// the map.
+/// Parses the contents of a map file. Throws Error if the contents are not a map, are truncated or
+/// damaged, or have a newer version. Files of version 1 do not contain the errors of the map.
 PrintMap parse_print_map(std::string_view bytes);
 
 /// Reads a map file. Throws Error, with the name of the file, if the file cannot be read or if its
@@ -127,7 +126,7 @@ PrintMap read_print_map(const std::filesystem::path& path);
 /// `views` do not contain one element per dot, or `errors` is not a grid of covariances.
 std::string print_map_bytes(const PrintMap& map);
 
-/// Throws Error unless each page of the map is a sheet of `sheets`, with the same code variant,
+/// Throws Error unless each page of the map is one of `sheets`, with the same code variant,
 /// section, region and spacing. The names may differ.
 void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets);
 

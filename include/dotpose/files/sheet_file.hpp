@@ -64,7 +64,7 @@ struct SheetPrint {
     std::string dots = "auto";  ///< method of drawing dots in a PDF: "auto", "glyphs" or "strokes"
     bool has_labels = true;     ///< true if a PDF has text and rulers in the margins
     std::string command;        ///< command that prints the same page again
-    std::string document;       ///< PDF under the dots; empty if there is none
+    std::string document;       ///< PDF document to which the dots were added, or empty
 };
 
 /// One page of a sheet file.
@@ -82,8 +82,8 @@ struct SheetEntry {
     std::optional<WorldPose> world;
     /// Print parameters. None if the entry was made by an earlier version, or not by printing.
     std::optional<SheetPrint> print;
-    /// True if the region is reserved for a page that may not exist, because the page is being
-    /// written, or because the program was stopped while it wrote the page.
+    /// True if the region is reserved for a page that may not exist yet, because it is still being
+    /// written, or because the program was stopped while writing it.
     bool is_reserved = false;
 };
 
@@ -133,8 +133,8 @@ class SheetFile {
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
 
     /// Adds `count` pages with the layout of `sheet`, each in the next free region. Ignores
-    /// `sheet.origin`. A single page gets the given name. Several pages get the names "name-1",
-    /// "name-2" and so on.
+    /// `sheet.origin`. A single page is called `name`. Several pages are called "name-1", "name-2"
+    /// and so on.
     ///
     /// A free region is at least kSheetGap_cells away from the ends of the plane and from all other
     /// regions, regardless of their code variant and section. A cell alone therefore identifies an
@@ -150,9 +150,8 @@ class SheetFile {
     SheetEntry allocate(SheetEntry entry);
 
     /// Adds a sheet with a given region. The region may touch other regions, but must not overlap
-    /// any other region. Throws BadArgument if the entry is not valid (see `validate`), if the name
-    /// is taken, or if the region overlaps the region of another sheet. The message contains the
-    /// name of the other sheet.
+    /// them. Throws BadArgument if the entry is not valid (see `validate`), if the name is taken,
+    /// or if the region overlaps the region of another sheet. The message names the other sheet.
     void add(const SheetEntry& entry);
 
     /// Replaces the sheet that has the same name as `entry`. Throws BadArgument if there is no such
@@ -177,8 +176,8 @@ class SheetFile {
 
     std::filesystem::path path_;
     std::unique_ptr<system::FileLock> lock_;  ///< lock on a hidden file beside the sheet file
-    std::optional<std::string> text_;  ///< contents of the file as read or saved; none if it did
-                                       ///< not exist
+    std::optional<std::string>
+        text_;  ///< contents of the file as read or saved, or none if it did not exist
     std::vector<SheetEntry> sheets_;
     /// Name in `text_` of each renamed sheet, indexed by its new name.
     std::map<std::string, std::string> names_in_text_;
@@ -195,8 +194,8 @@ class SheetReservation {
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
     /// Removes the entries that were not confirmed. Restores the previous file if no other program
-    /// has changed it. If the file cannot be changed, the entries remain reserved, and `tell` of
-    /// SheetFileWait is called with a message.
+    /// has changed it. If the file cannot be changed, the entries remain reserved, and
+    /// SheetFileWait::tell reports this.
     ~SheetReservation();
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;

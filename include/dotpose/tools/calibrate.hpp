@@ -66,10 +66,10 @@ inline constexpr int kWantedFrames = 5;
 enum class CalibrationVerdict {
     good,
     too_few_frames,  ///< fewer than kWantedFrames different frames have a fix
-    same_place,      ///< all frames show the same dots, so printing errors cannot be told from lens
-                     ///< errors
-    out_of_focus,    ///< the dots are blurred to about a third of the spacing or more
-    corners_unseen,  ///< dots cover less than the fraction kMinCoverage of the image
+    same_place,    ///< all frames show the same dots, so printing errors and lens errors cannot be
+                   ///< separated
+    out_of_focus,  ///< the dots are blurred to about a third of the spacing or more
+    corners_unseen,  ///< the fraction of the image that is covered by dots is below kMinCoverage
 };
 /// Returns the identifier, such as "out_of_focus".
 const char* name(CalibrationVerdict verdict);
@@ -78,8 +78,9 @@ const char* name(CalibrationVerdict verdict);
 struct CalibrationDot {
     int frame = 0;      ///< index of the frame in the series
     PixelPoint pixel;   ///< measured pixel of the dot
-    PixelPoint before;  ///< residual for a camera without distortion, skew and tilt
-    PixelPoint after;   ///< residual for the calibrated camera
+    PixelPoint before;  ///< residual before the calibration, for a camera without distortion, skew
+                        ///< and tilt
+    PixelPoint after;   ///< residual after the calibration
 };
 
 /// The calibrated camera, with measures of its reliability.
@@ -91,18 +92,18 @@ struct LensCalibration {
     bool is_mounted = true;
     CodeVariant code = CodeVariant::anoto;  ///< given or detected code variant
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
-    int frames = 0;                         ///< number of frames given
+    int frames = 0;                         ///< number of input frames
     int located = 0;                        ///< number of different frames with a fix
     int duplicates = 0;             ///< number of unused frames, which repeat an earlier image
     int dots = 0;                   ///< number of dots used
     int outliers = 0;               ///< number of dots not used
-    double residual_before_px = 0;  ///< rms residual per axis for a camera without distortion, skew
-                                    ///< and tilt
-    double residual_px = 0;         ///< rms residual per axis for the calibrated camera
+    double residual_before_px = 0;  ///< rms residual per axis before the calibration, for a camera
+                                    ///< without distortion, skew and tilt
+    double residual_px = 0;         ///< rms residual per axis after the calibration
     double px_per_spacing = 0;      ///< mean grid spacing at the image centre over all frames, in
                                     ///< px
-    double dot_width = 0;           ///< mean width of the dots at half darkness, in spacings; 1/6
-                                    ///< if they are sharp
+    double dot_width =
+        0;  ///< mean width of the dots at half darkness, in spacings (1/6 for sharp dots)
     double coverage = 0;  ///< fraction of the parts of the image (see ImageCoverage) that show dots
     CalibrationVerdict verdict = CalibrationVerdict::good;
     std::string advice;  ///< one or two sentences for the user
@@ -237,9 +238,9 @@ struct FlatFieldCalibration {
 };
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
-/// with constant exposure and light. The dots must be at different places in the frames, because
-/// the mean of the frames must show even paper. If no camera is given, the result is a new camera
-/// with the size of the frames. Uses only `progress` of the options. Throws Error in these cases:
+/// with constant exposure and light. The dots must be at different places in each frame, so that
+/// they average out over all frames. If no camera is given, the result is a new camera with the
+/// size of the frames. Uses only `progress` of the options. Throws Error in these cases:
 /// - There are fewer than 20 frames, or frames differ in size.
 /// - In the darkest part of the image, the flat field is less than kMinFlatField.
 /// - The mean frame deviates from the flat field by more than 8 % (rms).
@@ -322,7 +323,7 @@ struct SeamMeasurement {
 };
 /// World poses of sheets, with measures of their accuracy.
 struct Stitching {
-    /// The given sheets in the given order. Stitched sheets have new world poses and print scales.
+    /// The input sheets, in the same order. Stitched sheets have new world poses and print scales.
     std::vector<SheetEntry> sheets;
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
@@ -344,7 +345,7 @@ struct Stitching {
 ///
 /// Throws Error in these cases:
 /// - There are fewer than two sheets, or no frame shows two sheets.
-/// - Sheets with a world pose exist, but no frame shows one of them beside another sheet.
+/// - Some sheets have a world pose, but no frame shows one of them together with another sheet.
 /// - The reference is the width of a sheet, and no chain of frames connects this sheet to the fixed
 ///   sheet.
 /// - The reference is the camera, and it implies a print scale that differs from 1 by more than

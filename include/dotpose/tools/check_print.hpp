@@ -55,8 +55,8 @@ struct CheckPrintOptions {
     /// ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. It cannot be measured, because
-    /// dots are only a few pixels wide. The measured diameter of a dot is the diameter of a disc of
-    /// this ink that has the same total darkness.
+    /// dots are only a few pixels wide. The measured diameter of a dot is that of a disc of this
+    /// ink with the same total darkness.
     double ink_reflectance = 0.15;
     /// Called after each step of the check. `total` is an estimate that may grow during the check.
     /// Returning false aborts the check with an Error.
@@ -168,8 +168,8 @@ enum class FindingKind {
     pale,           ///< the contrast of the dots is low
     no_resolution,  ///< the scale could not be checked, because the resolution is not known
     contradiction,  ///< resolution and spacing contradict each other
-    repeated,       ///< the same cells are on the page more than once
-    unknown_sheet,  ///< the cells are on none of the given sheets
+    repeated,       ///< the page contains the same cells more than once
+    unknown_sheet,  ///< the cells are not on any of the given sheets
     unresolved,     ///< the photo is too coarse to show some of the faults above
     best_settings,  ///< the best settings of a test page
 };
@@ -203,15 +203,15 @@ struct CameraSigns {
 struct PrintCheck {
     /// All fields, the largest first. Empty if there is no pattern in the image.
     std::vector<PrintField> fields;
-    /// True if there are no fields, but the flipped image shows the pattern.
+    /// True if the pattern is found only in the flipped image. There are then no fields.
     bool is_mirrored = false;
     CodeVariant code = CodeVariant::anoto;  ///< code variant that was given or detected
     /// Probability that the detected code variant is wrong. 0 if the code variant was given.
     double code_p_wrong = 0;
     std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
     bool is_photo = false;                 ///< copy of CheckPrintOptions::is_photo
-    /// Evidence that the image is a photo. None if there is no such evidence, or if no resolution
-    /// was given. If there is evidence, the given resolution is ignored.
+    /// Evidence that the image is a photo. None if there is no evidence, or if no resolution was
+    /// given. With evidence, the given resolution is ignored.
     std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
     bool is_test_page = false;

@@ -43,9 +43,9 @@ struct DrawOptions {
     /// The fix to show, for example a fix that was corrected by a camera file, or refused after
     /// `locate`. Default: the fix of the trace.
     std::optional<Fix> fix{};
-    std::string title{};  ///< title of the caption, for example the name of the file; default: none
-    /// Place of the fix on a sheet. If it is given, the caption shows the pose in the world in
-    /// large numbers or, if the pose in the world is not known, the pose on the sheet. Default: the
+    std::string title{};  ///< title of the caption, for example the name of the file, or empty
+    /// Place of the fix on a sheet. If given, the caption shows the pose in large numbers: in the
+    /// world or, if the world pose of the sheet is unknown, on the sheet. Otherwise, it shows the
     /// pose in the pattern.
     std::optional<SheetPlace> place{};
     /// Reason and remedy for the caption if there is no fix. Default: the message of the status.
@@ -105,8 +105,8 @@ struct ResidualField {
 };
 ResidualField residual_field(const LensCalibration& calibration);
 
-/// Draws the positions of the camera while the robot turned, and the centres of rotation computed
-/// from single frames.
+/// Draws the positions of the camera during the turn of the robot, and the centre of rotation
+/// computed from each frame.
 void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
 
 /// Draws the sheets before and after stitching. Each frame that shows two sheets gives two

@@ -40,7 +40,7 @@ struct KnownFrame {
     Truth truth;
     /// Code variant of this frame. Replaces the code variant of the options.
     std::optional<CodeVariant> code;
-    std::string problem;  ///< reason why there is no image; empty if there is one
+    std::string problem;  ///< reason why there is no image, or empty
 };
 
 /// Returns frame `index`. The result must depend only on the index, because the function is called
@@ -64,13 +64,13 @@ struct FrameRun {
     FrameSource frame_at;
     /// Every frame is located with each of these options.
     std::vector<DeviceOptions> options = {DeviceOptions{}};
-    /// True to detect the code variant of frames without a known code variant, independently for
-    /// each frame.
+    /// True to detect the code variant of each frame for which `KnownFrame::code` is not set. The
+    /// frames are independent.
     bool any_code = false;
     /// Refines a fix with the trace of the frame, for example by `with_camera`. If empty, fixes are
     /// not refined. Called from several threads. The time of the refinement is not measured.
     std::function<Fix(const Fix&, const Trace&)> refine;
-    int threads = 0;  ///< number of threads; 0 for one per core
+    int threads = 0;  ///< number of threads, or 0 for one per core
     Progress progress;
 };
 

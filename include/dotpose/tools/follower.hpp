@@ -69,7 +69,7 @@ struct FollowerOptions {
 struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
-    std::optional<SheetPlace> place;  ///< place of the fix; none if the fix is not on any sheet
+    std::optional<SheetPlace> place;  ///< place of the fix, or none if it is not on any sheet
     /// Code variant of the fix and, if a place in another code variant also explains the image,
     /// this other place. In results of `locate`, `reading.fix` does not include the correction by
     /// the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong` does not
@@ -129,9 +129,9 @@ class Follower {
     /// Throws Error if the print map contains a page that is not one of the sheets.
     explicit Follower(const FollowerOptions& options);
 
-    /// Locates an image without a prediction from other images. Downscales images larger than
-    /// `kMaxFrameSide_px`, unless there is a camera file. Only the evidence for the code variant is
-    /// carried over from image to image.
+    /// Locates a single image, without a prediction from previous images. Downscales images larger
+    /// than `kMaxFrameSide_px`, unless there is a camera file. Only the evidence for the code
+    /// variant is carried over from image to image.
     Located locate(const GreyImage& image);
 
     /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the

@@ -8,7 +8,7 @@
 ///
 /// Every pixel is converted to one grey level, from 0 (black) to 255 (white). Colour is converted
 /// to the luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values. Gamma and colour
-/// profiles are ignored. Palettes are expanded, and CMYK is converted without profiles. Samples
+/// profiles are ignored. Palettes are expanded, and CMYK is converted without a profile. Samples
 /// with a maximum value other than 255, such as 16-bit samples, are scaled to 0..255 and rounded.
 /// Opaque 16-bit images in which no value exceeds 4095 are interpreted as sensor data with 8 to 12
 /// significant bits. Transparent pixels are composited on white. From a TIFF file with several
@@ -84,7 +84,7 @@ struct ImageOrigin {
     std::optional<Resolution> resolution;
 };
 
-/// Returns the origin of an image, without decoding its pixels. Throws Error if the file cannot be
+/// Returns the origin of an image without decoding its pixels. Throws Error if the file cannot be
 /// read (see `read_image`).
 ImageOrigin read_origin(const std::filesystem::path& path, int page = 1);
 

@@ -21,7 +21,7 @@ namespace dotpose {
 /// Pose of the tip in one frame of a run.
 struct InkSample {
     double t_s = 0;
-    std::string page;  ///< name of the page under the tip; empty if there are no sheets
+    std::string page;  ///< name of the page under the tip, or empty if there are no sheets
     double x_mm = 0;   ///< place on the page, or in the pattern frame: x right, y DOWN
     double y_mm = 0;
     double height_mm = 0;

@@ -105,13 +105,13 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
 /// Returns the result as (name, value) pairs for tables.
 std::vector<std::pair<std::string, std::string>> described(const Measurement& measurement);
 
-/// Writes one line for each frame: true place, found place and error.
+/// Writes one line per frame: true place, found place and error.
 void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
 /// Writes positions.csv, figure-13 and figure-14. If there are different true angles, also writes
-/// angles.csv and figure-15. The figures correspond to the figures of the paper with the same
-/// numbers. Each figure is written as .svg and .png. Frames with the same true place are samples of
-/// one position. Throws Error if no frame has a true place, or if a file cannot be written.
+/// angles.csv and figure-15. They correspond to the figures with the same numbers in the paper.
+/// Each figure is written as .svg and .png. Frames with the same true place are samples of one
+/// position. Throws Error if no frame has a true place, or if a file cannot be written.
 void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);
 
 }  // namespace dotpose

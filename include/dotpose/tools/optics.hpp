@@ -1,4 +1,4 @@
-/// Optics: predicts how a camera with given components images the pattern, for the design of a
+/// Optics: predicts the image of the pattern in a camera with given components, for the design of a
 /// device (paper III-A). The model is a thin lens focused on the paper.
 ///
 ///     const OpticsReport report = design_optics(paper_optics());
@@ -26,7 +26,7 @@ struct Optics {
     int height_px = 120;
     double pixel_um = 24;     ///< pixel pitch on the sensor, after binning
     double focal_mm = 5.5;    ///< focal length of the lens
-    double distance_mm = 16;  ///< distance from the lens to the paper; more than the focal length
+    double distance_mm = 16;  ///< distance from the lens to the paper, above the focal length
     double spacing_mm = kDefaultSpacing_mm;
     double dot_mm = kDefaultSpacing_mm / 6;
     double f_number = 2.8;  ///< focal length divided by the diameter of the aperture
@@ -92,7 +92,7 @@ struct OpticsReport {
     std::vector<OpticsAdvice> advice;
 };
 
-/// Returns the report on a device. Throws BadArgument if a value is out of range, or if the
+/// Computes the report on a device. Throws BadArgument if a value is out of range, or if the
 /// distance does not exceed the focal length.
 OpticsReport design_optics(const Optics& optics);
 

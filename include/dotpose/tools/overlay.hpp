@@ -42,15 +42,16 @@ struct OverlayOptions {
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
     double dpi = 600;      ///< resolution of the printer; see PrintOptions
     DotDrawing drawing = DotDrawing::automatic;
-    /// Numbers of the pages that get dots, from 1, for example "1-3,7". "z" is the last page. Empty
-    /// for all pages.
+    /// Numbers of the pages to which dots are added, from 1, for example "1-3,7". "z" is the last
+    /// page. Empty for all pages.
     std::string pages;
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.
     /// All pages with dots must have the same size. Cards have no links or form fields, and pages
     /// without dots are omitted. Without card paper, each page of the document remains a page.
     std::optional<Paper> card_paper;
-    bool under = false;    ///< true for dots below the content of the page instead of above
+    bool under =
+        false;  ///< true to draw the dots below the content of the page instead of above it
     std::string password;  ///< password of an encrypted file; the result is also encrypted
     /// True to replace black ink with the other inks, because black ink is visible in infrared
     /// light.
@@ -61,9 +62,9 @@ struct OverlayOptions {
     /// Increase the limit for large maps.
     int max_content_mb = 64;
     Progress progress;
-    /// Called once with all pages that get dots, before anything is written. It may change each
-    /// `sheet.origin`, for example to a free region of a SheetFile. An exception cancels the
-    /// overlay.
+    /// Called once, before anything is written, with all pages to which dots are added. It may
+    /// change each `sheet.origin`, for example to a free region of a SheetFile. An exception
+    /// cancels the overlay.
     std::function<void(std::span<OverlaidPage>)> place;
 };
 
@@ -72,7 +73,7 @@ struct OverlayReport {
     std::vector<OverlaidPage> pages;
     /// Messages for the user about content that may hide dots or was not converted.
     std::vector<std::string> warnings;
-    int card_pages = 0;  ///< number of pages with cards; 0 if there are no cards
+    int card_pages = 0;  ///< number of pages with cards, or 0 if there are no cards
 };
 
 /// Adds dots to the document `in`, and writes the result to `out`. Writes `out` atomically.

@@ -49,8 +49,8 @@ Paper landscape(Paper paper);
 struct SheetOptions {
     Pattern pattern;       ///< code, section, and dimensions of the dots
     Cell origin;           ///< cell of the top left dot; each sheet should have its own cells
-    Paper paper;           ///< size of the page; default A4 portrait
-    double margin_mm = 5;  ///< margin without ink on all sides; 0 for printers without margins
+    Paper paper;           ///< size of the page, by default A4 portrait
+    double margin_mm = 5;  ///< unprinted margin on all sides, 0 for borderless printing
 };
 
 /// Lays out a sheet: fills the page inside its margins with whole cells, from the top left.
@@ -158,7 +158,7 @@ struct InkRectangle {
 };
 
 /// A page that may contain several regions of the code, and other marks. There must be at least one
-/// sheet. The width and height of each sheet must be those of the page.
+/// sheet. Each sheet must have the width and height of the page.
 struct PrintPage {
     double width_mm = 0;
     double height_mm = 0;

@@ -47,26 +47,25 @@ struct MappedPage {
     std::size_t dots = 0;          ///< number of dots of the page
     std::size_t seen = 0;          ///< number of dots that were seen
     std::size_t observations = 0;  ///< number of measured dots in all frames
-    std::size_t outliers = 0;      ///< number of measured dots that were not used
+    std::size_t outliers = 0;      ///< number of measured dots that were rejected as outliers
     double noise_mm = 0;           ///< standard deviation of a measured dot, per axis
     /// Standard deviation of the print jitter, per axis (see MapPage::jitter).
     double jitter_mm = 0;
-    /// Rms offset of the dots, per axis, without the jitter: the smooth distortion of the page.
+    /// Rms offset of the dots, per axis, after subtraction of the jitter: the smooth distortion of
+    /// the page.
     double slow_mm = 0;
     /// True if all frames had the same scale, because the camera was mounted at a constant height.
     bool is_rigid = true;
     int iterations = 0;  ///< conjugate gradient iterations in the last round
-    /// Standard deviation of the error of the map in a view, per axis, rms over the dots that were
-    /// seen (see MapErrors). It is 0 if it is not known, because the earlier map does not contain
-    /// it.
+    /// Standard deviation per axis of the map error in a view (see MapErrors), as the rms over all
+    /// dots that were seen. 0 if unknown, because the earlier map does not contain it.
     double error_mm = 0;
 };
 
 struct PrintMapResult {
     PrintMap map;
-    std::vector<MappedPage> pages;  ///< statistics of the pages that the frames show, in the order
-                                    ///< of the map
-    std::size_t frames = 0;         ///< number of frames given
+    std::vector<MappedPage> pages;  ///< statistics of the pages in view, in the order of the map
+    std::size_t frames = 0;         ///< number of input frames
 };
 
 /// Collects the dots of frames, and computes the map. Needs 12 bytes of memory for each dot in each
@@ -81,8 +80,8 @@ class PrintMapping {
     PrintMapping& operator=(PrintMapping&&) noexcept;
 
     /// Locates a frame, and stores its dots for `solve`. Returns false if the frame is not used,
-    /// because it is not on one of the sheets or shows fewer than 20 dots of the sheet. Throws
-    /// BadArgument if the image does not have the size in the camera file.
+    /// because it shows none of the sheets, or fewer than 20 dots of a sheet. Throws BadArgument if
+    /// the image does not have the size in the camera file.
     bool add(const ImageView& image);
 
     /// Minimum number of frames of a page. If fewer frames were used, the page is not mapped.

@@ -1,5 +1,5 @@
-/// Random numbers that are the same on every machine. The distributions of `<random>` are not used,
-/// because their numbers depend on the standard library. For simulation only, not for secrets.
+/// Random numbers that are the same on every machine, unlike the distributions of `<random>`, whose
+/// results depend on the standard library. For simulation only, not for secrets.
 #pragma once
 
 #include <cstdint>

@@ -8,8 +8,8 @@
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
 /// Coordinate frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105):
-/// - `map` is the world of the sheet file. Without a sheet file, `map` is the pattern frame with y
-///   up and the same origin.
+/// - `map` is the world of the sheet file or, without a sheet file, the pattern frame with y up and
+///   the same origin.
 /// - `odom` begins at the first pose of the robot.
 /// - `base_link` is the reference point of the camera file on the paper, with the robot's heading.
 ///   Without a camera file, `base_link` is the point under the image centre, with x along the image
@@ -87,7 +87,7 @@ struct RobotUpdate {
                                   ///< are unrelated
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"
-    std::string problem;          ///< reason why there is no fix; empty if there is one
+    std::string problem;          ///< reason why there is no fix, or empty
     std::vector<KeyValue> facts;  ///< additional values of the frame, for the diagnostics
 };
 

@@ -9,8 +9,8 @@
 ///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
 ///     const GreyImage image = render(shot);
 ///
-/// Every frame depends only on (setup, i). Its bytes are the same on every machine, for any order
-/// of rendering and any number of threads. All functions are pure and thread-safe. Functions throw
+/// Each frame depends only on (setup, i), and is bit-identical on all machines, for any order of
+/// rendering and any number of threads. All functions are pure and thread-safe. Functions throw
 /// BadArgument for invalid values.
 ///
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
@@ -98,16 +98,16 @@ struct Imperfections {
     /// four inks are evenly spaced.
     double palest_ink = 1;
     double vignetting = 0;  ///< relative loss of light in the image corners; it grows with r^2
-    /// Linear change of light from one side to the opposite side, relative to the light at the
-    /// centre. 0 to 2.
+    /// Linear change of illumination across the image, relative to the illumination at the centre.
+    /// 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< direction in which the light decreases, from +u towards +v
     double blur_sigma_px = 0;
     Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose refers to
                      ///< the middle of the exposure
     double noise_sigma = 0;  ///< standard deviation of the noise, in grey levels
-    /// Standard deviation of the offsets of the pixels, in grey levels. The offsets belong to the
-    /// sensor and are the same in every frame.
+    /// Standard deviation of the fixed-pattern noise, in grey levels: an offset of each pixel that
+    /// is the same in every frame.
     double fixed_pattern = 0;
     double salt_and_pepper = 0;  ///< fraction of the pixels that are black or white
     double jitter_mm = 0;        ///< standard deviation of a printed dot's place, per axis
@@ -154,9 +154,9 @@ struct PageArea {
 /// A printed page: a pattern, its printing errors, and its extent.
 struct Page {
     Pattern pattern;
-    /// Seed of the printing errors and of the texture of the paper. The jitter, the ink and the
-    /// absence of a dot depend only on the seed, the section and the cell, so they are the same in
-    /// every frame.
+    /// Seed of the printing errors and of the texture of the paper. The jitter and the ink of a
+    /// dot, and whether it is missing, depend only on the seed, the section and the cell, so they
+    /// are the same in every frame.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
     /// `columns` is 0.
@@ -188,8 +188,8 @@ class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// Returns the pixel that shows the point at an offset. For a point that the camera cannot see,
-    /// returns (1e9, 1e9), a pixel far outside the image.
+    /// Returns the pixel that shows the point at an offset, or (1e9, 1e9), a pixel far outside the
+    /// image, if the camera cannot see the point.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
     /// Returns the offset in mm of the point that a pixel shows.
     Vec2 offset_from_pixel(Vec2 pixel) const;
@@ -226,8 +226,8 @@ GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& 
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// A page given as an image, for example a PDF rendered at 1200 dpi. Between its pixels, the grey
-/// levels are interpolated linearly.
+/// A page in the form of an image, for example a PDF rendered at 1200 dpi. Grey levels between its
+/// pixels are interpolated linearly.
 struct PageImage {
     ImageView image;  ///< 255 is bare paper, and 0 is solid ink; the page is surrounded by
                       ///< unlimited paper
@@ -283,8 +283,8 @@ struct PartialView {
 
 /// Chooses the areas with dots and the edge of the paper at random, from the shot's seed. Areas are
 /// aligned either with the pattern or with the image, with equal probability. Throws BadArgument
-/// unless 0 < `min_share` <= `max_share` <= 1, if the number of islands is not 0 to 16, or if there
-/// is no room for the islands.
+/// unless 0 < `min_share` <= `max_share` <= 1, if the number of islands is outside [0, 16], or if
+/// there is no room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 /// Renders a shot.
@@ -295,7 +295,7 @@ GreyImage render(const Shot& shot);
 enum class Scene : std::uint8_t {
     black,
     white,
-    noise,            ///< each pixel is dark with probability `density`, without any pattern
+    noise,            ///< no pattern; each pixel is dark with probability `density`
     text,             ///< a page of words
     plain_grid,       ///< dots on the intersections, not displaced
     random_symbols,   ///< a perfect grid with random symbols

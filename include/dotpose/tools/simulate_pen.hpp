@@ -30,10 +30,10 @@ struct PenPose {
     double turn_rad = 0;
 };
 
-/// Returns `shot` with the camera moved to its place in a pen that has the given pose. Sets the
-/// pose, the working distance and the scale of the camera. The focal length in px, which is the
-/// ratio of `working_distance_mm` to `mm_per_px`, does not change. Throws BadArgument if the camera
-/// does not look down at the paper, or is not above it.
+/// Returns `shot` with the camera placed in a pen with the given pose. Sets the pose, the working
+/// distance and the scale of the camera. The focal length in px, which is the ratio of
+/// `working_distance_mm` to `mm_per_px`, does not change. Throws BadArgument if the camera does not
+/// look down at the paper, or is not above it.
 Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose);
 
 /// Options of simulated handwriting.

@@ -145,7 +145,7 @@ CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covar
 
 /// Returns the pose of a camera in the world of the sheet that contains `place`. Returns none if
 /// there is no pose or no place, if the dots do not exclude the second pose, or if the sheet has no
-/// place in the world.
+/// world pose.
 std::optional<CameraInWorld> certain_in_world(const std::optional<SpacePose>& pose,
                                               const std::optional<SheetPlace>& place);
 

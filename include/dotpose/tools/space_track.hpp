@@ -40,10 +40,10 @@ struct SpaceSighting {
 };
 SpaceSighting sighting_of(const SpacePose& pose, std::int64_t time_us, std::uint32_t plane = 0);
 
-/// Returns the sighting in the world of the sheet that contains `place`, for a camera that moves
-/// over several sheets. The frame is the world frame turned about x by 180 degrees, in mm: y is
-/// down and z is into the paper, as in the pattern. Returns none if the sheet has no place in the
-/// world.
+/// Converts a pose to a sighting in the world, for a camera that moves over several sheets. `place`
+/// is on the sheet in view. The sighting is in the world frame rotated by 180 degrees about x, in
+/// mm, so y is down and z is into the paper, as in the pattern. Returns none if the sheet has no
+/// world pose.
 std::optional<SpaceSighting> world_sighting(const SpacePose& pose, const SheetPlace& place,
                                             std::int64_t time_us);
 
@@ -60,8 +60,8 @@ struct SpaceTrackOptions {
     /// Maximum normalised squared innovation of the six coordinates of an accepted sighting. A
     /// correct sighting exceeds the default by chance once in 10^7.
     double max_innovation = 45;
-    /// Number of consecutive rejected sightings that are consistent with each other after which the
-    /// track starts again from the newest of them.
+    /// Number of consecutive rejected sightings, consistent with each other, after which the track
+    /// restarts from the newest of them.
     int confirmations = 3;
     /// Time without an accepted sighting after which the camera is lost.
     std::int64_t lost_after_us = 200'000;

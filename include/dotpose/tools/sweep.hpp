@@ -36,9 +36,8 @@ const char* name(SweepKind kind);
 
 /// Options for a sweep.
 struct SweepOptions {
-    Setup setup;  ///< setup of all frames; only the varied condition is replaced
-    /// Number of frames per value. Frames with the same index differ only in the condition that is
-    /// varied.
+    Setup setup;  ///< setup of all frames, except for the varied condition
+    /// Number of frames per value. Frames with the same index differ only in the varied condition.
     int frames_per_value = 200;
     /// Options for `locate`. Both decoders are run, so `decoder` is ignored.
     DeviceOptions locate;
