@@ -24,9 +24,8 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
-/// Minimum number of dots required to search for a grid if regions are known. If `min_dots` in the
-/// options is lower, that value is used instead. In practice, a certain position needs about 25
-/// dots.
+/// Minimum number of dots required to search for a grid if regions are known. A lower `min_dots` in
+/// the options takes precedence. In practice, a certain position needs about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
 /// Whether sheets other than the known sheets may be in view.

@@ -1,6 +1,7 @@
 /// Measured motion: the displacement and rotation of the camera between two frames, from wheel
-/// odometry or an inertial unit. A Locator uses it to combine frames that do not give a certain
-/// position individually. A Tracker uses it to follow a robot over areas without a pattern.
+/// odometry or an inertial unit. A Locator uses it to combine the bits of frames that are
+/// individually insufficient for a certain position. A Tracker uses it to follow a robot over areas
+/// without a pattern.
 #pragma once
 
 #include "dotpose/export.hpp"

@@ -223,8 +223,8 @@ class Tracker {
 
     /// Updates the state with a frame and the motion since the previous update, measured by
     /// odometry. `right_mm` is along the direction theta of the sightings, which is the image x
-    /// axis or, with a camera file, the robot's heading. The motion moves the pose, and its
-    /// uncertainty increases the covariance. A sighting then corrects the result.
+    /// axis or, with a camera file, the robot's heading. The motion advances the pose, and its
+    /// uncertainty increases the covariance. The sighting, if any, then corrects both.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 

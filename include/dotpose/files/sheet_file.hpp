@@ -176,8 +176,8 @@ class SheetFile {
 
     std::filesystem::path path_;
     std::unique_ptr<system::FileLock> lock_;  ///< lock on a hidden file beside the sheet file
-    std::optional<std::string>
-        text_;  ///< contents of the file as read or saved, or none if it did not exist
+    /// Contents of the file as read or saved. None if the file did not exist.
+    std::optional<std::string> text_;
     std::vector<SheetEntry> sheets_;
     /// Name in `text_` of each renamed sheet, indexed by its new name.
     std::map<std::string, std::string> names_in_text_;

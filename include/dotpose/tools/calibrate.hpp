@@ -96,14 +96,14 @@ struct LensCalibration {
     int located = 0;                        ///< number of different frames with a fix
     int duplicates = 0;             ///< number of unused frames, which repeat an earlier image
     int dots = 0;                   ///< number of dots used
-    int outliers = 0;               ///< number of dots not used
+    int outliers = 0;               ///< number of dots rejected as outliers
     double residual_before_px = 0;  ///< rms residual per axis before the calibration, for a camera
                                     ///< without distortion, skew and tilt
     double residual_px = 0;         ///< rms residual per axis after the calibration
     double px_per_spacing = 0;      ///< mean grid spacing at the image centre over all frames, in
                                     ///< px
-    double dot_width =
-        0;  ///< mean width of the dots at half darkness, in spacings (1/6 for sharp dots)
+    /// Mean width of the dots at half darkness, in spacings. Sharp dots have a width of 1/6.
+    double dot_width = 0;
     double coverage = 0;  ///< fraction of the parts of the image (see ImageCoverage) that show dots
     CalibrationVerdict verdict = CalibrationVerdict::good;
     std::string advice;  ///< one or two sentences for the user
@@ -261,7 +261,7 @@ struct ReadoutCalibration {
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
 /// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
-/// - Fewer than 5 located frames are preceded and followed by a located frame.
+/// - Fewer than 5 frames are located together with the frames before and after them.
 /// - The standard deviation of the readout time is 10 % of the readout time or more.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);

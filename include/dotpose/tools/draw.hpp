@@ -40,7 +40,7 @@ struct DrawOptions {
     /// Spacing of the printed grid, for converting the pose to mm. If it is NaN, the pose is shown
     /// in spacings.
     double spacing_mm = kDefaultSpacing_mm;
-    /// The fix to show, for example a fix that was corrected by a camera file, or refused after
+    /// The fix to show, for example a fix that was corrected with a camera file, or rejected after
     /// `locate`. Default: the fix of the trace.
     std::optional<Fix> fix{};
     std::string title{};  ///< title of the caption, for example the name of the file, or empty

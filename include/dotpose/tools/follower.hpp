@@ -49,8 +49,8 @@ struct FollowerOptions {
     double spacing_mm = kDefaultSpacing_mm;
     /// Lens, view and mount of the camera. Images must have the size in the camera file.
     std::optional<Camera> camera;
-    /// True to flip images left to right before they are located, like `flip` in a camera file. All
-    /// pixel coordinates refer to the flipped images.
+    /// True to flip images left to right before they are located. Has the same effect as `flip` in
+    /// a camera file. All pixel coordinates refer to the flipped images.
     bool flip = false;
     /// Reference pixel of the pose. Replaces the image centre and the reference point of the camera
     /// file.

@@ -50,8 +50,8 @@ struct OverlayOptions {
     /// All pages with dots must have the same size. Cards have no links or form fields, and pages
     /// without dots are omitted. Without card paper, each page of the document remains a page.
     std::optional<Paper> card_paper;
-    bool under =
-        false;  ///< true to draw the dots below the content of the page instead of above it
+    /// True to draw the dots below the content of the page instead of above it.
+    bool under = false;
     std::string password;  ///< password of an encrypted file; the result is also encrypted
     /// True to replace black ink with the other inks, because black ink is visible in infrared
     /// light.

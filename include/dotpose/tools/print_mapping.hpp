@@ -35,8 +35,8 @@ struct PrintMappingOptions {
     /// Lens and view of the camera. Without a camera file, the lens is assumed to have no
     /// distortion, and the view is taken from the fixes.
     std::optional<Camera> camera;
-    /// Earlier map of some of the sheets. The frames update this map. Pages that are in view in
-    /// fewer than `PrintMapping::kMinFrames` frames are copied from it unchanged.
+    /// Earlier map of some of the sheets. The frames update this map. Pages seen in fewer than
+    /// `PrintMapping::kMinFrames` frames are copied from it unchanged.
     PrintMap earlier;
 };
 

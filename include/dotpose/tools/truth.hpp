@@ -22,8 +22,8 @@ struct Truth {
     double x_grid = 0;
     double y_grid = 0;
     double theta_rad = 0;
-    std::optional<Section>
-        section;  ///< section of the pose, or none to skip the check of the section
+    /// Section of the pose. If it is none, the section of the fix is not checked.
+    std::optional<Section> section;
     double spacing_mm = kDefaultSpacing_mm;
 };
 
