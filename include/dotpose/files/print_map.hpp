@@ -3,7 +3,7 @@
 /// to correct a fix.
 ///
 ///     const PrintMap map = read_print_map("desk.map");
-///     require_pages(map, sheets);  // throws Error if the map is of other pages
+///     require_pages(map, sheets);  // throws Error if the map is for other pages
 ///
 /// The file is binary and little-endian. It contains 5 bytes for each dot: 2 bytes for the offset
 /// along each axis, and 1 byte for the number of views (docs/print-map.md).

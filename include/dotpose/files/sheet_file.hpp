@@ -44,8 +44,9 @@ namespace dotpose {
 inline constexpr int kSheetFileVersion = 1;
 
 /// Number of free cells around every allocated region. It exceeds the diagonal of the largest
-/// frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). If a frame shows two sheets, the
-/// pose computed from the dots of one sheet can therefore not be in the region of the other sheet.
+/// frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). Even if a frame shows two
+/// sheets, the pose computed from the dots of one sheet is therefore never in the region of the
+/// other.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Pose of a page in the world.

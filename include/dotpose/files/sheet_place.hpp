@@ -62,9 +62,9 @@ struct WorldPlace {
 /// known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
-/// Converts the covariance of a pose from the sheet frame to the world frame: rotates it, and flips
-/// the signs of y and of the angle. `sheet_yaw_rad` is the direction of the upper edge of the page
-/// in the world. The unit of length does not change.
+/// Converts the covariance of a pose from the sheet frame to the world frame: rotates it, and
+/// negates y and the angle. `sheet_yaw_rad` is the direction of the upper edge of the page in the
+/// world. The unit of length does not change.
 PoseCovariance world_covariance(const PoseCovariance& on_sheet, double sheet_yaw_rad);
 
 }  // namespace dotpose
