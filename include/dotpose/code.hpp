@@ -116,8 +116,7 @@ struct Place {
 };
 
 /// Returns the place that is (dx, dy) intersections away from `place`. |dx| and |dy| must be less
-/// than kPositionsPerAxis. Places wrap around at the ends of each axis, into a different
-/// section.
+/// than kPositionsPerAxis. At the ends of an axis, places wrap around into a different section.
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
 /// Decodes an upright window in which all symbols are correct. Sets `place` only if the window

@@ -111,7 +111,7 @@ struct TrackOptions {
     /// Maximum `p_wrong_log2` of an accepted weak sighting, computed without the prior. Must be at
     /// most -1.
     int max_weak_p_wrong_log2 = -10;
-    /// Pattern spacing. It determines the number of places of the code inside the gate.
+    /// Pattern spacing, which determines how many places of the code are inside the gate.
     float spacing_mm = 0.508F;
 };
 
@@ -167,7 +167,7 @@ struct TrackEvents {
     /// reached by driving since its last accepted sighting.
     bool kidnapped = false;
     bool stationary = false;  ///< the robot came to rest
-    bool moving = false;      ///< the stationary robot moves again
+    bool moving = false;      ///< the robot moves again after being stationary
 };
 
 /// State after a frame.

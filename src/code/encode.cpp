@@ -14,8 +14,9 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
     // The roll is the sum of all roll differences before p, modulo 63. The difference of each line
-    // is 5 plus the weighted digits of a1 to a4. A sequence adds the sum of a whole period for each
-    // period before p, and the sum of the digits before `place` in the current period:
+    // is 5 plus the weighted digits of a1 to a4. Each sequence contributes the sum of a whole
+    // period for each period before p, and the sum of the digits before `place` in the current
+    // period:
     //
     //     roll = 5 p + sum over a1 to a4 of (periods * rolls[length] + rolls[place])
     //     periods = (p - place) / length

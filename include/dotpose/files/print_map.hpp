@@ -28,8 +28,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Offset of a dot from its nominal place, in 2^-14 spacings along x and y of the pattern. These
-/// are printed spacings: the nominal spacing times the print scale of the axis.
+/// Offset of a dot from its nominal place, in 2^-14 printed spacings along x and y of the pattern.
+/// The printed spacing is the nominal spacing times the print scale of the axis.
 struct DotOffset {
     std::int16_t x_q14 = 0;
     std::int16_t y_q14 = 0;
@@ -43,7 +43,7 @@ struct DotOffset {
 /// from the first to the last column and row of dots.
 struct MapErrors {
     /// Covariance of the shift along x and y, in spacings, and of the rotation, in rad: the
-    /// elements xx, xy, yy, x rotation, y rotation, rotation^2.
+    /// elements (x, x), (x, y), (y, y), (x, rotation), (y, rotation), (rotation, rotation).
     using Node = std::array<float, 6>;
 
     int columns = 0;          ///< number of nodes along x, at least 2; 0 if the errors are unknown
@@ -96,8 +96,8 @@ struct PrintMap {
     std::vector<MapPage> pages;
 };
 
-/// Returns the map of the page that contains a place in a code variant, or null if there is no such
-/// page. The result points into `map`.
+/// Returns the map of the page that contains `place` in the code variant `code`, or null if there
+/// is no such page. The result points into `map`.
 const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& place);
 
 /// Result of applying a map to a fix.

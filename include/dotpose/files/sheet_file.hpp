@@ -64,14 +64,14 @@ struct SheetPrint {
     double dpi = 600;           ///< resolution of the printer
     std::string dots = "auto";  ///< method of drawing dots in a PDF: "auto", "glyphs" or "strokes"
     bool has_labels = true;     ///< true if a PDF has text and rulers in the margins
-    std::string command;        ///< command that prints the same page again
+    std::string command;        ///< command that reprints the page
     std::string document;       ///< PDF document to which the dots were added, or empty
 };
 
 /// One page of a sheet file.
 struct SheetEntry {
     std::string name;  ///< name of the page, unique in the file
-    int page = 1;      ///< number of the page among the pages printed together, from 1
+    int page = 1;      ///< number of the page within its print job, from 1
     Sheet sheet;
     /// Ratio of the printed to the nominal length, 0.5 to 2. The page is scaled about the first
     /// intersection, which is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.
@@ -81,7 +81,8 @@ struct SheetEntry {
     /// Position of the top left corner of the page in the world, and direction of the upper edge of
     /// the page from this corner. None if not known.
     std::optional<WorldPose> world;
-    /// Print parameters. None if the entry was made by an earlier version, or not by printing.
+    /// Print parameters. None if the entry was created by an earlier version, or not created by
+    /// printing.
     std::optional<SheetPrint> print;
     /// True if the region is reserved for a page that may not exist yet, because it is still being
     /// written, or because the program was stopped while writing it.
@@ -118,8 +119,8 @@ struct SheetFileWait {
     std::function<bool()> stop = [] { return false; };
 };
 
-/// Exclusive access to a sheet file for changing it. Other writers wait until the object is
-/// destroyed. Readers do not wait. Not thread-safe.
+/// Exclusive write access to a sheet file. Other writers wait until the object is destroyed.
+/// Readers do not wait. Not thread-safe.
 class SheetFile {
   public:
     /// Waits for exclusive access, then reads the file. A missing file is treated as a file without
@@ -190,7 +191,7 @@ class SheetFile {
 class SheetReservation {
   public:
     /// Calls `enter` to add the sheets, and saves the file. Throws Error if the file cannot be
-    /// read, locked or written, and passes on the exceptions of `enter`. After an exception, no
+    /// read, locked or written, and propagates exceptions thrown by `enter`. After an exception, no
     /// region is reserved.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
@@ -203,8 +204,8 @@ class SheetReservation {
 
     /// Removes the marks. Must be called after the pages have been written. Adds the sheets again
     /// if another program has removed them. Throws Error if the file cannot be changed, or if
-    /// another program has given the names or cells of the sheets to other sheets. In this case,
-    /// the file is unchanged.
+    /// another program has assigned their names or cells to other sheets. In this case, the file is
+    /// unchanged.
     void confirm();
 
   private:

@@ -58,14 +58,14 @@ struct CalibrateOptions {
 /// Returns the code variant of the options, or none if it must be detected from the frames.
 std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 
-/// Required number of different frames with a fix. If there are fewer, the verdict is
+/// Required number of distinct frames with a fix. With fewer frames, the verdict is
 /// `too_few_frames`.
 inline constexpr int kWantedFrames = 5;
 
 /// Verdict on a lens calibration: `good`, or the reason why it is not reliable.
 enum class CalibrationVerdict {
     good,
-    too_few_frames,  ///< fewer than kWantedFrames different frames have a fix
+    too_few_frames,  ///< fewer than kWantedFrames distinct frames have a fix
     same_place,    ///< all frames show the same dots, so printing errors and lens errors cannot be
                    ///< separated
     out_of_focus,  ///< the dots are blurred to about a third of the spacing or more
@@ -93,7 +93,7 @@ struct LensCalibration {
     CodeVariant code = CodeVariant::anoto;  ///< given or detected code variant
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
     int frames = 0;                         ///< number of input frames
-    int located = 0;                        ///< number of different frames with a fix
+    int located = 0;                        ///< number of distinct frames with a fix
     int duplicates = 0;             ///< number of unused frames, which repeat an earlier image
     int dots = 0;                   ///< number of dots used
     int outliers = 0;               ///< number of dots rejected as outliers
@@ -111,7 +111,7 @@ struct LensCalibration {
 };
 
 /// Computes lens and scale and, if the frames determine them, tilt and focal length. Throws
-/// BadArgument if `frames` is less than 1. Throws Error if fewer than two different frames can be
+/// BadArgument if `frames` is less than 1. Throws Error if fewer than two distinct frames can be
 /// located, if the frames differ in size, if `options.sheets` is not empty and no frame shows one
 /// of these sheets, or if the frames give no plausible lens.
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
@@ -138,8 +138,8 @@ enum class MountVerdict {
 /// Returns the identifier, such as "drifted".
 const char* name(MountVerdict verdict);
 
-/// Position of the camera on a robot, from a turn on the spot. The reference point is the centre of
-/// rotation.
+/// Position of the camera on a robot, computed from the frames of a turn on the spot. The reference
+/// point is the centre of rotation.
 struct SpinCalibration {
     Camera camera;  ///< the given camera with `reference_px` set
     /// Reference point in mm, relative to the point under the image centre and along the image axes
@@ -170,8 +170,8 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
 
-/// Direction of the camera on the robot, computed from the frames of a straight drive forwards. The
-/// frames must be in the order in which they were taken.
+/// Direction of the camera on the robot, computed from the frames of a straight forward drive. The
+/// frames must be in the order in which they were captured.
 struct DriveCalibration {
     Camera camera;  ///< the given camera with `theta_offset_rad` set
     int frames = 0;
@@ -198,7 +198,7 @@ struct PivotCalibration {
     Camera camera;  ///< the given camera with `tip` set
     int frames = 0;
     int located = 0;
-    int used = 0;  ///< number of frames in which the tip is at the common point of rest
+    int used = 0;  ///< number of frames used, in which the tip is at the common point of rest
     /// Rms angle by which the pen rotated about the axis of least rotation. A larger angle gives a
     /// more accurate position of the tip.
     double pivot_rad = 0;
@@ -227,7 +227,7 @@ struct PivotCalibration {
 PivotCalibration calibrate_pivot(int frames, const FrameAt& frame_at, const Camera& camera,
                                  const CalibrateOptions& options);
 
-/// Flat field of a camera, from frames of a moving camera.
+/// Flat field of a camera, computed from frames captured while the camera moves.
 struct FlatFieldCalibration {
     Camera camera;  ///< the given camera with `flat_field` set
     int frames = 0;
@@ -248,7 +248,7 @@ FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                                           const std::optional<Camera>& camera,
                                           const CalibrateOptions& options);
 
-/// Readout time of a rolling shutter, from the frames of a drive.
+/// Readout time of a rolling shutter, computed from the frames of a drive.
 struct ReadoutCalibration {
     Camera camera;  ///< the given camera with `readout_ms` set
     int frames = 0;

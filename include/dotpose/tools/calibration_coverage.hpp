@@ -32,9 +32,9 @@ inline constexpr double kWidestDot = 0.32;
 /// Required number of distinct places on the sheet at which frames were taken (see
 /// `CalibrationCoverage::places`).
 inline constexpr int kWantedPlaces = 4;
-/// Required number of different frame directions, counted in `CalibrationCoverage::kDirections`
-/// sectors. Different directions distinguish lens distortion from a printer that stretches one axis
-/// of the paper.
+/// Required number of distinct frame directions, counted in `CalibrationCoverage::kDirections`
+/// sectors. With different directions, lens distortion can be distinguished from a print that is
+/// stretched along one axis.
 inline constexpr int kWantedDirections = 3;
 /// Maximum standard deviation of the undistorted position of the farthest corner of the image (see
 /// `corner_sigma_px`).
@@ -94,7 +94,7 @@ struct CalibrationNeed {
 /// The combined coverage of all frames taken so far.
 class CalibrationCoverage {
   public:
-    /// Number of sectors into which a full turn is divided to count directions.
+    /// Number of sectors of a full turn in which directions are counted.
     static constexpr int kDirections = 8;
 
     /// Creates an empty coverage for images of the given size, which must be positive.

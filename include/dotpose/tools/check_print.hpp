@@ -160,7 +160,7 @@ enum class FindingKind {
     swollen,       ///< dots are too large or run together
     thin,          ///< dots are too small or too pale
     missing,       ///< dots are missing
-    covered,       ///< other print covers dots
+    covered,       ///< other print covers some of the dots
     /// Many bits are wrong, because dots are displaced too much or the page has another code
     /// variant.
     bits_wrong,

@@ -71,8 +71,8 @@ std::vector<InkPage> ink_of(std::span<const InkSample> samples);
 /// Returns the page as SVG, in mm, with the size of the page.
 std::string ink_svg(const InkPage& page);
 
-/// Returns the page as InkML of the W3C, with the channels X, Y (in mm from the top left corner), T
-/// (in ms), OTx and OTy (tilts, in degrees).
+/// Returns the page as W3C InkML, with the channels X and Y (in mm from the top left corner), T (in
+/// ms), OTx and OTy (tilts, in degrees).
 std::string ink_ml(const InkPage& page);
 
 }  // namespace dotpose

@@ -24,7 +24,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// The number of a channel in its file.
+/// Number that identifies a channel within its file.
 enum class McapChannel : std::uint16_t {};
 
 /// Quality of service with which `ros2 bag play` publishes the messages of a channel. The default

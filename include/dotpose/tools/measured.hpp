@@ -54,16 +54,16 @@ struct Similarity {
     double middle_y_mm = 0;
     double shift_x_mm = 0;  ///< true minus found position of the middle
     double shift_y_mm = 0;
-    /// Angle of the rotation, in the direction of the angles of the coordinate frame.
+    /// Rotation angle, with the sign convention of the coordinate frame.
     double turn_rad = 0;
     double scale = 1;
-    /// Mean of the true angles minus the found angles, after the found angles are increased by
-    /// `turn_rad`. It is the angle from the image x axis to the heading that was measured
-    /// independently. 0 if no true angle is known.
+    /// Mean difference between the true angles and the found angles, after adding `turn_rad` to the
+    /// found angles. This is the angle from the image x axis to the independently measured heading.
+    /// 0 if no true angle is known.
     double angle_offset_rad = 0;
 };
 
-/// Fits the found places to the true places by least squares, with outliers excluded. If all true
+/// Fits the found places to the true places by least squares, excluding outliers. If all true
 /// places are equal, `turn_rad` is 0 and `scale` is 1. Throws Error if no frame has a true place
 /// and a found place on the same sheet.
 Similarity align(std::span<const MeasuredFrame> frames);

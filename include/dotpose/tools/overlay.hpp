@@ -26,8 +26,8 @@ namespace dotpose {
 /// One page with dots. The coordinates of its sheet are relative to the top left corner of the
 /// displayed page or, if there are cards, of the card.
 struct OverlaidPage {
-    /// Number of the page among the pages of all copies, from 1. The pages of the second copy are
-    /// numbered after the pages of the first copy.
+    /// Number of the page, from 1, counted over all copies: the pages of the second copy follow the
+    /// pages of the first copy.
     int number = 0;
     Sheet sheet;
     int document_page = 0;  ///< number of the page in the document, from 1

@@ -29,7 +29,7 @@ struct TipPose {
     /// the camera file.
     std::array<std::array<double, 3>, 3> covariance{};
 
-    /// Returns the standard deviation of x (0), y (1) or the height (2).
+    /// Returns the standard deviation along an axis: 0 for x, 1 for y, 2 for the height.
     double sigma_mm(std::size_t axis) const;
 };
 

@@ -69,8 +69,8 @@ Sheet make_sheet(const SheetOptions& options);
 /// right of the previous one. At the right end of the plane, the regions continue below, starting
 /// at `options.origin.x`.
 ///
-/// Throws BadArgument in the cases listed for `make_sheet`, and if `pages` is not in 1 to
-/// kMaxPages.
+/// Throws BadArgument in the cases listed for `make_sheet`, and if `pages` is outside [1,
+/// kMaxPages].
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
 /// Checks that a printer of this resolution can print the pattern. The resolution must be above 0
@@ -172,10 +172,10 @@ struct PrintPage {
 std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
                                    double height_mm);
 
-/// Writes a page as `write_sheet` does, as PDF, SVG, PNG or TIFF. Throws BadArgument for the text
-/// format, and for pages without sheets or with a sheet of another size. If regions overlap, both
-/// are printed. For PNG and TIFF, the whole page is stored in memory with one bit per pixel. A PDF
-/// contains the marks but no labels.
+/// Writes a page as PDF, SVG, PNG or TIFF, in the same way as `write_sheet`. Throws BadArgument for
+/// the text format, and for pages that contain no sheet or a sheet of another size. If regions
+/// overlap, both are printed. For PNG and TIFF, the whole page is stored in memory with one bit per
+/// pixel. A PDF contains the marks but no labels.
 void write_page(const PrintPage& page, const std::filesystem::path& path,
                 const PrintOptions& options = {});
 

@@ -39,13 +39,13 @@ class Rng {
     /// Returns a uniformly distributed number in [0, 1), a multiple of 2^-53.
     constexpr double uniform() noexcept { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-    /// Returns a uniform number in [low, high), or `low` if the limits are equal.
+    /// Returns a uniformly distributed number in [low, high), or `low` if the limits are equal.
     constexpr double uniform(double low, double high) noexcept {
         return low + (high - low) * uniform();
     }
 
-    /// Returns a uniform number in [0, limit), where 0 < limit < 2^32. The bias is below limit /
-    /// 2^64.
+    /// Returns a uniformly distributed integer in [0, limit), where 0 < limit < 2^32. The bias is
+    /// below limit / 2^64.
     constexpr std::uint32_t below(std::uint32_t limit) noexcept {
         const std::uint64_t high = bits() >> 32;
         const std::uint64_t low = bits() >> 32;

@@ -151,7 +151,7 @@ std::vector<std::uint8_t> to_cdr(const CompressedImage& message);
 /// can decode the messages.
 struct MessageType {
     std::string name;  ///< such as "geometry_msgs/msg/PoseWithCovarianceStamped"
-    /// The .msg files of the type and of all types in it, in the format ros2msg.
+    /// The .msg definitions of the type and of all types that it contains, in the format ros2msg.
     std::string definition;
     std::string hash;  ///< "RIHS01_" and 64 hexadecimal digits (ROS REP 2011)
 };

@@ -183,7 +183,7 @@ struct Page {
 Page page_of(const Sheet& sheet, std::uint64_t seed = 1);
 
 /// Camera geometry: converts between pixels and offsets from the pose point. The two conversions
-/// are inverse to each other.
+/// are inverses of each other.
 class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
@@ -222,15 +222,14 @@ class Projection {
 GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// Renders the whole plane, printed with `Page::seed` 1.
+/// Variant of `render` for a page that contains the whole plane and has the seed 1.
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
 /// A page in the form of an image, for example a PDF rendered at 1200 dpi. Grey levels between its
 /// pixels are interpolated linearly.
 struct PageImage {
-    ImageView image;  ///< 255 is bare paper, and 0 is solid ink; the page is surrounded by
-                      ///< unlimited paper
+    ImageView image;  ///< 255 is bare paper, and 0 is solid ink; unlimited paper surrounds the page
     double mm_per_px = 25.4 / 1200;
     /// Point under the image centre, relative to the upper left corner of the image: x right, y
     /// down.

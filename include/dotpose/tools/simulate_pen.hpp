@@ -19,7 +19,7 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Pose of a pen. The angles are those of `CameraLean`: the camera first looks straight at the
-/// paper, is then turned about its optical axis, and is finally leaned over by the tilt in the
+/// paper, is then turned about its optical axis, and finally leans over by the tilt in the
 /// direction of the azimuth.
 struct PenPose {
     double x_mm = 0;  ///< place of the tip in the pattern frame

@@ -52,7 +52,7 @@ struct CameraInSpace {
 };
 
 /// A rotation as three angles in the pattern or sheet frame: the camera first looks straight at the
-/// paper, is then turned about its optical axis, and is finally leaned over by the tilt in the
+/// paper, is then turned about its optical axis, and finally leans over by the tilt in the
 /// direction of the azimuth. These are the angles of a pen in the W3C's Pointer Events. The tilt is
 /// 90 degrees minus the altitude.
 struct CameraLean {
@@ -74,8 +74,9 @@ using SpaceCovariance = std::array<std::array<double, 6>, 6>;
 /// tilt is approximately the tilt of the first pose, mirrored about the line of sight.
 struct SecondPose {
     CameraInSpace camera;
-    /// log2 of the likelihood of the dots with this pose, divided by their likelihood with the
-    /// first pose. Assumes that the errors of the dots are independent. At most 0.
+    /// log2 of a likelihood ratio: the likelihood of the dots with this pose, divided by their
+    /// likelihood with the first pose. Assumes that the errors of the dots are independent. At most
+    /// 0.
     double odds_log2 = 0;
 };
 
@@ -122,7 +123,7 @@ std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const 
                                     const MapPage* map = nullptr);
 
 /// Converts a pose from the pattern frame to the frame of a sheet. The rotation and its covariance
-/// are equal in both frames.
+/// are the same in both frames.
 CameraInSpace on_sheet(const CameraInSpace& camera, const SheetEntry& entry);
 
 /// Pose of a camera in the world of a sheet file.

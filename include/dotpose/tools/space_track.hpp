@@ -49,7 +49,8 @@ std::optional<SpaceSighting> world_sighting(const SpacePose& pose, const SheetPl
 
 /// Assumptions about the motion of the camera, and criteria for accepting sightings.
 struct SpaceTrackOptions {
-    /// Standard deviation of the acceleration along each axis. The default is suitable for a hand.
+    /// Standard deviation of the acceleration along each axis. The default suits a hand-held
+    /// camera.
     double acceleration_mm_s2 = 2000;
     double angular_acceleration_rad_s2 = 20;
     double hold_s = 0.5;  ///< time constant of the decay of accelerations
@@ -57,8 +58,8 @@ struct SpaceTrackOptions {
     /// axis, at the start of a track.
     double speed_mm_s = 500;
     double turn_rad_s = 5;
-    /// Maximum normalised squared innovation of the six coordinates of an accepted sighting. A
-    /// correct sighting exceeds the default by chance once in 10^7.
+    /// Maximum normalised innovation squared, with six degrees of freedom, of an accepted sighting.
+    /// A correct sighting exceeds the default by chance about once in 10^7.
     double max_innovation = 45;
     /// Number of consecutive rejected sightings, consistent with each other, after which the track
     /// restarts from the newest of them.

@@ -24,7 +24,7 @@ enum class SweepKind : std::uint8_t {
     missing,    ///< dots not printed, %
     tilt,       ///< tilt of the camera about a random axis in the image, degrees
     spacing,    ///< grid spacing in the image, px
-    occlusion,  ///< percentage of the image that a dark area with a straight edge covers from a
+    occlusion,  ///< percentage of the image covered by a dark area with a straight edge, from a
                 ///< random side
 };
 /// All values of SweepKind, for tables.

@@ -6,9 +6,9 @@
 ///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
 ///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)
 ///
-/// The position that `locate` reads anywhere in a patch therefore identifies the patch. Cells with
-/// x and y from kTestPageCell are reserved for test pages and must not be used for sheets. The
-/// displacement of the dots is a sixth of the spacing.
+/// The position that `locate` reads anywhere in a patch therefore identifies the patch. Cells whose
+/// x and y are at least kTestPageCell are reserved for test pages and must not be used for sheets.
+/// The displacement of the dots is a sixth of the spacing.
 #pragma once
 
 #include <optional>

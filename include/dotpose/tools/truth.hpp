@@ -18,7 +18,7 @@ namespace dotpose {
 
 /// The true pose of a frame, with the conventions of `Fix`.
 struct Truth {
-    bool has_pose = true;  ///< false if the frame has no readable pattern and must be refused
+    bool has_pose = true;  ///< false if the frame has no readable pattern and must be rejected
     double x_grid = 0;
     double y_grid = 0;
     double theta_rad = 0;
