@@ -1,12 +1,11 @@
-/// The position code: functions that return the symbol printed at a grid intersection, and
-/// functions that decode a window of symbols.
+/// Position code: encodes grid intersections as symbols, and decodes windows of symbols.
 ///
 /// The code is that of section II-A of the paper. Every column contains the same cyclic sequence of
-/// bits, called *main*, read downwards. The *roll* of a column is the index in *main* of its bit in
-/// row 0. The rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference consists of
-/// four digits, one from each of the cyclic sequences a1 to a4. The lengths of these sequences are
-/// coprime, so a few consecutive differences determine the position of a column. The rows encode y
-/// in the same way.
+/// bits, called *main*, read downwards. The *roll* of a column is its phase: the index in *main* of
+/// its bit in row 0. The rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference
+/// consists of four digits, one from each of the cyclic sequences a1 to a4. The lengths of these
+/// sequences are coprime, so a few consecutive differences determine the position of a column. The
+/// rows encode y in the same way.
 ///
 /// Coordinates: x points right and y points DOWN on the printed page. All functions are pure and
 /// thread-safe, and do not allocate memory.
@@ -28,7 +27,7 @@ inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Number of sections per axis. Also the length of the main sequence.
 inline constexpr int kSections = 63;
 
-/// Variant of the position code. Variants differ only in sequence a4.
+/// Variant of the position code. The variants differ only in sequence a4.
 enum class CodeVariant : std::uint8_t {
     /// The patent's sequence a4 with its misprint corrected (docs/position-code.md). Windows are
     /// unique on the whole plane. The default for printing.
@@ -36,7 +35,7 @@ enum class CodeVariant : std::uint8_t {
     /// Sequence a4 as misprinted in the patent. Used by libdots and other open tools. Windows
     /// smaller than 8 x 8 symbols may be ambiguous.
     libdots,
-    /// Sequence a4 as in py-microdots and its ports. It differs from the patent's a4.
+    /// Sequence a4 as in py-microdots and its ports, which differs from the patent's a4.
     microdots,
 };
 /// Number of code variants.
@@ -91,18 +90,17 @@ constexpr char letter(Symbol symbol) {
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns the roll of column (or row) p in section 0, in O(1). The result is in [0, 63). `p` may
-/// be kPositionsPerAxis or more. The rolls of p and p + kPositionsPerAxis are different.
+/// be kPositionsPerAxis or more, but the rolls do not repeat with this period.
 int roll(CodeVariant code, std::uint32_t p) noexcept;
 
-/// Returns one bit of the cyclic main sequence. Any index is valid.
+/// Returns one bit of the cyclic main sequence. The index wraps around.
 int main_bit(std::uint32_t index) noexcept;
 
-/// Returns the symbol at one intersection, in O(1). For a whole page, it is faster to call `roll`
-/// once per column and once per row.
+/// Returns the symbol at one intersection, in O(1). To encode a whole page, calling `roll` once per
+/// column and once per row is faster.
 Symbol symbol_at(CodeVariant code, Cell cell, Section section) noexcept;
 
-/// Rectangle of symbols, stored row by row. The rectangle must have 6 to 32 columns and 6 to 32
-/// rows.
+/// Rectangle of symbols, stored row by row. Must have 6 to 32 columns and 6 to 32 rows.
 struct SymbolWindow {
     std::span<const Symbol> symbols;  ///< columns * rows symbols
     int columns = 0;
@@ -118,28 +116,27 @@ struct Place {
 };
 
 /// Returns the place that is (dx, dy) intersections away from `place`. |dx| and |dy| must be less
-/// than kPositionsPerAxis. Places wrap around at the ends of each axis, into a different
-/// section.
+/// than kPositionsPerAxis. At the ends of an axis, places wrap around into a different section.
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
 /// Decodes an upright window in which all symbols are correct. Sets `place` only if the window
 /// occurs exactly once in the code. Errors:
 /// - bad_window: not 6 to 32 columns and rows, or fewer than columns * rows symbols.
 /// - not_in_code: the code does not contain the window.
-/// - ambiguous: the window occurs at several places. Only `libdots` windows below 8 x 8 are
-///   affected.
+/// - ambiguous: the window occurs at several places. Possible only for `libdots` windows smaller
+///   than 8 x 8.
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
 /// Computes the position of the first of 6 to 32 adjacent columns (or rows) from their rolls. Each
-/// roll must be in [0, 63). The rolls may be indices of the bits in any row (or column) instead of
-/// row 0, but all indices must refer to the same row (or column). Errors: bad_window if the number
-/// of rolls is not from 6 to 32; not_in_code and ambiguous in the cases listed for `decode`.
+/// roll must be in [0, 63). The rolls may be measured in any row (or column) instead of row 0, but
+/// all in the same one. Errors: bad_window if the number of rolls is outside [6, 32]; not_in_code
+/// and ambiguous as for `decode`.
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
 /// Returns the section in which the column (or row) at `position` has a given roll: `Section::u`
 /// for a column, and `Section::v` for a row. `roll_seen` is the index in the main sequence of the
-/// bit that this column (or row) has in row (or column) `cross_position`.
+/// bit at which this column (or row) crosses row (or column) `cross_position`.
 int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

@@ -1,8 +1,8 @@
 /// Code evidence: the probability of each code variant, given the frames of a sheet.
 ///
-/// On most of the plane, the dots of the code variants are equal. Many frames can therefore be read
-/// in several variants, usually at the same place. If the places differ, further frames of the
-/// sheet show which variant is correct:
+/// On most of the plane, the code variants print the same dots. Many frames can therefore be
+/// decoded in several variants, usually to the same place. If the places differ, further frames of
+/// the sheet reveal which variant is correct:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {
@@ -28,34 +28,32 @@ namespace dotpose {
 
 /// Odds for each code variant of a sheet, given all frames so far.
 ///
-/// Consecutive frames at one place show the same dots with the same defects, so together they have
-/// the weight of a single frame. Each frame alone would divide the odds of a variant by a factor:
-/// the likelihood of the frame's bits in their likeliest variant, divided by their likelihood in
-/// this variant. All consecutive frames at one place together divide the odds by the mean of their
-/// factors. A frame counts as being at the same place as the preceding frames if it is less than 64
-/// cells from the first of these frames along both axes.
+/// Consecutive frames at one place show the same dots with the same defects, so they are not
+/// independent, and together have the weight of a single frame. For each variant, a frame yields a
+/// likelihood ratio: the likelihood of its bits in their likeliest variant, divided by their
+/// likelihood in this variant. All consecutive frames at one place together divide the odds of the
+/// variant by the mean of their ratios. A frame is at the same place as the preceding frames if it
+/// is less than 64 cells from the first of them along both axes.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or of the odds of each code variant, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// Maximum log2 of the ratio between the odds of the likeliest code variant and the odds of any
-    /// other code variant. The maximum applies to each frame, and to all frames together. Without
-    /// this limit, the evidence from many frames of one sheet could not be outweighed by the first
-    /// frames of a new sheet in another code variant.
+    /// Upper limit, as log2, of the odds of the likeliest code variant relative to any other
+    /// variant. It applies to each frame and to the accumulated evidence. Without this limit, the
+    /// first frames of a new sheet in another variant could not outweigh the evidence accumulated
+    /// on the previous sheet.
     static constexpr std::int32_t kMax_log2 = 40;
-    /// Maximum log2 of the factor by which all consecutive frames at one place together divide the
-    /// odds of a variant.
+    /// Upper limit, as log2, of the mean likelihood ratio of the consecutive frames at one place.
     static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
     /// Starts with equal odds for all code variants.
     CodeEvidence() = default;
 
-    /// Returns the code variant with the highest odds. Of variants with equal odds, returns the
-    /// first in the order of CodeVariant.
+    /// Returns the code variant with the highest odds. Ties are broken by the order of CodeVariant.
     CodeVariant likeliest() const;
-    /// Returns the log2 of a ratio: the odds of `code`, divided by the odds of the likeliest code
-    /// variant. The result is in units of 2^-8, and at most 0.
+    /// Returns the log2 odds of `code` relative to the likeliest code variant, in units of 2^-8.
+    /// The result is at most 0.
     std::int32_t log2_q8(CodeVariant code) const;
     /// Returns the probability, in [0, 1], that the sheet is not printed in `code`, assuming that
     /// it is printed in one of the code variants.
@@ -68,10 +66,9 @@ class CodeEvidence {
   private:
     LogOdds sum() const;
 
-    LogOdds before_log2_q8_{};  ///< log2 odds from the frames at all places before the newest place
-    /// For each code variant, the sum over all frames at the newest place. Each frame adds the
-    /// factor by which it alone would divide the odds of the variant. `sum()` uses the mean of
-    /// these factors.
+    LogOdds before_log2_q8_{};  ///< log2 odds from all frames before the newest place
+    /// Sum of the likelihood ratios of all frames at the newest place, for each code variant.
+    /// `sum()` uses their mean.
     std::array<float, kCodeVariantCount> factors_here_{};
     Cell here_;
     std::uint32_t frames_here_ = 0;
@@ -84,11 +81,10 @@ struct CodeReading {
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence including this frame
-    /// True if a place in another code variant also explains the frame. The members below contain
-    /// this other place. `Locator::locate_in_any_code` sets the flag only with the status
-    /// ambiguous_code. `Locator::locate_in_code` also sets it in other cases, which are listed
-    /// there. If the fix is ok, its `p_wrong_log2` does not include the probability that the other
-    /// place is correct.
+    /// True if a place in another code variant also explains the frame. The members below describe
+    /// that place. `Locator::locate_in_any_code` sets the flag only with the status ambiguous_code.
+    /// `Locator::locate_in_code` also sets it in the other cases listed there. If the fix is ok,
+    /// its `p_wrong_log2` does not include the probability that the other place is correct.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
     Cell other_cell{};  ///< `Fix::cell` of the other place; the fractions and the angle are those
@@ -98,8 +94,8 @@ struct CodeReading {
 
 class Locator;
 
-/// Locates the frames of one sheet, either in a given code variant or in the variant that the
-/// frames show.
+/// Locates the frames of one sheet, in a given code variant or in the variant detected from the
+/// frames.
 class CodeReader {
   public:
     /// Uses the code variant `given`. If `given` is empty, detects the code variant from all frames

@@ -1,6 +1,6 @@
 /// Device options: fixed-point options for a DeviceLocator. A Locator also accepts these options.
 /// Desktop programs usually use LocatorOptions instead, with values in millimetres, pixels and
-/// ratios. Ranges are in [brackets]. If a value is out of range, every frame gets
+/// ratios. Ranges are in [brackets]. If a value is out of range, every frame fails with
 /// Status::bad_argument.
 #pragma once
 
@@ -20,8 +20,8 @@ struct FixedLens {
     /// means no distortion. [any]
     std::int32_t k_q40 = 0;
     /// Distortion centre m relative to the image centre, in units of 2^-8 px. Default: the image
-    /// centre, as in the paper. In a real camera, the distortion centre is typically a few pixels
-    /// from the image centre. [-1024 to 1024 px]
+    /// centre, as in the paper. In a real camera, the two centres are typically a few pixels apart.
+    /// [-1024 to 1024 px]
     std::int32_t centre_dx_q8 = 0;
     std::int32_t centre_dy_q8 = 0;
 
@@ -33,9 +33,9 @@ struct FixedLens {
     }
 };
 
-/// Thresholds that separate dots from paper (paper, section II-B.1). Devices use these values. The
-/// second attempt (see Effort) filters the image first, so it derives lower thresholds from these
-/// values.
+/// Thresholds that separate dots from paper (paper, section II-B.1). A DeviceLocator uses these
+/// values. The second attempt (see Effort) derives lower thresholds from them, because it filters
+/// the image first.
 struct ThresholdOptions {
     /// Low threshold, in 1/256 of the local contrast. All pixels in a blob must be at least this
     /// much darker than the paper. Smaller values merge neighbouring dots. Larger values lose
@@ -44,15 +44,15 @@ struct ThresholdOptions {
     /// High threshold, in 1/256 of the local contrast. The darkest pixel of a blob must be at least
     /// this much darker than the paper. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
-    /// Minimum contrast of an image tile with dots, in grey levels. A tile counts as blank if its
-    /// contrast is below clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest
-    /// contrast of a tile in the frame so far. Devices use this option or
+    /// Minimum contrast of an image tile with dots, in grey levels. A tile is treated as blank if
+    /// its contrast is below clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest
+    /// contrast of a tile in the frame so far. A DeviceLocator uses this option or
     /// `DeviceOptions::min_contrast`, whichever is larger. [1 to 255]
     int min_contrast = 8;
 };
 
-/// Criteria that distinguish dots from other dark blobs (paper, section II-B.1). Used on devices
-/// and in the second attempt.
+/// Criteria that distinguish dots from other dark blobs (paper, section II-B.1). Used by a
+/// DeviceLocator and in the second attempt.
 struct BlobOptions {
     /// Minimum area of a dot, in pixels. With a value of 1 or less, salt-and-pepper noise is not
     /// removed. [0 to 2^20]
@@ -71,15 +71,15 @@ struct LatticeOptions {
     /// [0 to 2^20]
     int min_dots = 40;
     /// Maximum distance between a dot and its intersection along each axis, in units of 2^-16
-    /// spacings. Dots farther away count as noise. The nominal distance is 1/6 spacing. Used only
-    /// on devices and in the second attempt. [0 to 32768]
+    /// spacings. Dots farther away are treated as noise. The nominal distance is 1/6 spacing. Used
+    /// only by a DeviceLocator and in the second attempt. [0 to 32768]
     int max_offset_q16 = 24000;
 };
 
-/// Criteria for accepting a position. Other positions are refused as not_certain.
+/// Criteria for accepting a position. Positions that do not meet them are rejected as not_certain.
 struct IntegrityOptions {
-    /// Maximum accepted bound on the probability that a fix is wrong, as log2. Positions with a
-    /// larger bound are refused. The default is slightly below 1e-9. [-2^20 to 0]
+    /// Maximum accepted bound on the probability that a fix is wrong, as log2. The default is
+    /// slightly below 1e-9. [-2^20 to 0]
     int max_p_wrong_log2 = -30;
     /// Maximum fraction of bits that may contradict the position, in 1/256. Applies to each axis
     /// separately. A larger fraction indicates that the frame contains two patterns. [0 to 256]
@@ -89,7 +89,7 @@ struct IntegrityOptions {
 /// Attempts that `locate` makes.
 enum class Effort : std::uint8_t {
     device,  ///< one attempt in integer arithmetic, like that of a DeviceLocator
-    once,    ///< the tracked attempt, if there is a prediction, and then the first attempt
+    once,    ///< the tracked attempt if there is a prediction, then the first attempt if necessary
     twice,   ///< the attempts of `once`, and then a second attempt on the filtered image if the
              ///< first attempt fails or its fix has large residuals
 };
@@ -97,7 +97,7 @@ enum class Effort : std::uint8_t {
 /// Selects the dots from which the position is decoded.
 enum class Decoder : std::uint8_t {
     /// The clearest window of 8 x 8 symbols, as in the paper. Intended for comparison with the
-    /// paper. Replaces the first attempt by the second attempt, even with Effort::once. Has no
+    /// paper. Skips the first attempt in favour of the second, even with Effort::once. Has no
     /// effect with Effort::device.
     window,
     all,  ///< all dots in view
@@ -114,25 +114,25 @@ struct DeviceOptions {
     LatticeOptions lattice;
     IntegrityOptions integrity;
 
-    /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
-    /// status no_contrast, or the status not_tracked if a DeviceLocator began it with a prediction.
-    /// With the default of 0, each attempt applies only its own limit (LocatorOptions). [0 to 255]
+    /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast fails
+    /// with no_contrast, or with not_tracked if a DeviceLocator began it with a prediction. With
+    /// the default of 0, each attempt applies only its own limit (see LocatorOptions). [0 to 255]
     int min_contrast = 0;
 
     /// Maximum number of dots in the pose fit of the first and the tracked attempt. If more dots
-    /// are in view, the fit uses a selection that is spread evenly over the frame. The pose error
-    /// is then proportional to 1 / sqrt(max_dots), and the time of the fit is proportional to
-    /// max_dots. The default includes all dots of a VGA frame at 9 px per spacing. [any; clamped to
-    /// the range from 64 to the capacity of the memory]
+    /// are in view, the fit uses a subset that is spread evenly over the frame. The pose error then
+    /// scales with 1 / sqrt(max_dots), and the time of the fit with max_dots. The default covers
+    /// all dots of a VGA frame at 9 px per spacing. [any; clamped to the range from 64 to the
+    /// capacity of the memory]
     int max_dots = 4096;
 
     /// Spacing of the printed grid, in nm. Used to convert a fix to millimetres. Default: 0.508 mm,
     /// as in the paper. Use 0 if the spacing is unknown. [any]
     std::int32_t spacing_nm = 508'000;
 
-    /// If true, the first and the tracked attempt store dots, grid and bits in the trace. Drawing
-    /// and calibration need these results, but storing them takes time. The other attempts always
-    /// store these results.
+    /// True to store dots, grid and bits in the trace during the first and the tracked attempt.
+    /// Drawing and calibration need these results, but storing them takes time. The other attempts
+    /// always store them.
     bool show_stages = false;
 
     /// Reference point: the image point whose pose is reported. Relative to the image centre, in

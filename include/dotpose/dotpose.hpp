@@ -1,4 +1,4 @@
-/// Includes all headers that are needed to find the pose of a camera in an image.
+/// Umbrella header: includes everything that is needed to locate a camera from its images.
 #pragma once
 
 #include "dotpose/code.hpp"

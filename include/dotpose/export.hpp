@@ -1,5 +1,5 @@
-/// Macros that enclose declarations exported by the shared libraries. All other names are hidden.
-/// On Windows the macros are empty, because Mingw-w64 exports all names.
+/// Macros that enclose the declarations exported by the shared libraries. All other symbols are
+/// hidden. On Windows, the macros are empty, because Mingw-w64 exports all symbols.
 #pragma once
 
 #include "dotpose/language.hpp"

@@ -15,10 +15,10 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Attempt of `locate` that produced a fix. Each attempt has its own file in src/locate or
-/// src/device.
+/// The attempt of `locate` that produced a fix. Each attempt is implemented in a file of its own in
+/// src/locate or src/device.
 enum class Attempt : std::uint8_t {
-    tracked,  ///< dots were measured where a prediction expected them
+    tracked,  ///< the dots were measured at their predicted places
     first,    ///< the grid was found in patches of the image, without a prediction
     second,   ///< the grid was found in the filtered image
     device,   ///< the frame was located in integer arithmetic, as on a microcontroller
@@ -30,18 +30,19 @@ const char* name(Attempt attempt) noexcept;
 enum class Surface : std::uint8_t {
     even,     ///< one plane explains all dots
     divided,  ///< one part of the paper is displaced, for example at a step between two sheets; the
-              ///< pose is that of the part under the reference point
+              ///< pose refers to the part under the reference point
     uneven,   ///< neighbouring dots have correlated residuals, as on wrinkled paper; the covariance
               ///< includes the effect of this correlation
 };
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;
 
-/// Places that were considered possible when `p_wrong_log2` was computed.
+/// The set of places that `p_wrong_log2` assumes to be possible.
 enum class Prior : std::uint8_t {
-    plane,        ///< all places of the code
-    sheets,       ///< places on the known sheets; the bits of the frame exclude other sheets
-    only_sheets,  ///< places on the known sheets; other sheets were declared impossible
+    plane,   ///< all places of the code
+    sheets,  ///< places on the known sheets, after the bits of the frame ruled out other sheets
+    only_sheets,  ///< places on the known sheets, because the caller declared other sheets
+                  ///< impossible
 };
 /// Returns the identifier, such as "plane".
 const char* name(Prior prior) noexcept;
@@ -64,16 +65,16 @@ struct Fix {
     std::uint16_t fraction_y_q16 = 0;  ///< distance from `cell` downwards, in 1/65536 spacing
     std::int32_t theta_bam = 0;        ///< angle `theta` as a binary angle in [-2^31, 2^31); 2^31
                                        ///< is half a turn
-    Section section;                   ///< section where `cell` was read
+    Section section;                   ///< section in which the position was read
     std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image, in 2^-16 px
     /// Spacing of the printed grid, from the options. 0 if unknown.
     std::int32_t spacing_nm = 508'000;
 
-    /// Number of frames whose bits were combined to find the position. It exceeds 1 only if the
-    /// caller gave the camera motion between the frames.
+    /// Number of frames whose bits were combined to find the position. Greater than 1 only if the
+    /// caller provided the camera motion between the frames.
     int frames = 1;
-    int dots_seen = 0;  ///< number of dots found in the image, as dot-sized blobs or at the places
-                        ///< that the code predicts
+    int dots_seen = 0;  ///< number of dots found in the image, either as dot-sized blobs or at the
+                        ///< places predicted by the code
     int dots_used = 0;  ///< number of dots in the pose fit
     /// Number of bits that contradict the position. Each cell contributes two bits.
     int bit_errors = 0;
@@ -83,15 +84,15 @@ struct Fix {
     /// covariance is unknown.
     float residual_px = 0;
 
-    /// Map from the image to the pattern, in spacings relative to `place`. The pose is the point to
-    /// which the map takes the reference point, and the direction of the image x axis there.
-    /// `Prediction` contains the same map.
+    /// Map from the image to the pattern, in spacings relative to `place`. Mapping the reference
+    /// point, and the direction of the image x axis at that point, gives the pose. `Prediction`
+    /// contains the same map.
     PlaneFromImage pattern_from_image;
     Place place;                        ///< origin of `pattern_from_image`
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
                                         ///< 2^-16 spacing
     /// Change of theta during the readout of a rolling shutter, from the first to the last row. 0
-    /// if the frame shows no significant rotation. The pose and `pattern_from_image` apply to the
+    /// if the frame shows no significant rotation. The pose and `pattern_from_image` refer to the
     /// time at which the middle row was read.
     float readout_turn_rad = 0;
 

@@ -1,6 +1,6 @@
-/// FramePacer: schedules the next frame to save power (paper, section IV-A). While the device
-/// moves, frames are taken without a pause. After 5 s without movement, frames are taken once a
-/// second. The full rate resumes when a frame shows movement.
+/// FramePacer: lowers the frame rate of a stationary device to save power (paper, section IV-A).
+/// While the device moves, frames are captured continuously. After 5 s without movement, one frame
+/// is captured per second. The full rate resumes as soon as a frame shows movement.
 ///
 ///     FramePacer pacer;
 ///     for (;;) {
@@ -22,24 +22,24 @@ namespace dotpose {
 
 /// Criteria for movement, and frame periods.
 struct PacerOptions {
-    /// Time without movement after which the device counts as stationary. A longer time uses more
-    /// energy. With a shorter time, the device counts as stationary during brief stops, so its next
-    /// movement is detected late.
+    /// Time without movement after which the device is considered stationary. A longer time uses
+    /// more energy. With a shorter time, the frame rate drops even during brief stops, which delays
+    /// the detection of the next movement.
     std::int64_t stationary_after_us = 5'000'000;
     /// Frame period while stationary. A longer period saves energy but delays the detection of
     /// movement.
     std::int64_t stationary_period_us = 1'000'000;
-    /// Frame period while moving. With the default of 0, frames are taken as fast as possible.
+    /// Frame period while moving. With the default of 0, frames are captured as fast as possible.
     std::int64_t moving_period_us = 0;
-    /// Distance along either axis above which a device counts as moved, in units of 2^-16 spacings.
-    /// The distance is measured from the place where the device came to rest. The value must be
-    /// well above the noise of fixes at rest. Default: a tenth of a spacing.
+    /// Displacement along either axis that counts as movement, in units of 2^-16 spacings, measured
+    /// from the position at which the device came to rest. Must be well above the noise of fixes at
+    /// rest. Default: a tenth of a spacing.
     std::int32_t moved_q16 = 6554;
-    /// Rotation above which a device counts as moved, as a binary angle: 2^31 is half a turn.
-    /// Default: one degree.
+    /// Rotation that counts as movement, as a binary angle: 2^31 is half a turn. Default: one
+    /// degree.
     std::int32_t turned_bam = 11'930'465;
-    /// True if a stationary device counts as moved when it loses the pattern, because it may have
-    /// been lifted. Set this to false if frames also fail while the device is at rest.
+    /// True to treat a loss of the pattern by a stationary device as movement, because the device
+    /// may have been lifted. Set to false if frames also fail while the device is at rest.
     bool lost_is_moved = true;
 };
 
@@ -64,8 +64,8 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    /// Result of the newest frame that counted as movement, with or without a fix. Later frames are
-    /// compared with it. The first frame always counts as movement.
+    /// Reference for detecting movement: the result of the newest frame that counted as movement,
+    /// with or without a fix. The first frame always counts as movement.
     Fix rest_;
     std::int64_t rest_since_us_ = 0;  ///< time of the frame of `rest_`
 };

@@ -25,15 +25,15 @@ struct FixedVec {
 ///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)).
 ///
 /// The map is exact for a tilted camera with the paper's lens distortion (eq. 2), if `centre` is
-/// the distortion centre. The core clamps the divisor to at least 1/4, because the map folds where
-/// the divisor reaches 0.
+/// the distortion centre. The core clamps the divisor to at least 1/4, because the map is singular
+/// where the divisor is 0.
 struct PlaneFromImage {
     FixedVec centre_q8;         ///< image point of (x, y) = (0, 0), in 2^-8 px
     FixedVec at_centre_q16;     ///< plane point at `centre`, in 2^-16 spacings
-    FixedVec du_q24;            ///< spacings per px to the right, times 2^24
-    FixedVec dv_q24;            ///< spacings per px down, times 2^24
-    FixedVec perspective_q30;   ///< in 1/px, times 2^30
-    std::int32_t lens_q40 = 0;  ///< in 1/px^2, times 2^40
+    FixedVec du_q24;            ///< plane vector of 1 px to the right, in 2^-24 spacings
+    FixedVec dv_q24;            ///< plane vector of 1 px down, in 2^-24 spacings
+    FixedVec perspective_q30;   ///< perspective, in 2^-30 / px
+    std::int32_t lens_q40 = 0;  ///< lens distortion, in 2^-40 / px^2
 };
 
 }  // namespace dotpose

@@ -1,4 +1,4 @@
-/// Image: a view of an 8-bit grey image. The caller owns the pixels.
+/// Non-owning view of an 8-bit grey image.
 #pragma once
 
 #include <cstddef>

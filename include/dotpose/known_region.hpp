@@ -1,6 +1,5 @@
-/// Known regions: the parts of the code plane that are printed on the sheets that may be in view.
-/// With known regions, a Locator also reads views that are too small to be unique on the whole
-/// plane.
+/// Known regions: the rectangles of the code plane that are printed on known sheets. With known
+/// regions, a Locator also locates views that are too small to be unique on the whole plane.
 ///
 ///     static constexpr KnownRegion kSheets[] = {
 ///         {.first = {1024, 1024}, .columns = 393, .rows = 563}};
@@ -25,12 +24,11 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
-/// Minimum number of dots required to search for a grid if regions are known. If `min_dots` in the
-/// options is lower, that value is used instead. The smallest views with a certain position have
-/// about 25 dots.
+/// Minimum number of dots required to search for a grid if regions are known. A lower `min_dots` in
+/// the options takes precedence. In practice, a certain position needs about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
-/// Specifies whether sheets other than the known sheets may be in view.
+/// Whether sheets other than the known sheets may be in view.
 enum class OtherSheets : std::uint8_t {
     possible,    ///< other sheets are also located, but they need more dots in view
     impossible,  ///< only places on known sheets are possible

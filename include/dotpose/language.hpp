@@ -1,4 +1,5 @@
-/// Checks the C++ version that all headers require. Older versions fail with a clear error message.
+/// Checks that the compiler supports C++20, which all headers require. Otherwise, compilation stops
+/// with a clear error message.
 #pragma once
 
 // Also checks _MSVC_LANG, because Microsoft's compiler sets __cplusplus correctly only with the

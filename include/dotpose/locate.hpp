@@ -3,7 +3,7 @@
 ///     dotpose::Locator locator;
 ///     if (const dotpose::Fix fix = locator.locate(image)) use(fix.x_mm(), fix.y_mm());
 ///
-/// An image can also be given row by row, as a camera delivers it: call `begin`, then `push_row`
+/// An image can also be pushed row by row, as the camera delivers it: call `begin`, then `push_row`
 /// for every row from the top, then `finish`. A DeviceLocator then needs no frame buffer.
 ///
 /// Dots are dark on light paper. For white dots on black, invert the pixels first:
@@ -39,8 +39,8 @@ namespace core {
 struct Workspace;
 }  // namespace core
 
-/// Base class of Locator and DeviceLocator. Contains the options, the memory, and the state of a
-/// frame that is pushed row by row.
+/// Base class of Locator and DeviceLocator. Holds the options, the memory, and the state of a frame
+/// that is pushed row by row.
 class RowLocator {
   public:
     RowLocator(const RowLocator&) = delete;
@@ -63,7 +63,7 @@ class RowLocator {
     /// Stores the status that `begin` returns, and the number of rows of the frame. Returns
     /// `status`.
     Status note_begin(Status status, int height_px);
-    /// Counts a row. Returns false if all rows of the frame have already been pushed.
+    /// Counts a pushed row. Returns false if all rows of the frame have already been pushed.
     bool takes_row();
     /// Returns true if a frame was begun. Otherwise, sets the status of the fix to the status of
     /// `begin`, or to bad_argument if `begin` was not called.
@@ -83,8 +83,8 @@ class RowLocator {
 /// Computes the pose of the camera relative to the pattern.
 class Locator : public RowLocator {
   public:
-    /// Allocates a LargeMemory on the heap. If any option is outside its range, every frame gets
-    /// the status bad_argument, and `bad_option` returns the name of the option.
+    /// Allocates a LargeMemory on the heap. If any option is outside its range, every frame fails
+    /// with bad_argument, and `bad_option` returns the name of the option.
     explicit Locator(const LocatorOptions& options = {}) : Locator(new LargeMemory, options) {}
     /// Uses `memory`, which must outlive the locator. No other locator may use this memory while
     /// this locator exists.
@@ -117,13 +117,12 @@ class Locator : public RowLocator {
         set_fixed_options(options);
     }
 
-    /// Sets the known regions: the parts of the code plane that are printed on the sheets that may
-    /// be in view. With known regions, a view of about 30 dots is sufficient for a fix. The locator
-    /// does not copy the regions, so their array must remain valid until other regions are set or
-    /// the locator is destroyed. An empty span makes all places possible again. If a region is
-    /// empty, extends beyond the plane, or has an invalid code or section, the function returns
-    /// bad_argument, and the previous regions remain in use. Effort::device does not use the
-    /// regions.
+    /// Sets the known regions: the rectangles of the code plane that are printed on the sheets that
+    /// may be in view. With known regions, a view of about 30 dots is sufficient for a fix. The
+    /// locator does not copy the regions, so the array must remain valid until other regions are
+    /// set or the locator is destroyed. An empty span removes all regions. Returns bad_argument,
+    /// and keeps the previous regions, if a region is empty, extends beyond the plane, or has an
+    /// invalid code or section. Effort::device ignores the regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
@@ -133,20 +132,20 @@ class Locator : public RowLocator {
     Fix locate(const ImageView& image);
 
     /// Locates the pattern near the predicted place. If the image does not confirm the prediction,
-    /// it is located without the prediction. `Fix::attempt` reports which attempt succeeded. The
-    /// prediction must have been made in `options().code`.
+    /// falls back to locating it without the prediction. `Fix::attempt` reports which attempt
+    /// succeeded. The prediction must have been made in `options().code`.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
     /// Locates an image of a camera that has moved by `since_last` since the previous image. If the
     /// previous image was located, first searches near the place that the motion predicts.
     ///
     /// Successive images that are located with a motion form a series, which may include images
-    /// without a pattern. If this image alone does not give a certain position, reads it together
-    /// with the previous images of its series. A series of views that are too small or too dirty
-    /// can therefore give a fix while the camera moves. `Fix::frames` is the number of images read
-    /// together. The series ends if another function locates an image. If the motion is not usable
-    /// (see `MeasuredMotion::is_usable`), or if the options do not contain the spacing of the
-    /// printed grid, the series also ends, and the image is located alone.
+    /// without a pattern. If this image alone does not give a certain position, combines its bits
+    /// with those of the previous images of its series. A moving camera can therefore obtain a fix
+    /// from views that are individually too small or too dirty. `Fix::frames` is the number of
+    /// images whose bits were combined. Locating an image with another function ends the series. An
+    /// unusable motion (see `MeasuredMotion::is_usable`) or an unknown spacing of the printed grid
+    /// also ends the series, and the image is located alone.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
     /// Locates an image whose code variant is not known. Considers places in all code variants,
@@ -165,7 +164,7 @@ class Locator : public RowLocator {
     CodeReading locate_in_any_code(const ImageView& image, const MeasuredMotion& since_last,
                                    const CodeEvidence& evidence);
 
-    /// Locates an image in `options().code`. The fix is that of `locate`. In addition, sets
+    /// Locates an image in `options().code`. Returns the same fix as `locate`, but also sets
     /// `has_other` in three cases:
     /// - A different place, in another code variant, explains the image about as well as the place
     ///   of the fix.
@@ -183,9 +182,9 @@ class Locator : public RowLocator {
     /// Appends the next row of `width_px` pixels. Ignores rows beyond the height of the image. Also
     /// ignores all rows if `begin` was not called.
     void push_row(const std::uint8_t* pixels);
-    /// Locates the image whose rows were pushed, in the same way as `locate`. Missing rows count as
-    /// white paper. If `begin` failed, the fix has the status of `begin`. If `begin` was not
-    /// called, the status is bad_argument.
+    /// Locates the image whose rows were pushed, in the same way as `locate`. Missing rows are
+    /// treated as white paper. If `begin` failed, the fix has the status of `begin`. If `begin` was
+    /// not called, the status is bad_argument.
     Fix finish();
 
   private:
@@ -208,27 +207,27 @@ class Locator : public RowLocator {
 
     LargeMemory* owned_ = nullptr;
     bool detects_code_ = false;
-    CodeEvidence evidence_;  ///< evidence of all images so far, if the code is detected
+    CodeEvidence evidence_;  ///< evidence from all images so far, if the code is detected
 };
 
-/// A locator for microcontrollers with a camera that looks straight at the paper. Uses only integer
-/// arithmetic. The time per frame is short and bounded. The options `effort` and `decoder` have no
-/// effect. Computes neither a covariance nor a residual. Its bound on the probability that a
-/// position is wrong is simpler than that of a Locator. Positions whose bound exceeds
-/// IntegrityOptions::max_p_wrong_log2 are refused as not_certain. A program that uses only this
-/// class does not contain the code of Locator.
+/// A locator for microcontrollers whose camera looks straight at the paper. Uses only integer
+/// arithmetic, with a short and bounded time per frame. Ignores the options `effort` and `decoder`,
+/// and computes neither a covariance nor a residual. Bounds the probability that a position is
+/// wrong by a simpler method than a Locator. Positions whose bound exceeds
+/// IntegrityOptions::max_p_wrong_log2 are rejected as not_certain. A program that uses only this
+/// class does not link the code of Locator.
 class DeviceLocator : public RowLocator {
   public:
     /// Uses `memory`, which must outlive the locator. No other locator may use this memory while
-    /// this locator exists. If any option is outside its range, every frame gets the status
+    /// this locator exists. If any option is outside its range, every frame fails with
     /// bad_argument.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// Sets the known regions (see Locator::set_known). `locate` and `finish` then search for the
-    /// position in the regions first, and in the rest of the plane only if other sheets are
-    /// possible. `locate` and `finish` ignore regions in a code other than `options().code`. The
-    /// search needs no additional memory. The time of the search is proportional to the total
-    /// number of columns and rows of all regions, so there should be few regions.
+    /// Sets the known regions (see Locator::set_known). `locate` and `finish` then search the
+    /// regions first, and the rest of the plane only if other sheets are possible. They ignore
+    /// regions in a code other than `options().code`. The search needs no additional memory. The
+    /// search time is proportional to the total number of columns and rows of all regions, so use
+    /// few regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
@@ -245,7 +244,7 @@ class DeviceLocator : public RowLocator {
     /// Starts a frame whose dots are measured at their predicted places, as the rows arrive.
     /// Returns not_tracked if the prediction cannot be used. If the frame does not confirm the
     /// prediction, the fix that `finish` returns has the status not_tracked. A caller that has kept
-    /// the rows can then push them again without a prediction.
+    /// the rows can then push them again, without the prediction.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
     /// Processes the next row of `width_px` pixels. The pixels need not remain valid afterwards.

@@ -1,6 +1,6 @@
 /// LocatorOptions: options for a Locator, in millimetres, pixels and ratios. The defaults are
-/// suitable for any camera. Ranges are in [brackets]. If a value is out of range, every frame gets
-/// Status::bad_argument, and `bad_option` returns the name of the option.
+/// suitable for any camera. Ranges are in [brackets]. If a value is out of range, every frame fails
+/// with Status::bad_argument, and `bad_option` returns the name of the option.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@ namespace dotpose {
 /// Options for a Locator. All options apply to every attempt, and also to images that are pushed
 /// row by row.
 struct LocatorOptions {
-    /// Code variant of the sheet. Default: detected from all frames so far. If two code variants
-    /// explain a frame about equally well, the frame gets the status ambiguous_code.
+    /// Code variant of the sheet. By default, it is detected from all frames so far. If two code
+    /// variants explain a frame about equally well, the status is ambiguous_code.
     std::optional<CodeVariant> code;
     /// Spacing of the printed grid. Used to convert a fix to millimetres. Default: 0.508 mm, as in
     /// the paper. Use 0 if the spacing is unknown. [0 to 1000 mm]
@@ -37,16 +37,15 @@ struct LocatorOptions {
     double reference_dy_px = 0;
 
     /// Maximum accepted bound on the probability that a fix is wrong. Positions with a larger bound
-    /// are refused as not_certain. Rounded down to a power of two. [1e-300 to 1]
+    /// are rejected as not_certain. Rounded down to a power of two. [1e-300 to 1]
     double max_p_wrong = 1e-9;
     /// Maximum fraction of bits that may contradict the position. Applies to each axis separately.
     /// A larger fraction indicates that the frame contains two patterns. [0 to 1]
     double max_bit_errors = 0.18;
-    /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
-    /// status no_contrast. A larger value is useful for noisy cameras. With the default of 0, each
-    /// attempt applies only its own limit: about 12 grey levels in the first attempt
-    /// (`kMinDarkness` in core/detect/tuning.hpp), and 6 in the second attempt (locate/tuning.hpp).
-    /// [0 to 255]
+    /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast fails
+    /// with no_contrast. Increase the value for noisy cameras. With the default of 0, each attempt
+    /// applies only its own limit: about 12 grey levels in the first attempt (`kMinDarkness` in
+    /// core/detect/tuning.hpp), and 6 in the second attempt (locate/tuning.hpp). [0 to 255]
     int min_contrast = 0;
     /// Minimum number of dots required to search for a grid. A position needs at least 6 x 6 dots.
     /// [0 to 2^20]
@@ -54,8 +53,8 @@ struct LocatorOptions {
 
     Effort effort = Effort::twice;
     Decoder decoder = Decoder::all;
-    /// If true, every attempt stores dots, grid and bits in the trace. Drawing and calibration need
-    /// these results, but storing them takes time.
+    /// True to store dots, grid and bits in the trace during every attempt. Drawing and calibration
+    /// need these results, but storing them takes time.
     bool show_stages = false;
 
     /// Returns the same options in fixed point. If any option is out of range, the returned options

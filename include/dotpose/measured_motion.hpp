@@ -1,6 +1,7 @@
 /// Measured motion: the displacement and rotation of the camera between two frames, from wheel
-/// odometry or an inertial unit. A Locator uses it to combine frames that are not certain alone. A
-/// Tracker uses it to follow a robot over areas without a pattern.
+/// odometry or an inertial unit. A Locator uses it to combine the bits of frames that are
+/// individually insufficient for a certain position. A Tracker uses it to follow a robot over areas
+/// without a pattern.
 #pragma once
 
 #include "dotpose/export.hpp"
@@ -10,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Camera motion since the previous frame, with its uncertainty. The displacement is that of the
-/// reference point, along the axes of the previous image.
+/// Camera motion since the previous frame, with its uncertainty. The displacement is the motion of
+/// the reference point along the axes of the previous image.
 struct MeasuredMotion {
     float right_mm = 0;  ///< displacement along the image x axis
     float down_mm = 0;   ///< displacement along the image y axis
@@ -27,7 +28,7 @@ struct MeasuredMotion {
     bool is_usable() const;
 };
 
-/// Returns the motion that consists of `first` and then `second`.
+/// Returns the composition of two successive motions.
 MeasuredMotion followed_by(const MeasuredMotion& first, const MeasuredMotion& second);
 
 }  // namespace dotpose

@@ -1,6 +1,6 @@
-/// Memory of fixed size for a Locator or DeviceLocator. A locator reuses its memory for each frame.
-/// The memory belongs to the caller, unless a Locator allocates it. It may be static, on the heap,
-/// or on the stack if the stack is large enough. Its content is private to the core.
+/// Fixed-size memory for a Locator or DeviceLocator, which reuses it for each frame. The caller
+/// owns the memory, unless a Locator allocates it. It may be static, on the heap, or on a
+/// sufficiently large stack. Its contents are private to the core.
 #pragma once
 
 #include <array>

@@ -7,7 +7,7 @@
 ///     PacketReader reader;
 ///     for (std::uint8_t byte : received) if (reader.push(byte)) use(reader.packet());
 ///
-/// The reader refuses all packets with one to four wrong bits. It accepts about 1 in 65536 packets
+/// The reader rejects all packets with one to four wrong bits. It accepts about 1 in 65536 packets
 /// with five or more wrong bits. After a damaged packet, the reader continues with the next packet.
 /// The functions use no heap, no double precision and no global variables. Different objects may be
 /// used concurrently.
@@ -26,11 +26,11 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Version of the packet format that is written and read.
+/// Supported version of the packet format.
 inline constexpr int kPacketVersion = 1;
 
-/// The part of a fix that is sent in a packet. If `status` is not ok, only the members above `cell`
-/// are valid, and `make_packet` sets the other members to 0.
+/// The members of a fix that are sent in a packet. If `status` is not ok, only the members above
+/// `cell` are valid, and `make_packet` sets the other members to 0.
 struct PosePacket {
     std::uint16_t sequence = 0;  ///< frame number; a missing number indicates a lost packet
     std::uint32_t time_us = 0;   ///< frame time on the sender's clock; wraps every 71.6 minutes

@@ -1,7 +1,7 @@
 /// Prediction: the expected place of the pattern in the next frame. With a prediction, a Locator
 /// needs only a fraction of the time, because it measures the dots at their expected places and
-/// compares their bits with the code. A prediction never makes a fix less certain. A frame that
-/// does not confirm the prediction is located without the prediction.
+/// compares their bits with the code. A prediction never makes a fix less certain. If a frame does
+/// not confirm its prediction, the frame is located without it.
 ///
 ///     Fix fix = locator.locate(image);
 ///     for (;;) fix = locator.locate(image, Prediction::like(fix));
@@ -19,7 +19,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Expected map from the image to the pattern, with its uncertainty.
+/// Expected map from the image to the pattern in a frame, with its uncertainty.
 struct Prediction {
     /// Map from the image to the pattern, in spacings relative to `place`.
     PlaneFromImage pattern_from_image;

@@ -1,6 +1,6 @@
 /// Trace: results of each stage of `Locator::locate` for the last frame, for drawing, evaluation
-/// and calibration. The trace is read-only. Its members change when the stages change, so it is not
-/// a stable interface.
+/// and calibration. The trace is read-only. Its members follow the implementation of the stages, so
+/// it is not a stable interface.
 ///
 ///     DeviceOptions options;
 ///     options.show_stages = true;  // otherwise the first and the tracked attempt store little
@@ -45,7 +45,7 @@ struct SeedEdge {
     FixedVec step_q8;
 };
 
-/// First estimate of the grid. In the image, intersection (i, j) is at origin + i u + j v. All
+/// Initial estimate of the grid. In the image, intersection (i, j) is at origin + i u + j v. All
 /// vectors are in units of 2^-16 px.
 struct Lattice {
     FixedVec u_q16;
@@ -103,13 +103,13 @@ struct GridRegion {
 struct Decoding {
     GridRegion window;  ///< the clearest window of 8 x 8 cells
     GridRegion region;  ///< all decoded cells, at most kMaxLines x kMaxLines
-    /// Total score of the columns and rows that voted for the quarter turn. It measures how well
-    /// their bits agree with the main sequence.
+    /// Total score of the columns and rows that voted for the quarter turn: a measure of how well
+    /// their bits match the main sequence.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
     Place place;  ///< place of grid cell (0, 0) in the code; this cell may be outside the view
-    /// True if the workspace contains the scores of the lines of the region, after their rotation
-    /// by `pattern_from_grid`.
+    /// True if the workspace contains the line scores of the region, rotated by
+    /// `pattern_from_grid`.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits that were compared with the code at `place`; two per dot
     /// Upper bounds on the probability that the position is wrong along x and y, as log2 times 256.

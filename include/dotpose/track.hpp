@@ -13,8 +13,8 @@
 /// `predict` returns the expected place of the pattern in the next frame. See the loop in
 /// examples/follow_robot.cpp.
 ///
-/// Coordinates: all poses are in the plane of the sightings. This plane is the pattern frame, or
-/// the world of a sheet file if the robot drives from sheet to sheet. Positions are integers in
+/// Coordinates: all poses are in the plane of the sightings, which is the pattern frame or, for a
+/// robot that drives from sheet to sheet, the world of a sheet file. Positions are integers in
 /// nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from +x towards
 /// +y; 2^31 is half a turn. Velocities are in mm/s along x and y. Angular velocities are in rad/s.
 ///
@@ -58,24 +58,23 @@ struct Sighting {
     bool is_y_up = false;
 };
 
-/// Returns a fix as a sighting in the pattern frame. The plane ID is the section of the fix. The
+/// Converts a fix to a sighting in the pattern frame. The plane ID is the section of the fix. The
 /// fix must be ok, and its spacing must be known and at most 20 mm.
 Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits on the robot's motion, and criteria for accepting sightings.
 struct TrackOptions {
     /// Standard deviation of the robot's acceleration while it manoeuvres. The filter lowers this
-    /// value automatically during steady motion. With a larger value, the filter follows sudden
-    /// changes faster. The default is suitable for a table-top robot.
+    /// value automatically during steady motion. A larger value makes the filter follow sudden
+    /// changes faster. The default suits a table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
-    /// Maximum possible acceleration, for example in a collision. A sighting that would need a
-    /// larger acceleration is accepted only after further sightings have confirmed it.
+    /// Maximum possible acceleration, for example in a collision. A sighting that implies a larger
+    /// acceleration is accepted only after further sightings confirm it.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
-    /// Maximum speed. The maximum speed limits the distance that the robot can have moved since its
-    /// last sighting.
+    /// Maximum speed. It limits how far the robot can have moved since its last sighting.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
     /// Tolerance of the gate, in standard deviations of the innovation (the difference between the
@@ -83,25 +82,25 @@ struct TrackOptions {
     /// this tolerance plus the motion that the maximum accelerations can cause.
     float gate_sigmas = 5;
     /// Number of consecutive sightings that must be consistent with each other before a jump is
-    /// accepted. With a larger number, acceptance takes longer. With a smaller number, a single
-    /// wrong fix may be accepted.
+    /// accepted. A larger number delays the acceptance. With a smaller number, wrong fixes may be
+    /// accepted.
     int confirmations = 3;
 
-    /// Time without an accepted sighting or a motion after which the robot is lost.
+    /// Time without an accepted sighting or a measured motion after which the robot is lost.
     std::int64_t lost_after_us = 70'000;
-    /// Maximum standard deviation of the position along either axis while the pose is updated only
-    /// by motions. The robot is lost if the standard deviation is larger.
+    /// Maximum standard deviation of the position along either axis while only measured motions
+    /// update the pose. Above this limit, the robot is lost.
     float max_sigma_mm = 5;
 
-    /// Limits of the motion of a stationary robot. A robot is stationary if its pose changes by at
+    /// Limits for detecting a stationary robot. The robot is stationary if its pose changes by at
     /// most these limits along each axis for `stationary_after_us`.
     float still_mm = 0.1F;
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
     /// Standard deviations of printing errors. Their squares are added to the covariance of each
-    /// sighting. Printing errors do not average out, because they are the same in every frame at
-    /// one place.
+    /// sighting. Printing errors do not average out, because all frames at one place have the same
+    /// printing errors.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
@@ -112,7 +111,7 @@ struct TrackOptions {
     /// Maximum `p_wrong_log2` of an accepted weak sighting, computed without the prior. Must be at
     /// most -1.
     int max_weak_p_wrong_log2 = -10;
-    /// Pattern spacing. It determines the number of places of the code inside the gate.
+    /// Pattern spacing, which determines how many places of the code are inside the gate.
     float spacing_mm = 0.508F;
 };
 
@@ -164,11 +163,11 @@ struct TrackEvents {
     /// The tracker has lost the robot, because there was no accepted sighting or motion for
     /// TrackOptions::lost_after_us, or because the uncertainty exceeds TrackOptions::max_sigma_mm.
     bool lost = false;
-    /// Confirmed sightings are at a place that the robot cannot have reached by driving since its
-    /// last accepted sighting.
+    /// The robot has been moved by hand: confirmed sightings are at a place that it cannot have
+    /// reached by driving since its last accepted sighting.
     bool kidnapped = false;
     bool stationary = false;  ///< the robot came to rest
-    bool moving = false;      ///< the stationary robot moves again
+    bool moving = false;      ///< the robot moves again after being stationary
 };
 
 /// State after a frame.
@@ -205,8 +204,8 @@ struct MotionEstimate {
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference between the newest sighting and its prediction
     Matrix3 noise{};       ///< covariance of the newest sighting, including printing errors
-    /// Running mean of the squared innovation, divided by its predicted covariance and by its three
-    /// dimensions. The mean is 1 if the innovations are as large as predicted.
+    /// Running mean of the normalised innovation squared, divided by its three degrees of freedom.
+    /// It is 1 if the innovations are as large as predicted.
     float scatter = 1;
 };
 
@@ -222,10 +221,10 @@ class Tracker {
     /// not newer than the previous frame only clears the events.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
-    /// Updates the state with a frame and the odometry motion since the previous update. `right_mm`
-    /// is along the direction theta of the sightings, which is the image x axis or, with a camera
-    /// file, the robot's heading. If there is no sighting, the motion changes the pose, and its
-    /// uncertainty is added to the covariance of the pose.
+    /// Updates the state with a frame and the motion since the previous update, measured by
+    /// odometry. `right_mm` is along the direction theta of the sightings, which is the image x
+    /// axis or, with a camera file, the robot's heading. The motion advances the pose, and its
+    /// uncertainty increases the covariance. The sighting, if any, then corrects both.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 
@@ -239,9 +238,9 @@ class Tracker {
     /// consistent with it.
     ///
     /// Returns Prediction::like(newest) if no prediction is possible:
-    /// - `seen` is neither the newest sighting of the track nor the newest of the sightings that
-    ///   contradict the track,
-    /// - the robot will count as lost at `time_us`,
+    /// - `seen` is neither the newest sighting of the track nor the newest sighting that
+    ///   contradicts the track,
+    /// - the robot will be considered lost at `time_us`,
     /// - `time_us` is not after the time of `seen`,
     /// - the spacing is not known, or
     /// - the predicted motion along x or y is 2048 spacings or more.
@@ -275,13 +274,13 @@ class Tracker {
     bool has_frame_ = false;
     bool is_y_up_ = false;        ///< true if y points up in the newest sighting's plane
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
-    /// State after the newest accepted sighting or measured motion.
+    /// Filter state after the newest accepted sighting or measured motion.
     track::MotionEstimate last_;
-    /// Estimate from the newest sightings that contradict the track. It is updated like the track,
+    /// Estimate from the newest sightings that contradict the track. It is filtered like the track,
     /// because the robot may have been put down elsewhere.
     track::MotionEstimate candidate_;
     int agreeing_ = 0;  ///< number of sightings in `candidate_`
-    TrackedPose rest_;  ///< pose relative to which movement is measured
+    TrackedPose rest_;  ///< reference pose for detecting movement
 };
 
 }  // namespace dotpose

@@ -1,5 +1,5 @@
-/// Version of dotpose, as preprocessor macros. The build, the packages and the other languages read
-/// it from this header.
+/// Version of dotpose, as preprocessor macros. The build, the packages and the language bindings
+/// read it from this header.
 #pragma once
 
 #include "dotpose/language.hpp"

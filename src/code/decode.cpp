@@ -54,8 +54,8 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     return places;
 }
 
-/// Returns the place in the main sequence where the bits of a column or row begin. Returns kAbsent
-/// if the main sequence does not contain these bits.
+/// Returns the index in the main sequence at which the bits of a column or row begin, or kAbsent if
+/// the main sequence does not contain these bits.
 std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
     const int length = columns ? window.rows : window.columns;
     const auto bit = [&](int i) -> unsigned {

@@ -14,8 +14,9 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
     // The roll is the sum of all roll differences before p, modulo 63. The difference of each line
-    // is 5 plus the weighted digits of a1 to a4. A sequence adds the sum of a whole period for each
-    // period before p, and the sum of the digits before `place` in the current period:
+    // is 5 plus the weighted digits of a1 to a4. Each sequence contributes the sum of a whole
+    // period for each period before p, and the sum of the digits before `place` in the current
+    // period:
     //
     //     roll = 5 p + sum over a1 to a4 of (periods * rolls[length] + rolls[place])
     //     periods = (p - place) / length
@@ -59,7 +60,7 @@ struct AxisPlace {
     std::uint8_t cross;
 };
 
-/// Returns the place of the position `target`, which is outside [0, L), where L =
+/// Returns `place` moved to the position `target`, which is outside [0, L), where L =
 /// kPositionsPerAxis. Not inlined, because the function is rarely called.
 [[gnu::noinline]] AxisPlace wrapped(CodeVariant code, AxisPlace place, std::int64_t target) {
     // For a move by L along x, the rolls of columns p and p + L differ by roll(L), so the column

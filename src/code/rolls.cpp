@@ -13,8 +13,8 @@ int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32
 }
 
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place) {
-    // The contributions of a4 to the two rolls are computed as in `roll`. kPeriods is a multiple of
-    // 63 that exceeds any contribution, so adding it keeps their difference positive.
+    // Computes the contribution of a4 to each roll in the same way as `roll`. kPeriods is a
+    // multiple of 63 that exceeds any contribution, so adding it keeps their difference positive.
     constexpr std::uint32_t kPeriods = 512 * kSections;
     const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
     const auto by_a4 = [&](CodeVariant code) {
@@ -62,8 +62,8 @@ void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::ui
     }
 }
 
-// Computes `sum_` as `roll` computes a roll, but without the contributions of the places in the
-// sequences, which `at` adds.
+// `sum_` is the roll as computed by `roll`, except for the terms `rolls[place]` of the sequences,
+// which `at` adds.
 RollsAhead::RollsAhead(CodeVariant code, std::uint32_t position)
     : sequences_(basis(code)),
       lines_(modulo_sections(position) + 4 * kSections),

@@ -1,5 +1,5 @@
 // Rolls: computes the rolls of columns and rows. The roll of a line is the index in the main
-// sequence at which its bits begin. For adjacent lines, `follow_rolls` is faster than a call of
+// sequence at which its bits begin. For adjacent lines, `follow_rolls` is faster than calling
 // `roll_from` for each line.
 #pragma once
 
@@ -31,13 +31,13 @@ void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
 void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross,
                   std::span<std::uint8_t> rolls);
 
-/// Computes the rolls of consecutive lines in section 0 on demand. `follow_rolls` computes the
-/// rolls of all lines, which takes longer if few rolls are needed.
+/// Computes the rolls of consecutive lines in section 0 on demand. If only a few rolls are needed,
+/// this is faster than `follow_rolls`, which computes all of them.
 class RollsAhead {
   public:
     RollsAhead(CodeVariant code, std::uint32_t position);
 
-    /// Advances the position by 63 lines. This is faster than making a new object.
+    /// Advances the position by 63 lines. This is faster than constructing a new object.
     void advance();
     /// Returns the roll of the line `position` + i plus `added`, modulo 63. Requires i <
     /// kLinesAhead and added < 63.
@@ -47,8 +47,8 @@ class RollsAhead {
     }
 
   private:
-    /// Sets the place in sequence k. Adds the roll of the whole periods of the sequence before this
-    /// place to `sum_`.
+    /// Sets the place in sequence k, and adds the contribution of the preceding whole periods of
+    /// the sequence to `sum_`.
     void add(const Secondary& sequence, std::size_t k, std::uint32_t place) {
         here_[k] = sequence.rolls + place;
         sum_ += (lines_ - place) * sequence.period_roll;

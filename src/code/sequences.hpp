@@ -51,7 +51,8 @@ inline constexpr auto kA4Microdots = digits(
 
 // ---- Proofs, by enumeration at compile time -----------------------------------------------------
 
-/// Returns the `length` digits from `start` as a number in base `base`. The sequence is cyclic.
+/// Returns the `length` digits that begin at `start`, as a number in base `base`. The sequence is
+/// cyclic.
 template <std::size_t Length>
 constexpr unsigned key(const Digits<Length>& sequence, std::size_t start, int length,
                        unsigned base) {

@@ -11,21 +11,20 @@
 
 namespace dotpose::code {
 
-/// Table entry of a string of digits that does not occur in a sequence.
+/// Table entry for a digit string that does not occur in the sequence.
 inline constexpr std::uint8_t kAbsent = 255;
 /// Number of consecutive roll differences that determine a place in a secondary sequence. Each
 /// difference contains one digit of the sequence. In the a4 of `libdots`, some strings of this
 /// length occur twice (see `Secondary::has_twins`).
 inline constexpr int kOrder = 5;
 
-/// Number of entries beyond the end of a sequence, so that loops over adjacent lines do not have to
-/// wrap around. kLinesAhead entries are enough for a view of 64 lines that begins at the last
-/// place. A vector load that begins at the last line of such a view reads up to kVectorAhead
-/// entries more.
+/// Padding of the tables beyond the end of a sequence, so that loops over adjacent lines need not
+/// wrap around. kLinesAhead entries cover a view of 64 lines that begins at the last place. The
+/// kVectorAhead entries after them cover a vector load that begins at the last line of such a view.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63 for n < 4095. Uses no division, because 64 modulo 63 is 1.
+/// Returns n modulo 63 for n < 4095. Replaces the division by shifts, because 64 modulo 63 is 1.
 constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
@@ -46,9 +45,8 @@ struct Secondary {
     /// First place of each 5-digit string, or kAbsent if the string does not occur. The index is
     /// the `key` of the string.
     const std::uint8_t* first_place_of;
-    /// For each digit, the set of places that contain the digit: bit i is 1 if place i contains it.
-    /// Place 0 is the lowest bit of the first word. The sequence is repeated to fill 256 +
-    /// kLinesAhead bits.
+    /// For each digit, a bit set of the places at which the digit occurs. Place 0 is the lowest bit
+    /// of the first word. The sequence is repeated to fill 256 + kLinesAhead bits.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< 65536 modulo length
@@ -75,9 +73,9 @@ struct Secondary {
         return static_cast<std::uint8_t>((weighted >= weight ? 1 : 0) +
                                          (weighted > weight ? 1 : 0));
     }
-    /// Compares the `count` digits from `place` on with the `count` digits from each of the 32
-    /// places that begin at 32 * word. Bit i of the result is 1 if the digits from place 32 * word
-    /// + i on are equal. Indices wrap around. Bits beyond the end of the sequence are 0.
+    /// Compares the `count` digits that begin at `place` with those that begin at each of 32
+    /// places. Bit i of the result is 1 if the digits that begin at place 32 * word + i are equal.
+    /// Indices wrap around. Bits beyond the end of the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
@@ -186,7 +184,7 @@ constexpr unsigned digit_of_delta(std::size_t delta, std::size_t n) {
     return kDigitsOfDelta[delta - kMinDelta] >> 2 * n & 3U;
 }
 
-/// The main sequence, repeated to provide the 256 bits that start at any index below 63.
+/// The main sequence, repeated so that 256 bits can be read from any index below 63.
 inline constexpr auto kMainRepeated = [] {
     std::array<std::uint8_t, kSections + 256> bits{};
     for (std::size_t i = 0; i < bits.size(); ++i)
@@ -194,7 +192,8 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// The 32 bits of the main sequence from each index on. The first bit is the lowest bit.
+/// For each index, the 32 bits of the main sequence that begin there. The first bit is the lowest
+/// bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -204,7 +203,7 @@ inline constexpr auto kMainWords = [] {
     return words;
 }();
 
-/// Returns the 64 bits of the main sequence from `index` on. The first bit is the lowest bit.
+/// Returns the 64 bits of the main sequence that begin at `index`. The first bit is the lowest bit.
 constexpr std::uint64_t main_bits(std::size_t index) {
     const std::size_t next = index + 32;
     return kMainWords[index] | std::uint64_t{kMainWords[next < kSections ? next : next - kSections]}

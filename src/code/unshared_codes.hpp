@@ -1,6 +1,6 @@
 // Unshared lines between codes: how well a position in one code can be distinguished from all
 // positions in another code. The tables contain the minimum number of lines that differ, as defined
-// in unshared_lines.hpp. The tables are generated. tests/unit/code/unshared_codes_test.cpp
+// in unshared_lines.hpp. The tables are generated, and tests/unit/code/unshared_codes_test.cpp
 // recomputes them.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace dotpose::code {
 
 /// Minimum numbers of unshared lines between a position in the code that was read and any position
 /// in another code. Indices: code that was read, other code, row of `kUnsharedOf`. Each string has
-/// one digit for each place of the first line in a4. Because most of a4 is equal in anoto and
-/// libdots, the minimum between these codes excludes the same place at shift 0.
+/// one digit for each place of the first line in a4. Because anoto and libdots have most of a4 in
+/// common, the minimum between these codes excludes the same place at shift 0.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

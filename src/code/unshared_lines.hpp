@@ -1,7 +1,7 @@
-// Unshared lines: how many lines distinguish two positions whose places differ in only one of the
-// four sequences. If the rolls of two positions differ by the same shift in several lines, the
-// positions *share* these lines, because the lines have the same bits if the sections differ by
-// this shift. tests/unit/code/unshared_lines_test.cpp recomputes the tables.
+// Unshared lines: the number of lines that distinguish two positions whose places differ in only
+// one of the four sequences. Two positions *share* the lines whose rolls differ by the same shift:
+// if the sections also differ by this shift, these lines have the same bits.
+// tests/unit/code/unshared_lines_test.cpp recomputes the tables.
 #pragma once
 
 #include <array>

@@ -29,8 +29,7 @@ std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
 
 Framed frame(const Plain& plain) {
     Framed framed{};
-    // In the encoded bytes, a code byte replaces each zero. It contains the distance to the next
-    // zero.
+    // COBS replaces each zero with a code byte, which contains the distance to the next zero.
     std::size_t code_at = 0;
     for (std::size_t i = 0; i < plain.size(); ++i) {
         if (plain[i] != 0) {

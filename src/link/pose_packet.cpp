@@ -92,8 +92,8 @@ bool unpack(const Plain& plain, PosePacket& packet) {
     return true;
 }
 
-/// Rounds an angle to the nearest multiple of 2^-16 turn. Half a turn is returned as minus half a
-/// turn.
+/// Rounds an angle to the nearest multiple of 2^-16 turn. Half a turn is represented as minus half
+/// a turn.
 std::int16_t rounded_bam16(std::int32_t theta_bam) {
     const std::uint32_t bits = static_cast<std::uint32_t>(theta_bam) + 0x8000U;
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits >> 16));
@@ -102,8 +102,8 @@ std::int16_t rounded_bam16(std::int32_t theta_bam) {
 std::uint8_t deviation_q12(const Fix& fix) {
     const float variance = std::max(fix.covariance[0][0], fix.covariance[1][1]);
     const float deviation = std::sqrt(std::max(variance, 0.0F)) * 4096.0F;
-    // The code 255 means that the deviation is unknown, for example because the fix has no
-    // covariance, or too large for the other codes.
+    // 255 means that the deviation is unknown (for example, the fix has no covariance) or too large
+    // for the other values.
     if (!(deviation > 0) || deviation >= 254) return 255;
     return static_cast<std::uint8_t>(static_cast<int>(deviation) + 1);
 }

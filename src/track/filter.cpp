@@ -9,13 +9,13 @@ namespace {
 /// Time constant of the acceleration decay.
 constexpr float kHold_s = 0.5F;
 
-/// Factor by which a sighting increases or decreases the agility, the factor of the process noise
-/// (see filter.hpp). Because the factor is the same in both directions, consecutive innovations in
-/// equilibrium have equal signs as often as opposite signs, as in a filter with the correct noise
-/// variance.
+/// Factor by which a sighting raises or lowers the agility, which scales the process noise (see
+/// filter.hpp). The factor is the same in both directions. The agility therefore settles where
+/// consecutive innovations have equal signs as often as opposite signs, as in a filter with the
+/// correct noise variance.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
-/// Minimum innovation, in standard deviations, that is not attributed to noise.
+/// Maximum innovation, in standard deviations, that is attributed to noise.
 constexpr float kSurprise = 4;
 /// Number of sightings over which the scatter is averaged. The scatter is the ratio of the squared
 /// innovations to the variances that the filter expects.
@@ -96,9 +96,9 @@ void add_noise(Covariance9& covariance, std::size_t axis, float variance, const 
     }
 }
 
-/// Sets the pose covariance. If sightings scatter less than their covariances predict, some of the
-/// error is common to all sightings. The covariance includes this common error, because averaging
-/// does not reduce it.
+/// Sets the pose covariance. If sightings scatter less than their covariances predict, part of
+/// their error is common to all of them. Averaging does not reduce this common error, so the pose
+/// covariance includes it in full.
 void set_pose_covariance(MotionEstimate& motion) {
     const float common = std::max(1 - motion.scatter, 0.0F);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -156,9 +156,10 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         }
         p[i][i] += kRounding * before[i][i];
     }
-    // The upper three rows equal R S^-1 H P, a product without cancellation. The subtraction above
-    // would lose all digits of these rows in single precision after a long gap. The other elements
-    // need the subtraction, so their diagonal includes a bound on the rounding error.
+    // The upper three rows equal R S^-1 H P, a product without cancellation. After a long gap, the
+    // subtraction above would lose all significant digits of these rows in single precision. The
+    // other elements need the subtraction, so a bound on the rounding error was added to their
+    // diagonal.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)
@@ -259,7 +260,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
     //
     //     g = e_new - e_old - by_theta * e_old[2]
     //
-    // The last term is due to the old theta, which rotates the measured displacement.
+    // The last term is the effect of the error in the old theta, by which the displacement is
+    // rotated.
     std::array<Vector9, 3> with_old{};  // covariance between old pose and new state
     for (std::size_t k = 0; k < 3; ++k) {
         with_old[k] = motion.covariance[k];
@@ -300,8 +302,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
         }
         later.covariance[i][i] += kRounding * before[i][i];
     }
-    // A scatter below 1 is a property of sightings. It does not apply to a motion, because odometry
-    // errors are independent of sighting errors.
+    // A scatter below 1 applies only to sightings, because odometry errors are independent of
+    // sighting errors.
     const float scatter = later.scatter;
     later.scatter = std::max(scatter, 1.0F);
     set_pose_covariance(later);
@@ -344,8 +346,8 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         const float pushed = push(i, dt_s, options);
         const float possible = squared(moved / kSurprise) / motion.scatter;
         const auto surprise = [&] { return possible - motion.covariance[i][i] - noise[i][i]; };
-        // If the filter lags behind the robot, successive innovations have the same sign, and the
-        // agility is increased. If the filter follows the noise, the signs alternate, and the
+        // If the filter lags behind the robot, consecutive innovations have the same sign, so the
+        // agility is increased. If the filter follows the noise, their signs alternate, so the
         // agility is decreased.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));

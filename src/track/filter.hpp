@@ -38,8 +38,8 @@ struct Innovation {
 Innovation innovation(const MotionEstimate& predicted, const Sighting& sighting,
                       const TrackOptions& options);
 
-/// Adapts the agility and the covariance of a prediction to a sighting. `dt_s` is the time since
-/// the previous sighting.
+/// Adapts the agility and the covariance of a prediction to the innovation of a sighting. `dt_s` is
+/// the time since the previous sighting.
 MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting, float dt_s,
                       const TrackOptions& options);
 

@@ -21,8 +21,8 @@ std::int32_t turn_bam(std::int32_t a, std::int32_t b) {
 bool FramePacer::has_moved(const Fix& fix) const {
     const bool was_seen = rest_.status == Status::ok;
     if (fix.status != Status::ok) {
-        // A frame without a fix does not prove that a moving device is still moving. In contrast, a
-        // stationary device that had a fix loses it only if it was moved.
+        // While the device moves, a frame without a fix is not evidence of further movement. A
+        // stationary device that had a fix, however, is assumed to lose it only by being moved.
         return options_.lost_is_moved && was_seen && motion_ == Motion::stationary;
     }
     if (!was_seen) return true;

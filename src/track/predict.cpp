@@ -9,9 +9,9 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Minimum standard deviations of a prediction. They are needed because the filter covariance
-/// becomes too small when the robot rests for a long time. The dot search covers three standard
-/// deviations, which are at least 3/32 spacing and 0.53 degrees.
+/// Minimum standard deviations of a prediction, because the filter covariance becomes too small
+/// when the robot rests for a long time. The dot search covers three standard deviations, so it
+/// covers at least 3/32 spacing and 0.53 degrees.
 constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
 constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;
@@ -41,8 +41,9 @@ std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max
 }
 
 /// Returns the standard deviation of the predicted pose along an axis, from the covariances of the
-/// filter and of the fix. `unforeseen` is a motion that the filter cannot predict. A third of it is
-/// added, because the search, which covers three standard deviations, must include this motion.
+/// filter and of the fix. `unforeseen` is the largest motion that the filter cannot predict. A
+/// third of it is added, because the search covers three standard deviations and must include this
+/// motion.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

@@ -203,7 +203,7 @@ bool Tracker::is_confirmed(const Sighting& sighting) {
 void Tracker::restart(const MotionEstimate& motion) {
     track_.events.fix = track_.is_lost;
     track_.is_lost = false;
-    // A robot that was lifted and put down elsewhere has moved, even if it does not move now.
+    // A robot that was lifted and put down elsewhere has moved, even if it is now at rest.
     track_.events.moving = track_.is_stationary;
     track_.is_stationary = false;
     was_seen_ = true;

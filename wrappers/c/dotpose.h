@@ -172,7 +172,7 @@ typedef struct dotpose_plane {
 
 /* Attempts that can produce a fix, for the member `attempt`. */
 enum {
-    /* Dots were measured where a prediction expected them. */
+    /* The dots were measured at their predicted places. */
     DOTPOSE_ATTEMPT_TRACKED = 0,
     /* The grid was found in patches of the image, without a prediction. */
     DOTPOSE_ATTEMPT_FIRST = 1,
@@ -186,8 +186,8 @@ enum {
 enum {
     /* One plane explains all dots. */
     DOTPOSE_SURFACE_EVEN = 0,
-    /* One part of the paper is displaced, for example at a step between two sheets; the pose is
-     * that of the part under the reference point. */
+    /* One part of the paper is displaced, for example at a step between two sheets; the pose
+     * refers to the part under the reference point. */
     DOTPOSE_SURFACE_DIVIDED = 1,
     /* Neighbouring dots have correlated residuals, as on wrinkled paper; the covariance includes
      * the effect of this correlation. */
@@ -198,9 +198,9 @@ enum {
 enum {
     /* All places of the code. */
     DOTPOSE_PRIOR_PLANE = 0,
-    /* Places on the known sheets; the bits of the frame exclude other sheets. */
+    /* Places on the known sheets, after the bits of the frame ruled out other sheets. */
     DOTPOSE_PRIOR_SHEETS = 1,
-    /* Places on the known sheets; other sheets were declared impossible. */
+    /* Places on the known sheets, because the caller declared other sheets impossible. */
     DOTPOSE_PRIOR_ONLY_SHEETS = 2
 };
 

@@ -1,11 +1,11 @@
-/// Camera: the optics of one camera, its view of the paper and its place on the robot.
+/// Camera: the optics of one camera, its view of the paper and its mounting on a robot.
 ///
 /// Coordinate frames:
 /// - *pixel*: the centre of the first pixel is (0, 0), and v points down.
-/// - *undistorted* pixel: the pixel of the same point in a camera without distortion. It may be
-///   outside the image.
-/// - *camera*: coordinates on the paper in mm, relative to the point that the distortion centre
-///   shows. x is along the image x axis, and y points DOWN.
+/// - *undistorted* pixel: the pixel that a camera without distortion would show at the same point.
+///   It may be outside the image.
+/// - *camera*: coordinates on the paper in mm, relative to the point that is visible at the
+///   distortion centre. x is along the image x axis, and y points DOWN.
 #pragma once
 
 #include <map>
@@ -21,7 +21,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// A point of an image, in px: u to the right, v down from the centre of the first pixel.
+/// Image point in px, relative to the centre of the first pixel: u to the right, v down.
 struct PixelPoint {
     double u = 0;
     double v = 0;
@@ -42,8 +42,8 @@ struct PaperScale {
     double perspective_v = 0;
 };
 
-/// Tilt of the paper relative to the image plane. The angles and their signs are those of
-/// `CameraPose` in tools/simulate.hpp.
+/// Tilt of the paper relative to the image plane. Angles and signs are defined as in `CameraPose`
+/// (tools/simulate.hpp).
 struct Tilt {
     /// About the image x axis. If it is positive, the paper recedes towards the bottom.
     double x_rad = 0;
@@ -51,8 +51,8 @@ struct Tilt {
     double y_rad = 0;
 };
 
-/// Minimum value in `Camera::flat_field`. `validate` rejects smaller values, because parts of an
-/// image that are so dark are too noisy to show dots.
+/// Minimum value in `Camera::flat_field`. `validate` rejects smaller values, because such dark
+/// areas of an image are too noisy to show dots.
 inline constexpr double kMinFlatField = 0.05;
 
 /// Pinhole model of the undistorted image. Undistorted pixel (u, v) shows the points in the
@@ -79,7 +79,7 @@ struct PenTip {
     double rest_mm = 0;
 };
 
-/// Contents of a camera file: one camera and its place on a robot.
+/// Contents of a camera file: one camera and its mounting on a robot.
 struct Camera {
     int width_px = 0;
     int height_px = 0;
@@ -91,9 +91,9 @@ struct Camera {
     /// hand-held, or if the view is not known.
     std::optional<PaperScale> paper;
     std::optional<double> focal_px;  ///< focal length; none if the calibration did not determine it
-    /// Pinhole model, if pixels are not square or `centre_px` is not on the optical axis. The files
-    /// of ROS describe such cameras. None for other cameras, because `focal_px` determines their
-    /// model (see `pinhole_of`).
+    /// Pinhole model, if pixels are not square or `centre_px` is not on the optical axis. The
+    /// camera_info files of ROS may describe such cameras. None for other cameras, whose model
+    /// follows from `focal_px` (see `pinhole_of`).
     std::optional<Pinhole> pinhole;
     /// Tilt of a mounted camera. None if the calibration did not determine the tilt.
     std::optional<Tilt> tilt;
@@ -112,23 +112,23 @@ struct Camera {
     bool flip = false;
 
     /// Flat field: the brightness of white paper in the image, relative to its maximum. It includes
-    /// the vignetting of the lens and the uneven light of the lamps. Contains rows of values from
-    /// kMinFlatField to 1, for points at equal distances from the first to the last pixel along
-    /// each axis. Between these points, the brightness is interpolated bilinearly. Empty if the
-    /// brightness is even or not known.
+    /// the vignetting of the lens and the uneven light of the lamps. Contains rows of samples from
+    /// kMinFlatField to 1, evenly spaced from the first to the last pixel along each axis. The
+    /// brightness between the samples is interpolated bilinearly. Empty if the brightness is
+    /// uniform or unknown.
     std::vector<std::vector<double>> flat_field;
 
     /// Time from the first to the last row of an image, if the sensor has a rolling shutter. If the
     /// time is known, the velocity of the camera is fitted together with the pose, and the pose
-    /// applies to the time of the middle row.
+    /// refers to the time at which the middle row is read.
     std::optional<double> readout_ms;
 
     /// Sensor settings, for information only. dotpose does not use them.
     std::optional<double> exposure_us;
     std::optional<double> gain;
 
-    /// Standard deviations of the calibrated values, in the units of the values. The key is the
-    /// name of the value in the camera file, for example "centre_u_px".
+    /// Standard deviations of the calibrated values, in the units of these values. Each key is the
+    /// name of a value in the camera file, for example "centre_u_px".
     std::map<std::string, double> sigma;
 };
 
@@ -145,9 +145,9 @@ void validate(const Camera& camera);
 
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Returns the pixel of the point that has the given undistorted pixel. If k is positive, points
-/// far from the distortion centre have no such pixel. For these points, returns a pixel in the same
-/// direction from the distortion centre as `undistorted`, at twice the distance.
+/// Inverse of `undistorted`. If k is positive, it has no solution far from the distortion centre.
+/// In this case, returns a pixel in the same direction from the distortion centre as `undistorted`,
+/// at twice the distance.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// Returns `pinhole` if there is one. Otherwise, returns a model with square pixels, `focal_px`,
@@ -174,9 +174,9 @@ double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 /// Returns the point on the paper that an undistorted pixel shows, in mm relative to the point
 /// under the image centre. x is along the image x axis at the image centre. Throws
 /// std::bad_optional_access if `camera.paper` is none. This frame is suitable for comparing two
-/// calibrations of the same camera. The coordinates of a point of the paper differ by only microns
-/// between the calibrations, even far outside the image, whereas the undistorted pixels of the
-/// point differ by more.
+/// calibrations of the same camera: the coordinates of a point on the paper differ by only microns
+/// between the calibrations, even far outside the image, whereas its undistorted pixels differ by
+/// more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Inverse of `from_image_centre`: returns the undistorted pixel that shows `point`. Throws
 /// std::bad_optional_access if `camera.paper` is none.
@@ -191,10 +191,10 @@ std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera
 /// `camera.flat_field`. The flat field must not be empty, and `camera` must be valid.
 double brightness_at(const Camera& camera, PixelPoint pixel);
 
-/// Returns the camera for crops of the images of `camera`. A crop has `width_px` x `height_px`
-/// pixels, and its top left pixel is (`left_px`, `top_px`). The reference point is the same point
-/// of the scene as before, even if `camera.reference_px` is none. If the view of the paper is
-/// known, the heading is also the same as before. `flat_field` and `readout_ms` apply to the crop.
+/// Returns the camera that describes crops of the images of `camera`. A crop has `width_px` x
+/// `height_px` pixels, and its top left pixel is (`left_px`, `top_px`). The reference point remains
+/// the same point of the scene, even if `camera.reference_px` is none. If the view of the paper is
+/// known, the heading also remains the same. `flat_field` and `readout_ms` are adapted to the crop.
 /// Throws BadArgument if the crop exceeds the image, or if the result is not a valid camera (see
 /// `validate`).
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);

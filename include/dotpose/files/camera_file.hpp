@@ -1,11 +1,11 @@
-/// Camera files: a `Camera` as YAML.
+/// Camera files: reads and writes a `Camera` as YAML.
 ///
 ///     const Camera camera = read_camera("camera.yaml");
 ///     DeviceOptions options;
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///
 /// `read_camera` also reads the `camera_info` files of ROS with the distortion model `plumb_bob`,
-/// and converts this model to that of the paper.
+/// and converts this model to the distortion model of the paper.
 #pragma once
 
 #include <filesystem>
@@ -34,13 +34,13 @@ Camera read_camera(const std::filesystem::path& path);
 /// `read_camera`.
 Camera parse_camera(const std::string& text, const std::string& name);
 
-/// Returns true if the file is a camera_info file of ROS. Programs should not write cameras to such
-/// a file, because `write_camera` would replace it with a file in another format. Throws Error if
-/// the file cannot be read.
+/// Returns true if the file is a camera_info file of ROS. Do not write a camera to such a file,
+/// because `write_camera` would replace it with a file in another format. Throws Error if the file
+/// cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 
-/// Writes the file completely or not at all. Throws Error if the file cannot be written, and
-/// BadArgument if the camera is not valid (see `validate` in camera.hpp).
+/// Writes the file atomically. Throws Error if the file cannot be written, and BadArgument if the
+/// camera is not valid (see `validate` in camera.hpp).
 void write_camera(const std::filesystem::path& path, const Camera& camera);
 
 }  // namespace dotpose

@@ -14,7 +14,7 @@ namespace dotpose {
 /// Returns the name of a code variant: anoto, libdots, microdots.
 const char* name(CodeVariant code);
 
-/// Returns the code variant of a name, or none if there is no such code variant.
+/// Returns the code variant with the given name, or none if there is no such variant.
 std::optional<CodeVariant> code_by_name(std::string_view name);
 
 }  // namespace dotpose

@@ -12,7 +12,7 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Thrown if an operation fails. `what()` is one sentence for the user, without a full stop, that
-/// contains the name of the file or the value.
+/// names the file or the value concerned.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -19,7 +19,7 @@ const char* name(Decoder decoder);
 const char* name(Effort effort);
 
 /// Returns a message about the first option outside its range, with the name of the option and the
-/// range. Returns an empty text if all options are valid.
+/// range. Returns an empty string if all options are valid.
 std::string fault_text(const DeviceOptions& options);
 
 }  // namespace dotpose

@@ -1,9 +1,9 @@
 /// Print map: the measured offset of each printed dot from its nominal place, for the pages of a
-/// sheet file. `PrintMapping` (tools/print_mapping.hpp) makes a map, and `with_print_map` corrects
-/// a fix by a map.
+/// sheet file. `PrintMapping` (tools/print_mapping.hpp) creates a map, and `with_print_map` uses it
+/// to correct a fix.
 ///
 ///     const PrintMap map = read_print_map("desk.map");
-///     require_pages(map, sheets);  // throws Error if the map is of other pages
+///     require_pages(map, sheets);  // throws Error if the map is for other pages
 ///
 /// The file is binary and little-endian. It contains 5 bytes for each dot: 2 bytes for the offset
 /// along each axis, and 1 byte for the number of views (docs/print-map.md).
@@ -28,8 +28,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Offset of a dot from its nominal place, in 2^-14 spacings along x and y of the pattern. These
-/// are printed spacings: the nominal spacing times the print scale of the axis.
+/// Offset of a dot from its nominal place, in 2^-14 printed spacings along x and y of the pattern.
+/// The printed spacing is the nominal spacing times the print scale of the axis.
 struct DotOffset {
     std::int16_t x_q14 = 0;
     std::int16_t y_q14 = 0;
@@ -38,23 +38,23 @@ struct DotOffset {
     double y() const { return y_q14 / 16384.0; }
 };
 
-/// Error of a map: the error that the mapped places of all dots in a view have in common, because
-/// the map bends slowly. Contains its covariance at the nodes of a grid. The first and the last
-/// node of a row are at the first and the last column of dots, and likewise for the rows.
+/// Error of a map. It varies slowly over the page, so all dots in a view have nearly the same
+/// error. This struct contains the covariance of the error at the nodes of a grid, which extends
+/// from the first to the last column and row of dots.
 struct MapErrors {
     /// Covariance of the shift along x and y, in spacings, and of the rotation, in rad: the
-    /// elements xx, xy, yy, x rotation, y rotation, rotation^2.
+    /// elements (x, x), (x, y), (y, y), (x, rotation), (y, rotation), (rotation, rotation).
     using Node = std::array<float, 6>;
 
-    int columns = 0;  ///< number of nodes along x: 0 if the errors are not known, else at least 2
-    int rows = 0;     ///< number of nodes along y
+    int columns = 0;          ///< number of nodes along x, at least 2; 0 if the errors are unknown
+    int rows = 0;             ///< number of nodes along y
     std::vector<Node> nodes;  ///< row by row
 };
 
 /// Maximum number of nodes along each axis.
 inline constexpr int kMaxErrorNodes = 256;
 
-/// Map of one page. Code variant, section, region and nominal spacing are those of the sheet.
+/// Map of one page. Code variant, section, region and nominal spacing equal those of the sheet.
 struct MapPage {
     std::string name;  ///< name of the sheet
     CodeVariant code = CodeVariant::anoto;
@@ -69,8 +69,8 @@ struct MapPage {
     /// Standard deviation, per axis, of the difference between the offset of a dot and the mean
     /// offset of the dots around it, in spacings.
     double jitter = 0;
-    /// Offsets of the dots, row by row. A dot that was never seen has the mean offset of the dots
-    /// around it.
+    /// Offsets of the dots, row by row. A dot that was never seen is assigned the mean offset of
+    /// the dots around it.
     std::vector<DotOffset> offsets;
     std::vector<std::uint8_t> views;  ///< number of views of each dot, at most 255
     MapErrors errors;                 ///< empty in a map of file version 1
@@ -85,9 +85,9 @@ struct MapPage {
         return std::size_t{y} * std::size_t(columns) + x;
     }
 
-    /// Returns the covariance of the error of the map in a view whose centre is at a place on the
-    /// page: shift along x and y, in spacings, and rotation, in rad. The covariance is 0 if the
-    /// errors are not known. `with_print_map` adds this covariance to the covariance of the fix.
+    /// Returns the covariance of the map error in a view that is centred at `place`: shift along x
+    /// and y, in spacings, and rotation, in rad. All elements are 0 if the errors are unknown.
+    /// `with_print_map` adds this covariance to the covariance of the fix.
     std::array<std::array<double, 3>, 3> error_covariance(const Place& place) const;
 };
 
@@ -96,27 +96,25 @@ struct PrintMap {
     std::vector<MapPage> pages;
 };
 
-/// Returns the map of the page that contains a place in a code variant, or null if there is no such
-/// page. The result points into `map`.
+/// Returns the map of the page that contains `place` in the code variant `code`, or null if there
+/// is no such page. The result points into `map`.
 const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& place);
 
 /// Result of applying a map to a fix.
 enum class MapUse : std::uint8_t {
     no_map,  ///< there is no map of the page, or there is no fix
     used,    ///< the fix is corrected by the map
-    /// Fewer than 20 of the dots in view, or less than 75 % of them, were seen by the frames of the
-    /// map.
+    /// The frames of the map saw fewer than 20, or less than 75 %, of the dots in view.
     not_covered,
-    contradicted  ///< the dots in view contradict the map, because the print was moved or is
-                  ///< another print
+    contradicted  ///< the dots in view contradict the map, for example because the print was moved
+                  ///< or replaced
 };
 
 /// Maximum size of a map file, in bytes. The map of a page with the size of A0 is about 20 MB.
 inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
 
-/// Parses the contents of a map file. Throws Error if the contents are not those of a map, are
-/// truncated or damaged, or have a newer version. Files of version 1 do not contain the errors of
-/// the map.
+/// Parses the contents of a map file. Throws Error if the contents are not a map, are truncated or
+/// damaged, or have a newer version. Files of version 1 do not contain the errors of the map.
 PrintMap parse_print_map(std::string_view bytes);
 
 /// Reads a map file. Throws Error, with the name of the file, if the file cannot be read or if its
@@ -128,7 +126,7 @@ PrintMap read_print_map(const std::filesystem::path& path);
 /// `views` do not contain one element per dot, or `errors` is not a grid of covariances.
 std::string print_map_bytes(const PrintMap& map);
 
-/// Throws Error unless each page of the map is a sheet of `sheets`, with the same code variant,
+/// Throws Error unless each page of the map is one of `sheets`, with the same code variant,
 /// section, region and spacing. The names may differ.
 void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets);
 

@@ -39,7 +39,7 @@ inline double reach_mm(const Pattern& pattern) {
 }
 
 /// Ratio of the printed length to the nominal length, along each axis. It depends on the printer,
-/// and differs between the direction of paper feed and the direction across it.
+/// and is usually different along and across the direction of paper feed.
 struct AxisScale {
     double x = 1;
     double y = 1;
@@ -61,7 +61,7 @@ struct Sheet {
 /// meets these conditions:
 /// - Lengths are positive and finite, and no side of the page exceeds kMaxPage_mm.
 /// - Dots do not touch, and all ink is on the page.
-/// - Both numbers of the section are below kSections.
+/// - Both components of the section are below kSections.
 /// - There are at least kMinSheetCells columns and rows.
 /// - The region is inside the code plane.
 void validate(const Sheet& sheet);

@@ -5,7 +5,7 @@
 ///
 /// `find_sheet` (sheet_place.hpp) returns the place of a fix on the sheets.
 ///
-/// To print sheets, reserve their regions first, because every page must have an entry:
+/// To print sheets, reserve their regions first, because every printed page must have an entry:
 ///
 ///     std::vector<SheetEntry> added;
 ///     SheetReservation reservation("sheets.json", [&](SheetFile& file) {
@@ -44,11 +44,12 @@ namespace dotpose {
 inline constexpr int kSheetFileVersion = 1;
 
 /// Number of free cells around every allocated region. It exceeds the diagonal of the largest
-/// frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). If a frame shows two sheets, the
-/// pose computed from the dots of one sheet can therefore not be in the region of the other sheet.
+/// frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). Even if a frame shows two
+/// sheets, the pose computed from the dots of one sheet is therefore never in the region of the
+/// other.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
-/// Place and direction of a page in the world.
+/// Pose of a page in the world.
 struct WorldPose {
     double x_m = 0;
     double y_m = 0;
@@ -63,14 +64,14 @@ struct SheetPrint {
     double dpi = 600;           ///< resolution of the printer
     std::string dots = "auto";  ///< method of drawing dots in a PDF: "auto", "glyphs" or "strokes"
     bool has_labels = true;     ///< true if a PDF has text and rulers in the margins
-    std::string command;        ///< command that prints the same page again
-    std::string document;       ///< PDF under the dots; empty if there is none
+    std::string command;        ///< command that reprints the page
+    std::string document;       ///< PDF document to which the dots were added, or empty
 };
 
 /// One page of a sheet file.
 struct SheetEntry {
     std::string name;  ///< name of the page, unique in the file
-    int page = 1;      ///< number of the page among the pages printed together, from 1
+    int page = 1;      ///< number of the page within its print job, from 1
     Sheet sheet;
     /// Ratio of the printed to the nominal length, 0.5 to 2. The page is scaled about the first
     /// intersection, which is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.
@@ -80,10 +81,11 @@ struct SheetEntry {
     /// Position of the top left corner of the page in the world, and direction of the upper edge of
     /// the page from this corner. None if not known.
     std::optional<WorldPose> world;
-    /// Print parameters. None if the entry was made by an earlier version, or not by printing.
+    /// Print parameters. None if the entry was created by an earlier version, or not created by
+    /// printing.
     std::optional<SheetPrint> print;
-    /// True if the region is reserved for a page that may not exist, because the page is being
-    /// written, or because the program was stopped while it wrote the page.
+    /// True if the region is reserved for a page that may not exist yet, because it is still being
+    /// written, or because the program was stopped while writing it.
     bool is_reserved = false;
 };
 
@@ -97,8 +99,8 @@ struct SheetEntry {
 void validate(const SheetEntry& entry);
 
 /// Returns true if two sheets share cells. Sheets in different sections never overlap. The code
-/// variants anoto and libdots count as one variant, because their dots are the same on most of the
-/// plane. The variant microdots is separate.
+/// variants anoto and libdots are treated as one variant, because they print the same dots on most
+/// of the plane.
 bool overlap(const Sheet& a, const Sheet& b);
 
 /// Reads a sheet file. Throws Error, with the names of the file and the key, in these cases:
@@ -117,11 +119,11 @@ struct SheetFileWait {
     std::function<bool()> stop = [] { return false; };
 };
 
-/// Exclusive access to a sheet file for changing it. Other writers wait until the object is
-/// destroyed. Readers do not wait. Not thread-safe.
+/// Exclusive write access to a sheet file. Other writers wait until the object is destroyed.
+/// Readers do not wait. Not thread-safe.
 class SheetFile {
   public:
-    /// Waits for exclusive access, then reads the file. A missing file counts as a file without
+    /// Waits for exclusive access, then reads the file. A missing file is treated as a file without
     /// sheets. Throws Error if the file exists but cannot be read or is not valid (see
     /// `read_sheets`), or if the file cannot be locked, for example because another program holds
     /// the lock for longer than `wait` allows.
@@ -133,12 +135,12 @@ class SheetFile {
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
 
     /// Adds `count` pages with the layout of `sheet`, each in the next free region. Ignores
-    /// `sheet.origin`. A single page gets the given name. Several pages get the names "name-1",
-    /// "name-2" and so on.
+    /// `sheet.origin`. A single page is called `name`. Several pages are called "name-1", "name-2"
+    /// and so on.
     ///
     /// A free region is at least kSheetGap_cells away from the ends of the plane and from all other
-    /// regions, regardless of their code variant and section. Cells alone therefore distinguish
-    /// allocated sheets. The next free region is the topmost, then leftmost free region.
+    /// regions, regardless of their code variant and section. A cell alone therefore identifies an
+    /// allocated sheet. The next free region is the topmost, then leftmost free region.
     ///
     /// Returns the added entries. Throws BadArgument if an entry would not be valid (see
     /// `validate`), if the name is taken, if the plane is full, or if the count is below 1.
@@ -150,9 +152,8 @@ class SheetFile {
     SheetEntry allocate(SheetEntry entry);
 
     /// Adds a sheet with a given region. The region may touch other regions, but must not overlap
-    /// any other region. Throws BadArgument if the entry is not valid (see `validate`), if the name
-    /// is taken, or if the region overlaps the region of another sheet. The message contains the
-    /// name of the other sheet.
+    /// them. Throws BadArgument if the entry is not valid (see `validate`), if the name is taken,
+    /// or if the region overlaps the region of another sheet. The message names the other sheet.
     void add(const SheetEntry& entry);
 
     /// Replaces the sheet that has the same name as `entry`. Throws BadArgument if there is no such
@@ -167,9 +168,9 @@ class SheetFile {
     /// Removes the sheet with this name, if there is one.
     void remove(const std::string& name);
 
-    /// Writes the file completely or not at all. Preserves unrecognised keys of the previous file.
-    /// Throws Error if the file cannot be written, or if a program that does not use the lock, such
-    /// as an editor, has changed it since it was read.
+    /// Writes the file atomically. Preserves unrecognised keys of the previous file. Throws Error
+    /// if the file cannot be written, or if a program that does not use the lock, such as an
+    /// editor, has changed it since it was read.
     void save();
 
   private:
@@ -177,34 +178,34 @@ class SheetFile {
 
     std::filesystem::path path_;
     std::unique_ptr<system::FileLock> lock_;  ///< lock on a hidden file beside the sheet file
-    std::optional<std::string> text_;  ///< contents of the file as read or saved; none if it did
-                                       ///< not exist
+    /// Contents of the file as read or saved. None if the file did not exist.
+    std::optional<std::string> text_;
     std::vector<SheetEntry> sheets_;
     /// Name in `text_` of each renamed sheet, indexed by its new name.
     std::map<std::string, std::string> names_in_text_;
 };
 
 /// Adds sheets to a sheet file before their pages are written. The sheets are marked as reserved,
-/// so their regions remain taken even if this program is killed. `confirm` removes the mark. Other
+/// and keep their regions even if this program is killed. `confirm` removes the mark. Other
 /// programs may change the file in the meantime.
 class SheetReservation {
   public:
     /// Calls `enter` to add the sheets, and saves the file. Throws Error if the file cannot be
-    /// read, locked or written, and passes on the exceptions of `enter`. After an exception, no
+    /// read, locked or written, and propagates exceptions thrown by `enter`. After an exception, no
     /// region is reserved.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
     /// Removes the entries that were not confirmed. Restores the previous file if no other program
-    /// has changed it. If the file cannot be changed, the entries remain reserved, and `tell` of
-    /// SheetFileWait is called with a message.
+    /// has changed it. If the file cannot be changed, the entries remain reserved, and
+    /// SheetFileWait::tell reports this.
     ~SheetReservation();
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
     /// Removes the marks. Must be called after the pages have been written. Adds the sheets again
     /// if another program has removed them. Throws Error if the file cannot be changed, or if
-    /// another program has given the names or cells of the sheets to other sheets. In this case,
-    /// the file is unchanged.
+    /// another program has assigned their names or cells to other sheets. In this case, the file is
+    /// unchanged.
     void confirm();
 
   private:

@@ -1,4 +1,4 @@
-/// Places: the pose of a fix on a page of a sheet file, and in the world, with its full covariance.
+/// Places: the pose of a fix, with its full covariance, on a page of a sheet file and in the world.
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///     if (const auto place = find_sheet(sheets, CodeVariant::anoto, fix)) {
@@ -62,9 +62,9 @@ struct WorldPlace {
 /// known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
-/// Converts the covariance of a pose from the sheet frame to the world frame, by a rotation and a
-/// change of the signs of y and of the angle. `sheet_yaw_rad` is the direction of the upper edge of
-/// the page in the world. The unit of length does not change.
+/// Converts the covariance of a pose from the sheet frame to the world frame: rotates it, and
+/// negates y and the angle. `sheet_yaw_rad` is the direction of the upper edge of the page in the
+/// world. The unit of length does not change.
 PoseCovariance world_covariance(const PoseCovariance& on_sheet, double sheet_yaw_rad);
 
 }  // namespace dotpose

@@ -16,11 +16,11 @@ namespace dotpose {
 /// target is not a regular file or cannot be written.
 void write_file(const std::filesystem::path& target, std::string_view contents);
 
-/// Throws the same Error as `write_file` if the file cannot be created. A program can call this
-/// function before a long computation whose result it writes to the file.
+/// Throws the same Error as `write_file` if the file cannot be created. Intended for use before a
+/// long computation whose result is written to the file.
 void require_writable(const std::filesystem::path& target);
 
-/// Follows symbolic links at `path` and returns the path of the last target, which need not exist.
+/// Follows symbolic links at `path` and returns the path of the final target, which need not exist.
 /// Returns `path` itself if it is not a link.
 std::filesystem::path without_links(std::filesystem::path path);
 

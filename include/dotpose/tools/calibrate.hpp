@@ -1,5 +1,5 @@
-/// Calibration with printed sheets. The true place of every dot is known, so any printed sheet is a
-/// calibration target.
+/// Calibration with printed sheets. The true position of every dot is known, so any printed sheet
+/// can serve as a calibration target.
 ///
 ///     const auto frame_at = [&](int i) { return read_image(names[i]); };
 ///     const LensCalibration lens = calibrate_lens(20, frame_at, {});
@@ -12,11 +12,11 @@
 /// - `calibrate_readout` determines the readout time of a rolling shutter.
 /// - `stitch_sheets` determines the relative poses of adjacent sheets.
 ///
-/// If the frames do not determine a result, the functions throw Error with advice. Standard
-/// deviations are computed from the residuals of the fit.
+/// If the frames are insufficient for a result, the functions throw Error with advice for the user.
+/// Standard deviations are computed from the residuals of the fit.
 ///
-/// Functions request frames by index, possibly several times, and do not store them. They share no
-/// state.
+/// The functions request frames by index, possibly several times, and do not store them. They share
+/// no state.
 #pragma once
 
 #include <functional>
@@ -39,7 +39,7 @@ namespace dotpose {
 /// Returns frame `index` of the series. The first frame has index 0. May throw Error.
 using FrameAt = std::function<GreyImage(int index)>;
 
-/// Options that all calibrations have in common.
+/// Options common to all calibrations.
 struct CalibrateOptions {
     /// The printed pattern. Only its code variant and spacing are used. All measured lengths are
     /// proportional to the spacing, so they have the relative error of the spacing.
@@ -51,24 +51,25 @@ struct CalibrateOptions {
     /// empty, the spacing is the printed spacing of the sheet that most frames show.
     /// `stitch_sheets` ignores this option.
     std::vector<SheetEntry> sheets;
-    /// Called after each part of the work. Returning false stops the work with an Error.
+    /// Called after each step of the calibration. Returning false aborts it with an Error.
     std::function<bool(int done, int total)> progress;
 };
 
 /// Returns the code variant of the options, or none if it must be detected from the frames.
 std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 
-/// Required number of different frames with a fix. If there are fewer, the verdict is
+/// Required number of distinct frames with a fix. With fewer frames, the verdict is
 /// `too_few_frames`.
 inline constexpr int kWantedFrames = 5;
 
 /// Verdict on a lens calibration: `good`, or the reason why it is not reliable.
 enum class CalibrationVerdict {
     good,
-    too_few_frames,  ///< fewer than kWantedFrames different frames have a fix
-    same_place,      ///< all frames show the same dots, so printing errors look like lens errors
-    out_of_focus,    ///< the dots are blurred to about a third of the spacing or more
-    corners_unseen,  ///< dots cover less than the fraction kMinCoverage of the image
+    too_few_frames,  ///< fewer than kWantedFrames distinct frames have a fix
+    same_place,    ///< all frames show the same dots, so printing errors and lens errors cannot be
+                   ///< separated
+    out_of_focus,  ///< the dots are blurred to about a third of the spacing or more
+    corners_unseen,  ///< the fraction of the image that is covered by dots is below kMinCoverage
 };
 /// Returns the identifier, such as "out_of_focus".
 const char* name(CalibrationVerdict verdict);
@@ -77,39 +78,40 @@ const char* name(CalibrationVerdict verdict);
 struct CalibrationDot {
     int frame = 0;      ///< index of the frame in the series
     PixelPoint pixel;   ///< measured pixel of the dot
-    PixelPoint before;  ///< residual for a camera without distortion, skew and tilt
-    PixelPoint after;   ///< residual for the calibrated camera
+    PixelPoint before;  ///< residual before the calibration, for a camera without distortion, skew
+                        ///< and tilt
+    PixelPoint after;   ///< residual after the calibration
 };
 
 /// The calibrated camera, with measures of its reliability.
 struct LensCalibration {
     Camera camera;
-    /// True if the camera is mounted, so that all frames have the same height and tilt. A hand-held
-    /// camera has an individual height and tilt in each frame. Its `camera.paper` and `camera.tilt`
-    /// are therefore not known.
+    /// True if the camera is mounted, with the same height and tilt in all frames. The height and
+    /// tilt of a hand-held camera differ between frames, so `camera.paper` and `camera.tilt` are
+    /// none.
     bool is_mounted = true;
     CodeVariant code = CodeVariant::anoto;  ///< given or detected code variant
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
-    int frames = 0;                         ///< number of frames given
-    int located = 0;                        ///< number of different frames with a fix
-    int duplicates = 0;  ///< number of frames that repeat an earlier image, and are not used
-    int dots = 0;        ///< number of dots used
-    int outliers = 0;    ///< number of dots not used
-    double residual_before_px = 0;  ///< rms residual per axis for a camera without distortion, skew
-                                    ///< and tilt
-    double residual_px = 0;         ///< rms residual per axis for the calibrated camera
+    int frames = 0;                         ///< number of input frames
+    int located = 0;                        ///< number of distinct frames with a fix
+    int duplicates = 0;             ///< number of unused frames, which repeat an earlier image
+    int dots = 0;                   ///< number of dots used
+    int outliers = 0;               ///< number of dots rejected as outliers
+    double residual_before_px = 0;  ///< rms residual per axis before the calibration, for a camera
+                                    ///< without distortion, skew and tilt
+    double residual_px = 0;         ///< rms residual per axis after the calibration
     double px_per_spacing = 0;      ///< mean grid spacing at the image centre over all frames, in
                                     ///< px
-    double dot_width = 0;           ///< mean width of the dots at half darkness, in spacings; 1/6
-                                    ///< if they are sharp
-    double coverage = 0;            ///< fraction of the 12 x 8 parts of the image that show dots
+    /// Mean width of the dots at half darkness, in spacings. Sharp dots have a width of 1/6.
+    double dot_width = 0;
+    double coverage = 0;  ///< fraction of the parts of the image (see ImageCoverage) that show dots
     CalibrationVerdict verdict = CalibrationVerdict::good;
     std::string advice;  ///< one or two sentences for the user
     std::vector<CalibrationDot> seen;
 };
 
 /// Computes lens and scale and, if the frames determine them, tilt and focal length. Throws
-/// BadArgument if `frames` is less than 1. Throws Error if fewer than two different frames can be
+/// BadArgument if `frames` is less than 1. Throws Error if fewer than two distinct frames can be
 /// located, if the frames differ in size, if `options.sheets` is not empty and no frame shows one
 /// of these sheets, or if the frames give no plausible lens.
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
@@ -136,8 +138,8 @@ enum class MountVerdict {
 /// Returns the identifier, such as "drifted".
 const char* name(MountVerdict verdict);
 
-/// Position of the camera on a robot, from a turn on the spot. The reference point is the centre of
-/// rotation.
+/// Position of the camera on a robot, computed from the frames of a turn on the spot. The reference
+/// point is the centre of rotation.
 struct SpinCalibration {
     Camera camera;  ///< the given camera with `reference_px` set
     /// Reference point in mm, relative to the point under the image centre and along the image axes
@@ -161,15 +163,15 @@ struct SpinCalibration {
 /// - Too few frames have a fix, or the turn is too small.
 /// - A frame differs in size from the camera file or from the first frame.
 /// - The spacing contradicts the view of the camera.
-/// - The reference point is beyond the range of a camera file.
+/// - The reference point is outside the range permitted in a camera file.
 /// - The centre of rotation varies by more than one spacing (rms per axis), or its uncertainty is
 ///   more than half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
 
-/// Direction of the camera on the robot, computed from the frames of a straight drive forwards. The
-/// frames must be in the order in which they were taken.
+/// Direction of the camera on the robot, computed from the frames of a straight forward drive. The
+/// frames must be in the order in which they were captured.
 struct DriveCalibration {
     Camera camera;  ///< the given camera with `theta_offset_rad` set
     int frames = 0;
@@ -196,23 +198,24 @@ struct PivotCalibration {
     Camera camera;  ///< the given camera with `tip` set
     int frames = 0;
     int located = 0;
-    int used = 0;  ///< number of frames in which the tip is at the common point of rest
-    /// Rms angle by which the pen rotated about the axis of least rotation. The position of the tip
-    /// is more accurate if this angle is larger.
+    int used = 0;  ///< number of frames used, in which the tip is at the common point of rest
+    /// Rms angle by which the pen rotated about the axis of least rotation. A larger angle gives a
+    /// more accurate position of the tip.
     double pivot_rad = 0;
     double min_tilt_rad = 0;
     double max_tilt_rad = 0;
     double residual_mm = 0;  ///< rms distance of the tip from the point of rest, per axis
-    /// Rms ratio of the distance between the tip and the point of rest to the standard deviation of
-    /// this distance, which is computed from the covariances of the poses. If the ratio is above 1,
-    /// the standard deviations of the tip are increased accordingly.
+    /// Rms ratio of actual to expected error: the distance between the tip and the point of rest,
+    /// divided by its standard deviation according to the covariances of the poses. If the ratio is
+    /// above 1, the standard deviations of the tip are increased accordingly.
     double error_ratio = 0;
 };
 
-/// Computes the tip of a pen that contains the camera, from at least 6 frames. The tip rests at one
-/// point of a sheet while the pen is tilted by 0 to 40 degrees in several directions. 30 frames are
-/// recommended. Frames in which the tip is elsewhere are not used. `camera` must contain the focal
-/// length. Writes the standard deviations to `Camera::sigma`. Throws Error in these cases:
+/// Computes the position of the tip of a pen that contains the camera, from at least 6 frames. The
+/// tip must rest at one point of a sheet while the pen is tilted by 0 to 40 degrees in several
+/// directions. 30 frames are recommended. Frames in which the tip is elsewhere are not used.
+/// `camera` must contain the focal length. Writes the standard deviations to `Camera::sigma`.
+/// Throws Error in these cases:
 /// - Too few frames have a pose in space.
 /// - A frame differs in size from the camera file.
 /// - The pen does not pivot enough, or only about one axis.
@@ -224,7 +227,7 @@ struct PivotCalibration {
 PivotCalibration calibrate_pivot(int frames, const FrameAt& frame_at, const Camera& camera,
                                  const CalibrateOptions& options);
 
-/// Flat field of a camera, from frames of a moving camera.
+/// Flat field of a camera, computed from frames captured while the camera moves.
 struct FlatFieldCalibration {
     Camera camera;  ///< the given camera with `flat_field` set
     int frames = 0;
@@ -235,10 +238,9 @@ struct FlatFieldCalibration {
 };
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
-/// with constant exposure and light. The dots must be at different places in the frames, because
-/// the mean of the frames must show even paper. If no camera is given, the result is a new camera
-/// with the size of the frames. Of the options, only `progress` is used. Throws Error in these
-/// cases:
+/// with constant exposure and light. The dots must be at different places in each frame, so that
+/// they average out over all frames. If no camera is given, the result is a new camera with the
+/// size of the frames. Uses only `progress` of the options. Throws Error in these cases:
 /// - There are fewer than 20 frames, or frames differ in size.
 /// - In the darkest part of the image, the flat field is less than kMinFlatField.
 /// - The mean frame deviates from the flat field by more than 8 % (rms).
@@ -246,7 +248,7 @@ FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                                           const std::optional<Camera>& camera,
                                           const CalibrateOptions& options);
 
-/// Readout time of a rolling shutter, from the frames of a drive.
+/// Readout time of a rolling shutter, computed from the frames of a drive.
 struct ReadoutCalibration {
     Camera camera;  ///< the given camera with `readout_ms` set
     int frames = 0;
@@ -259,7 +261,7 @@ struct ReadoutCalibration {
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
 /// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
-/// - Fewer than 5 located frames are preceded and followed by a located frame.
+/// - Fewer than 5 frames are located together with the frames before and after them.
 /// - The standard deviation of the readout time is 10 % of the readout time or more.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
@@ -321,7 +323,7 @@ struct SeamMeasurement {
 };
 /// World poses of sheets, with measures of their accuracy.
 struct Stitching {
-    /// The given sheets in the given order. Stitched sheets have new world poses and print scales.
+    /// The input sheets, in the same order. Stitched sheets have new world poses and print scales.
     std::vector<SheetEntry> sheets;
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
@@ -337,13 +339,13 @@ struct Stitching {
 /// The first stitched sheet that has a world pose keeps this pose. If no sheet has a world pose,
 /// the first sheet defines the world: its corner is the origin, and its upper edge is the x axis.
 ///
-/// `camera` contains the lens and, for mounted cameras, the view of the paper. Without a view, the
-/// view is fitted to each part of a frame. In this case, the poses are less accurate. They are
+/// `camera` contains the lens and, for mounted cameras, the view of the paper. If the view is not
+/// known, it is fitted to each sheet in a frame separately. The poses are then less accurate, and
 /// correct only if the fixed sheet was printed with the print scales in the sheet file.
 ///
 /// Throws Error in these cases:
 /// - There are fewer than two sheets, or no frame shows two sheets.
-/// - Sheets with a world pose exist, but no frame shows one of them beside another sheet.
+/// - Some sheets have a world pose, but no frame shows one of them together with another sheet.
 /// - The reference is the width of a sheet, and no chain of frames connects this sheet to the fixed
 ///   sheet.
 /// - The reference is the camera, and it implies a print scale that differs from 1 by more than

@@ -1,6 +1,6 @@
-/// Coverage: the parts of the image, the places and the directions that the frames of a lens
-/// calibration cover so far, and the requirements that are not met yet. Intended for programs that
-/// take frames while the camera moves, such as `dotpose calibrate --live`.
+/// Coverage of a lens calibration: which parts of the image, places and directions the frames cover
+/// so far, and which requirements are not met yet. Intended for programs that capture frames while
+/// the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -32,9 +32,9 @@ inline constexpr double kWidestDot = 0.32;
 /// Required number of distinct places on the sheet at which frames were taken (see
 /// `CalibrationCoverage::places`).
 inline constexpr int kWantedPlaces = 4;
-/// Required number of different frame directions, counted in `CalibrationCoverage::kDirections`
-/// sectors. Different directions distinguish lens distortion from a printer that stretches one axis
-/// of the paper.
+/// Required number of distinct frame directions, counted in `CalibrationCoverage::kDirections`
+/// sectors. With different directions, lens distortion can be distinguished from a print that is
+/// stretched along one axis.
 inline constexpr int kWantedDirections = 3;
 /// Maximum standard deviation of the undistorted position of the farthest corner of the image (see
 /// `corner_sigma_px`).
@@ -94,13 +94,13 @@ struct CalibrationNeed {
 /// The combined coverage of all frames taken so far.
 class CalibrationCoverage {
   public:
-    /// Number of sectors into which a full turn is divided to count directions.
+    /// Number of sectors of a full turn in which directions are counted.
     static constexpr int kDirections = 8;
 
     /// Creates an empty coverage for images of the given size, which must be positive.
     CalibrationCoverage(int width_px, int height_px);
 
-    /// Returns the number of parts of the image that the frame would add to the coverage.
+    /// Returns how many parts of the image the frame would add to the coverage.
     int parts_added_by(const CalibrationView& view) const;
     /// Adds a frame.
     void add(const CalibrationView& view);
@@ -109,7 +109,7 @@ class CalibrationCoverage {
     const ImageCoverage& image() const { return image_; }
     /// Returns the number of distinct places. A frame adds a place if the pattern position under
     /// its image centre is far enough from all earlier places in the same section. The minimum
-    /// distance is the length on the paper of a quarter of the shorter image side.
+    /// distance corresponds to a quarter of the shorter image side.
     int places() const { return static_cast<int>(places_.size()); }
     /// Returns the number of sectors that contain the direction of at least one frame.
     int directions() const;

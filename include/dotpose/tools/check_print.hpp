@@ -7,9 +7,9 @@
 ///     const PrintCheck check = check_print(read_image("scan.png").view(), options);
 ///     for (const Finding& finding : check.findings) puts(finding.text.c_str());
 ///
-/// The pattern is found anywhere in the image, at any angle, by `locate` on overlapping crops.
+/// Calls `locate` on overlapping crops to find the pattern anywhere in the image, at any angle.
 /// Neighbouring crops with consistent positions form a field, and every dot of a field is measured
-/// in the image. The nominal place of each dot is known, so the measured places determine the
+/// in the image. A comparison of the measured with the nominal positions of the dots gives the
 /// scale, rotation and skew of the print.
 ///
 /// A page may contain several fields: patches of a test page (test_page.hpp), or sheets side by
@@ -46,20 +46,20 @@ struct CheckPrintOptions {
     /// region of a sheet is compared with the dimensions of that sheet. Ignores sheets that cannot
     /// share cells with sheets of the code variant of `pattern` (see `overlap` in sheet_file.hpp).
     std::vector<Sheet> sheets;
-    /// Resolution of the scan. An image counts as a photo if it has no resolution, or if it shows
-    /// the perspective or lens distortion of a camera. The check of a photo allows for perspective
-    /// and lens distortion, and does not judge the scale. If the resolution contradicts the
-    /// spacing, the check reports a fault.
+    /// Resolution of the scan. An image is treated as a photo if it has no resolution, or if it
+    /// shows the perspective or lens distortion of a camera. The check of a photo allows for
+    /// perspective and lens distortion, and does not judge the scale. If the resolution contradicts
+    /// the spacing, the check reports a fault.
     std::optional<Resolution> resolution;
     /// True if the image file states that a camera took the image. In this case, the resolution is
     /// ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. It cannot be measured, because
-    /// dots are only a few pixels wide. The measured diameter of a dot is the diameter of a disc of
-    /// this ink that has the same total darkness.
+    /// dots are only a few pixels wide. The measured diameter of a dot is that of a disc of this
+    /// ink with the same total darkness.
     double ink_reflectance = 0.15;
-    /// Called after each part of the work. `total` is an estimate that grows with `done`. Returning
-    /// false stops the work with an Error.
+    /// Called after each step of the check. `total` is an estimate that may grow during the check.
+    /// Returning false aborts the check with an Error.
     std::function<bool(int done, int total)> progress;
 };
 
@@ -83,10 +83,10 @@ struct ScaleRatio {
     double uncertainty = 0;  ///< maximum error of the ratio
 };
 
-/// Side, in cells, of the parts of a page for which distortion is reported.
+/// Side, in cells, of the bins in which the distortion of a page is reported.
 inline constexpr int kDistortionCells = 20;
 
-/// Mean deviation of the dots of one part of the page from their fitted places.
+/// Mean deviation of the dots in one bin from their fitted positions.
 struct DistortionBin {
     double u_px = 0;  ///< mean position of the dots
     double v_px = 0;
@@ -112,13 +112,13 @@ struct PrintField {
     /// Rms deviation per axis of the dots from their fitted places, in mm on the paper.
     double residual_mm = 0;
     /// Standard deviation, per axis, of the displacement of single dots, in mm on the paper. It is
-    /// computed from the differences between neighbouring dots, which do not contain the distortion
-    /// of the page.
+    /// computed from the differences between neighbouring dots, which the distortion of the page
+    /// does not affect.
     double scatter_mm = 0;
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< maximum length of a deviation in `distortion`
 
-    /// Number of cells under other print, such as text. `cells` excludes these cells.
+    /// Number of cells covered by other print, such as text. `cells` excludes these cells.
     int covered = 0;
     int cells = 0;       ///< number of cells of the region that are in view and not covered
     int missing = 0;     ///< number of cells without a dot
@@ -160,7 +160,7 @@ enum class FindingKind {
     swollen,       ///< dots are too large or run together
     thin,          ///< dots are too small or too pale
     missing,       ///< dots are missing
-    covered,       ///< other print covers dots
+    covered,       ///< other print covers some of the dots
     /// Many bits are wrong, because dots are displaced too much or the page has another code
     /// variant.
     bits_wrong,
@@ -168,8 +168,8 @@ enum class FindingKind {
     pale,           ///< the contrast of the dots is low
     no_resolution,  ///< the scale could not be checked, because the resolution is not known
     contradiction,  ///< resolution and spacing contradict each other
-    repeated,       ///< the same cells are on the page more than once
-    unknown_sheet,  ///< the cells are on none of the given sheets
+    repeated,       ///< the page contains the same cells more than once
+    unknown_sheet,  ///< the cells are not on any of the given sheets
     unresolved,     ///< the photo is too coarse to show some of the faults above
     best_settings,  ///< the best settings of a test page
 };
@@ -186,7 +186,7 @@ struct Finding {
     std::string text;
 };
 
-/// Two fields that show the same cells, so that a place read in these cells is not unique.
+/// Two fields that show the same cells. A position in these cells is not unique on the page.
 struct RepeatedCells {
     std::size_t first = 0;  ///< indices of the fields
     std::size_t second = 0;
@@ -203,15 +203,15 @@ struct CameraSigns {
 struct PrintCheck {
     /// All fields, the largest first. Empty if there is no pattern in the image.
     std::vector<PrintField> fields;
-    /// True if there are no fields, but the flipped image shows the pattern.
+    /// True if the pattern is found only in the flipped image. There are then no fields.
     bool is_mirrored = false;
     CodeVariant code = CodeVariant::anoto;  ///< code variant that was given or detected
     /// Probability that the detected code variant is wrong. 0 if the code variant was given.
     double code_p_wrong = 0;
     std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
     bool is_photo = false;                 ///< copy of CheckPrintOptions::is_photo
-    /// Evidence that the image is a photo. None if there is no such evidence, or if no resolution
-    /// was given. If there is evidence, the given resolution is ignored.
+    /// Evidence that the image is a photo. None if there is no evidence, or if no resolution was
+    /// given. With evidence, the given resolution is ignored.
     std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
     bool is_test_page = false;
@@ -219,12 +219,11 @@ struct PrintCheck {
     /// the fields.
     std::vector<Pattern> unread_patches;
     /// On a test page: index of the best patch for each spacing, finest spacing first. The best
-    /// patch is the patch whose dots have the diameter closest to a sixth of the spacing. Patches
-    /// with many faulty cells are excluded.
+    /// patch is the one with the dot diameter closest to a sixth of the spacing. Patches with many
+    /// faulty cells are excluded.
     std::vector<std::size_t> best_per_spacing;
-    /// Index of the best patch of all spacings. The finest spacing is preferred, because more dots
-    /// of a fine pattern are in view, so this patch is the first element of `best_per_spacing`.
-    /// Valid if `best_per_spacing` is not empty.
+    /// Index of the best patch overall: the first element of `best_per_spacing`, because more dots
+    /// of a finer pattern are in view. Valid if `best_per_spacing` is not empty.
     std::size_t best = 0;
     std::vector<Finding> findings;
 };

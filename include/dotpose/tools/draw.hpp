@@ -40,20 +40,20 @@ struct DrawOptions {
     /// Spacing of the printed grid, for converting the pose to mm. If it is NaN, the pose is shown
     /// in spacings.
     double spacing_mm = kDefaultSpacing_mm;
-    /// The fix to show, for example a fix that was corrected by a camera file, or refused after
+    /// The fix to show, for example a fix that was corrected with a camera file, or rejected after
     /// `locate`. Default: the fix of the trace.
     std::optional<Fix> fix{};
-    std::string title{};  ///< title of the caption, for example the name of the file; default: none
-    /// Place of the fix on a sheet. If it is given, the caption shows the pose in the world in
-    /// large numbers or, if the pose in the world is not known, the pose on the sheet. Default: the
+    std::string title{};  ///< title of the caption, for example the name of the file, or empty
+    /// Place of the fix on a sheet. If given, the caption shows the pose in large numbers: in the
+    /// world or, if the world pose of the sheet is unknown, on the sheet. Otherwise, it shows the
     /// pose in the pattern.
     std::optional<SheetPlace> place{};
     /// Reason and remedy for the caption if there is no fix. Default: the message of the status.
     std::string reason{};
 };
 
-/// Draws the last frame of a Locator, with the stages that the frame reached. `image` must be the
-/// located image, and `DeviceOptions::show_stages` must be set.
+/// Draws the last frame of a Locator, with all stages that it reached. `image` must be the located
+/// image, and `DeviceOptions::show_stages` must be set.
 ///
 /// The left panel shows the image with a ring around each dot, the symmetric connections of the
 /// neighbour search, and the origin of the grid (paper Fig. 2 and 3). Below the panel, the same
@@ -62,9 +62,9 @@ struct DrawOptions {
 /// window and its corner, the reference point and the angle theta. Below the panel is the pose, or
 /// the reason why there is none.
 ///
-/// Everything is drawn at its place in the image, so grid lines are curved if the lens has
-/// distortion. Large images are embedded at a lower resolution, and dots too close together for
-/// letters are drawn as points, so that the picture of a photo is smaller than 1 MB.
+/// Everything is drawn at its position in the image, so grid lines are curved if the lens has
+/// distortion. To keep the picture of a photo below 1 MB, large images are embedded at a lower
+/// resolution, and dots too close together for letters are drawn as points.
 void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
@@ -105,8 +105,8 @@ struct ResidualField {
 };
 ResidualField residual_field(const LensCalibration& calibration);
 
-/// Draws the positions of the camera while the robot turned, and the centres of rotation computed
-/// from single frames.
+/// Draws the positions of the camera during the turn of the robot, and the centre of rotation
+/// computed from each frame.
 void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
 
 /// Draws the sheets before and after stitching. Each frame that shows two sheets gives two
@@ -114,8 +114,8 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-/// Draws two views of the map of a page: the smooth distortion as an enlarged, deformed grid, and
-/// the x and y offsets of all dots as two images.
+/// Draws the map of a page: the smooth distortion as an exaggerated, deformed grid, and the x and y
+/// offsets of all dots as two images.
 void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 
 /// Draws the sheets in the world, seen from above with x to the right and y up. Sheets without a
@@ -123,8 +123,8 @@ void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 /// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the deviations in `PrintField::distortion` of all fields of a printed page, enlarged, over
-/// the outline of the scan.
+/// Draws the deviations in `PrintField::distortion` of all fields of a printed page, exaggerated,
+/// over the outline of the scan.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

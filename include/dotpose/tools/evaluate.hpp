@@ -10,7 +10,7 @@
 /// paper's own experiment (section IV). `run_sweep` (sweep.hpp) degrades one condition step by
 /// step.
 ///
-/// Except for times, results depend only on the frames, not on the number of threads. Functions
+/// Apart from times, results depend only on the frames, not on the number of threads. The functions
 /// share no state. They throw Error for problems with files and BadArgument for invalid arguments.
 #pragma once
 
@@ -40,7 +40,7 @@ struct KnownFrame {
     Truth truth;
     /// Code variant of this frame. Replaces the code variant of the options.
     std::optional<CodeVariant> code;
-    std::string problem;  ///< reason why there is no image; empty if there is one
+    std::string problem;  ///< reason why there is no image, or empty
 };
 
 /// Returns frame `index`. The result must depend only on the index, because the function is called
@@ -54,8 +54,8 @@ FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<Tr
 /// Returns the rendered frames of `draw_shot(setup, index)`.
 FrameSource frames_of_setup(const Setup& setup);
 
-/// Called regularly from the thread that called `evaluate`. If it returns false, the work ends with
-/// an Error.
+/// Called regularly, from the thread that called `evaluate`. Returning false aborts the evaluation
+/// with an Error.
 using Progress = std::function<bool(int done, int total)>;
 
 /// The frames to locate, and the options for `locate`.
@@ -64,19 +64,20 @@ struct FrameRun {
     FrameSource frame_at;
     /// Every frame is located with each of these options.
     std::vector<DeviceOptions> options = {DeviceOptions{}};
-    /// True to detect the code variant of frames without a known code variant, independently for
-    /// each frame.
+    /// True to detect the code variant of each frame for which `KnownFrame::code` is not set. The
+    /// frames are independent.
     bool any_code = false;
     /// Refines a fix with the trace of the frame, for example by `with_camera`. If empty, fixes are
     /// not refined. Called from several threads. The time of the refinement is not measured.
     std::function<Fix(const Fix&, const Trace&)> refine;
-    int threads = 0;  ///< number of threads; 0 for one per core
+    int threads = 0;  ///< number of threads, or 0 for one per core
     Progress progress;
 };
 
 /// Locates all frames. Element [k][i] of the result is the outcome of frame i with options[k].
 /// Throws BadArgument if there is no `frame_at` or `frames` is negative, and Error if `progress`
-/// returned false. Exceptions of `frame_at` end the work and are passed on.
+/// returned false. Exceptions thrown by `frame_at` abort the evaluation and propagate to the
+/// caller.
 std::vector<std::vector<Outcome>> evaluate(const FrameRun& run);
 
 }  // namespace dotpose

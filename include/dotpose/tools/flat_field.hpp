@@ -12,7 +12,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Corrects the images of one camera. Follower does this if its camera has a flat field.
+/// Corrects the images of one camera. A Follower applies this correction if its camera has a flat
+/// field.
 ///
 ///     const FlatFieldCorrection correction(camera);
 ///     for (;;) locator.locate(correction.corrected(image).view());
@@ -23,8 +24,8 @@ class FlatFieldCorrection {
     /// this.
     explicit FlatFieldCorrection(const Camera& camera);
 
-    /// Returns the image with each grey level divided by the brightness at its pixel. Levels above
-    /// 255 become 255. Throws BadArgument if the image does not have the size of the camera file.
+    /// Returns the image with each grey level divided by the brightness at its pixel. Levels are
+    /// clamped to 255. Throws BadArgument if the image does not have the size of the camera file.
     GreyImage corrected(ImageView image) const;
 
   private:

@@ -49,8 +49,8 @@ struct FollowerOptions {
     double spacing_mm = kDefaultSpacing_mm;
     /// Lens, view and mount of the camera. Images must have the size in the camera file.
     std::optional<Camera> camera;
-    /// True to flip images left to right before they are located, like `flip` in a camera file. All
-    /// pixel coordinates refer to the flipped images.
+    /// True to flip images left to right before they are located. Has the same effect as `flip` in
+    /// a camera file. All pixel coordinates refer to the flipped images.
     bool flip = false;
     /// Reference pixel of the pose. Replaces the image centre and the reference point of the camera
     /// file.
@@ -58,8 +58,8 @@ struct FollowerOptions {
     /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
     /// a camera file with a focal length.
     bool fits_space_pose = false;
-    /// Map of the print, by which fixes and poses in space are corrected (print_mapping.hpp).
-    /// Requires the sheets of the map.
+    /// Map of the print, used to correct fixes and poses in space (print_mapping.hpp). Requires the
+    /// sheets of the map.
     PrintMap print_map;
     TrackOptions track;
     SpaceTrackOptions space_track;  ///< with `fits_space_pose`
@@ -69,7 +69,7 @@ struct FollowerOptions {
 struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
-    std::optional<SheetPlace> place;  ///< place of the fix; none if the fix is not on any sheet
+    std::optional<SheetPlace> place;  ///< place of the fix, or none if it is not on any sheet
     /// Code variant of the fix and, if a place in another code variant also explains the image,
     /// this other place. In results of `locate`, `reading.fix` does not include the correction by
     /// the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong` does not
@@ -96,13 +96,13 @@ struct Located {
     MapUse map_use = MapUse::no_map;
     /// True if the options or the sheets limit the code variants. False if all were tried.
     bool code_is_given = false;
-    int reduced_by = 1;  ///< ratio of the width of the given image to that of the located image
+    int reduced_by = 1;  ///< factor by which the image was downscaled before it was located
 };
 
 /// The result for one image of a sequence, which depends on the previous images.
 struct Followed {
     /// Result of the image. If the fix was accepted only because it is at the predicted place, its
-    /// `p_wrong` takes the prior probability of the predicted place into account.
+    /// `p_wrong` includes the prior probability of that place.
     Located located;
     Track track;
     /// Track of the camera in space. It is in the frame of `world_sighting` if the robot is tracked
@@ -122,22 +122,21 @@ std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
 class Follower {
   public:
     /// Throws BadArgument in these cases:
-    /// - The options require a pose in space, and the camera file is missing or has no focal
-    /// length.
+    /// - Poses in space are required, but the camera file is missing or has no focal length.
     /// - The camera has a flat field and is not valid.
     /// - The region of a sheet is not inside the code plane.
     ///
     /// Throws Error if the print map contains a page that is not one of the sheets.
     explicit Follower(const FollowerOptions& options);
 
-    /// Locates an image without a prediction from other images. Reduces images larger than
-    /// `kMaxFrameSide_px`, unless there is a camera file. Only the evidence for the code variant is
-    /// carried over from image to image.
+    /// Locates a single image, without a prediction from previous images. Downscales images larger
+    /// than `kMaxFrameSide_px`, unless there is a camera file. Only the evidence for the code
+    /// variant is carried over from image to image.
     Located locate(const GreyImage& image);
 
     /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
-    /// place of the pattern. A fix that is not certain on its own is accepted only if the tracker
-    /// is certain of it, given the predicted place.
+    /// place of the pattern. A fix that is not certain by itself is accepted only if the predicted
+    /// place makes it certain enough for the tracker.
     Followed follow(ImageView image, std::int64_t time_us);
 
     /// Returns true if the robot is tracked in the world of the sheet file (m, y up) instead of the
@@ -229,7 +228,7 @@ class Follower {
     DeviceOptions used_;
     ImageView image_;
     std::optional<FlatFieldCorrection> flat_field_;
-    GreyImage corrected_;  ///< image after flipping and correcting the light
+    GreyImage corrected_;  ///< image after the flip and the flat-field correction
     GreyImage reduced_;
     std::vector<KnownRegion> known_;  ///< regions of the sheets
     Locator locator_{DeviceOptions{}};

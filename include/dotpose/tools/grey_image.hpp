@@ -12,8 +12,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Grey levels, row by row from the top, without padding: pixel (u, v) is `pixels[v * width_px +
-/// u]`. Grey level 0 is black.
+/// Grey image. The levels are stored row by row from the top, without padding: pixel (u, v) is
+/// `pixels[v * width_px + u]`. Grey level 0 is black.
 struct GreyImage {
     std::vector<std::uint8_t> pixels;
     int width_px = 0;

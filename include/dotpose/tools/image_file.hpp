@@ -2,17 +2,17 @@
 ///
 /// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP and TIFF. If dotpose was built
 /// with libwebp and libheif, also WebP, HEIC and AVIF. The format is determined by the first bytes
-/// of a file, not by its name. A truncated or damaged file is an Error, even if part of the picture
-/// could be decoded, because interpolated pixels are not measurements. A JPEG that lacks only its
-/// end marker is read.
+/// of a file, not by its name. A truncated or damaged file causes an Error, even if part of the
+/// picture could be decoded, because pixels that the decoder fills in are not measurements. A JPEG
+/// that lacks only its end marker is accepted.
 ///
 /// Every pixel is converted to one grey level, from 0 (black) to 255 (white). Colour is converted
 /// to the luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values. Gamma and colour
-/// profiles are ignored. Palettes are expanded, and CMYK is converted without profiles. Samples
+/// profiles are ignored. Palettes are expanded, and CMYK is converted without a profile. Samples
 /// with a maximum value other than 255, such as 16-bit samples, are scaled to 0..255 and rounded.
 /// Opaque 16-bit images in which no value exceeds 4095 are interpreted as sensor data with 8 to 12
-/// significant bits. Transparent pixels are composited on white. Of a TIFF file with several pages,
-/// the requested page is read, by default the first page.
+/// significant bits. Transparent pixels are composited on white. From a TIFF file with several
+/// pages, the requested page is read, by default the first.
 ///
 /// The orientation in EXIF data and in HEIC is ignored, because the calibration and mount of a
 /// camera refer to the pixels of the sensor.
@@ -79,12 +79,12 @@ struct ImageOrigin {
     /// exposure time, f-number, sensitivity or focal length.
     bool is_photo = false;
     /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if the image is
-    /// a photo or if the resolution is missing. Also none if it is 72 or 96 dpi, because programs
-    /// write these values by default if they do not know the resolution.
+    /// a photo or if the resolution is missing. Also none if it is 72 or 96 dpi, because these are
+    /// the defaults that programs write if the resolution is unknown.
     std::optional<Resolution> resolution;
 };
 
-/// Returns the origin of an image, without decoding its pixels. Throws Error if the file cannot be
+/// Returns the origin of an image without decoding its pixels. Throws Error if the file cannot be
 /// read (see `read_image`).
 ImageOrigin read_origin(const std::filesystem::path& path, int page = 1);
 

@@ -1,4 +1,4 @@
-/// Ink: the strokes that a pen wrote, from the poses of its tip in a run.
+/// Ink: the strokes that a pen wrote, computed from the poses of its tip.
 ///
 ///     const std::vector<InkPage> pages = ink_of(samples);
 ///     for (const InkPage& page : pages)
@@ -21,7 +21,7 @@ namespace dotpose {
 /// Pose of the tip in one frame of a run.
 struct InkSample {
     double t_s = 0;
-    std::string page;  ///< name of the page under the tip; empty if there are no sheets
+    std::string page;  ///< name of the page under the tip, or empty if there are no sheets
     double x_mm = 0;   ///< place on the page, or in the pattern frame: x right, y DOWN
     double y_mm = 0;
     double height_mm = 0;
@@ -40,15 +40,14 @@ struct InkPoint {
     double azimuth_rad = 0;
 };
 
-/// Points on the path of the tip, from the moment when it touches the paper to the moment when it
-/// leaves the paper.
+/// Path of the tip while it is on the paper, from pen-down to pen-up.
 using InkStroke = std::vector<InkPoint>;
 
 struct InkPage {
     std::string name;  ///< empty if there are no sheets
     /// Size of the page, and coordinates of its top left corner in the frame of the points. Set by
-    /// the caller if the page is known. If the width is 0, the bounds of the strokes are used as
-    /// the page.
+    /// the caller if the page is known. If the width is 0, the bounding box of the strokes is used
+    /// as the page.
     double width_mm = 0;
     double height_mm = 0;
     double left_mm = 0;
@@ -62,18 +61,18 @@ inline constexpr double kMaxInkGap_s = 0.1;
 /// Returns the strokes on each page. The pages are in the order of their first strokes. `samples`
 /// must be in the order of their times.
 ///
-/// The path is smoothed forwards and backwards (Rauch, Tung and Striebel 1965). The motion model is
-/// an acceleration driven by white noise. The power of the noise is chosen to maximise the
-/// likelihood of the samples. PenContact detects when the pen is lifted from the paper. It detects
-/// a lift late and its end early, so adjacent samples also belong to the lift if their smoothed
-/// heights are clearly above the paper.
+/// The path is estimated by a fixed-interval smoother (Rauch, Tung and Striebel 1965). The motion
+/// model is an acceleration driven by white noise, with the noise power that maximises the
+/// likelihood of the samples. PenContact detects when the pen is lifted from the paper. It reports
+/// the start of a lift late and the end early, so each lift is extended to the adjacent samples
+/// whose smoothed heights are clearly above the paper.
 std::vector<InkPage> ink_of(std::span<const InkSample> samples);
 
 /// Returns the page as SVG, in mm, with the size of the page.
 std::string ink_svg(const InkPage& page);
 
-/// Returns the page as InkML of the W3C, with the channels X, Y (in mm from the top left corner), T
-/// (in ms), OTx and OTy (tilts, in degrees).
+/// Returns the page as W3C InkML, with the channels X and Y (in mm from the top left corner), T (in
+/// ms), OTx and OTy (tilts, in degrees).
 std::string ink_ml(const InkPage& page);
 
 }  // namespace dotpose

@@ -6,9 +6,9 @@
 ///     file.write(poses, time_ns, ros::to_cdr(pose));
 ///     file.finish();
 ///
-/// Messages are collected in chunks. After each chunk, the index and the end of the file are also
-/// written. The next chunk overwrites them. The file is therefore complete at any time, and if the
-/// program is killed, only the messages of the last chunk are lost.
+/// Messages are collected in chunks. Each chunk is written together with an index and an end of the
+/// file, which the next chunk overwrites. The file is therefore complete at any time. If the
+/// program is killed, only the messages of the chunk in progress are lost.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,12 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// The number of a channel in its file.
+/// Number that identifies a channel within its file.
 enum class McapChannel : std::uint16_t {};
 
 /// Quality of service with which `ros2 bag play` publishes the messages of a channel. The default
-/// suits all topics except /tf_static. That topic needs a `depth` of 1 and `is_transient_local`,
-/// which keeps the latest message for later subscribers.
+/// suits all topics except /tf_static, which needs a `depth` of 1 and `is_transient_local` to keep
+/// the latest message for later subscribers.
 struct McapQuality {
     int depth = 100;
     bool is_transient_local = false;
@@ -37,10 +37,10 @@ struct McapQuality {
 
 /// Size of the chunks of a file.
 struct McapOptions {
-    /// A chunk ends with the message at which it reaches `chunk_bytes`, or `chunk_ns`. Chunks that
-    /// are smaller than the index at the end of the file do not end because of `chunk_ns`. With
-    /// longer chunks, more messages are lost if the program is killed. With shorter chunks, the
-    /// index is larger.
+    /// A chunk is written when it reaches `chunk_bytes`. It is also written when it reaches
+    /// `chunk_ns`, provided that it is at least as large as the index at the end of the file. With
+    /// longer chunks, more messages are lost if the program is killed. Shorter chunks make the
+    /// index larger.
     std::int64_t chunk_ns = 1'000'000'000;
     std::size_t chunk_bytes = 4 << 20;
 };

@@ -36,7 +36,7 @@ struct FoundPlace {
     double angle_rad = 0;
 };
 
-/// One frame with its true place and the found place.
+/// One frame with its true and its found place.
 struct MeasuredFrame {
     std::string file;
     std::optional<TruePlace> truth;  ///< none if the frame has no readable pattern
@@ -54,22 +54,22 @@ struct Similarity {
     double middle_y_mm = 0;
     double shift_x_mm = 0;  ///< true minus found position of the middle
     double shift_y_mm = 0;
-    /// Angle of the rotation, in the direction of the angles of the coordinate frame.
+    /// Rotation angle, with the sign convention of the coordinate frame.
     double turn_rad = 0;
     double scale = 1;
-    /// Mean of the true angles minus the found angles, after the found angles are increased by
-    /// `turn_rad`. It is the angle from the image x axis to the heading that was measured
-    /// independently. 0 if no true angle is known.
+    /// Mean difference between the true angles and the found angles, after adding `turn_rad` to the
+    /// found angles. This is the angle from the image x axis to the independently measured heading.
+    /// 0 if no true angle is known.
     double angle_offset_rad = 0;
 };
 
-/// Fits the found places to the true places by least squares, with outliers excluded. If all true
+/// Fits the found places to the true places by least squares, excluding outliers. If all true
 /// places are equal, `turn_rad` is 0 and `scale` is 1. Throws Error if no frame has a true place
 /// and a found place on the same sheet.
 Similarity align(std::span<const MeasuredFrame> frames);
 
-/// Difference between the found and the true place of a frame, after the alignment. 0 if the frame
-/// has no true place.
+/// Error of a frame: its found place minus its true place, after the alignment. 0 if the frame has
+/// no true place.
 struct MeasuredError {
     double x_mm = 0;
     double y_mm = 0;
@@ -105,13 +105,13 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
 /// Returns the result as (name, value) pairs for tables.
 std::vector<std::pair<std::string, std::string>> described(const Measurement& measurement);
 
-/// Writes one line for each frame: true place, found place and error.
+/// Writes one line per frame: true place, found place and error.
 void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
 /// Writes positions.csv, figure-13 and figure-14. If there are different true angles, also writes
-/// angles.csv and figure-15. The figures correspond to the figures of the paper with the same
-/// numbers. Each figure is written as .svg and .png. Frames with the same true place are samples of
-/// one position. Throws Error if no frame has a true place, or if a file cannot be written.
+/// angles.csv and figure-15. They correspond to the figures with the same numbers in the paper.
+/// Each figure is written as .svg and .png. Frames with the same true place are samples of one
+/// position. Throws Error if no frame has a true place, or if a file cannot be written.
 void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);
 
 }  // namespace dotpose

@@ -66,9 +66,9 @@ struct MappedMovingFix {
     MapUse map_use = MapUse::no_map;
 };
 /// Variant of `with_camera_and_velocity` that uses the measured places of the dots in a map of the
-/// print instead of their nominal places. If the map cannot be used, uses the nominal places, and
-/// `map_use` is the reason. If the camera file has no view of the paper, the fix is corrected as in
-/// `with_print_map`.
+/// print instead of their nominal places. If the map cannot be used, falls back to the nominal
+/// places, and sets `map_use` to the reason. If the camera file has no view of the paper, the fix
+/// is corrected as in `with_print_map`.
 MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const Trace& trace,
                                     const AxisScale& print, const PrintMap& map);
 
@@ -78,8 +78,8 @@ MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const 
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
 /// Maximum relative difference between the nominal and the measured spacing of a sheet. It is
-/// larger than the changes of scale within the depth of field of a camera close to the paper. It is
-/// smaller than 3 %, the change of scale if a printer driver shrinks the page to 97 %.
+/// larger than the changes of scale within the depth of field of a camera close to the paper, but
+/// smaller than the 3 % by which a printer driver may shrink the page.
 inline constexpr double kMaxSpacingDifference = 0.025;
 
 /// Returns true if a measured spacing contradicts the spacing of the sheet. Returns false if either

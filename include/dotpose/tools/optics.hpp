@@ -1,5 +1,5 @@
-/// Optics: computes the image of the pattern in a camera with given parts, for the design of a
-/// device (paper III-A). The model is a thin lens that is focused on the paper.
+/// Optics: predicts the image of the pattern in a camera with given components, for the design of a
+/// device (paper III-A). The model is a thin lens focused on the paper.
 ///
 ///     const OpticsReport report = design_optics(paper_optics());
 ///     for (const OpticsAdvice& advice : report.advice) puts(advice.text.c_str());
@@ -19,14 +19,14 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Parts of a device. Speed and turn rate must not be below 0, and all other values must be above
-/// 0.
+/// Components and motion of a device. Speed and turn rate must not be negative, and all other
+/// values must be positive.
 struct Optics {
     int width_px = 188;
     int height_px = 120;
-    double pixel_um = 24;     ///< pixel pitch on the sensor; binned pixels count as one
+    double pixel_um = 24;     ///< pixel pitch on the sensor, after binning
     double focal_mm = 5.5;    ///< focal length of the lens
-    double distance_mm = 16;  ///< distance from the lens to the paper; more than the focal length
+    double distance_mm = 16;  ///< distance from the lens to the paper, above the focal length
     double spacing_mm = kDefaultSpacing_mm;
     double dot_mm = kDefaultSpacing_mm / 6;
     double f_number = 2.8;  ///< focal length divided by the diameter of the aperture
@@ -92,8 +92,8 @@ struct OpticsReport {
     std::vector<OpticsAdvice> advice;
 };
 
-/// Returns the report on a device. Throws BadArgument for values out of range, and if the distance
-/// is not more than the focal length.
+/// Computes the report on a device. Throws BadArgument if a value is out of range, or if the
+/// distance does not exceed the focal length.
 OpticsReport design_optics(const Optics& optics);
 
 }  // namespace dotpose

@@ -11,9 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Limits of the deviation of a fix from the truth, in spacings and in degrees. A fix with a larger
-/// deviation is wrong. Wrong fixes do not count as located, and are excluded from the error
-/// statistics.
+/// Maximum deviation of a correct fix from the truth, in spacings and in degrees. Wrong fixes do
+/// not count as located, and are excluded from the error statistics.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 

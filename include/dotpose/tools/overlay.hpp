@@ -6,7 +6,7 @@
 ///
 /// Pages keep their content and functions, such as text, links, forms, outlines, boxes and
 /// rotation. Each page with dots has its own region of the code plane. Copies of a page also have
-/// different regions. Functions share no state.
+/// different regions. The functions share no state.
 #pragma once
 
 #include <filesystem>
@@ -26,8 +26,8 @@ namespace dotpose {
 /// One page with dots. The coordinates of its sheet are relative to the top left corner of the
 /// displayed page or, if there are cards, of the card.
 struct OverlaidPage {
-    /// Number of the page among the pages of all copies, from 1. The pages of the second copy are
-    /// numbered after the pages of the first copy.
+    /// Number of the page, from 1, counted over all copies: the pages of the second copy follow the
+    /// pages of the first copy.
     int number = 0;
     Sheet sheet;
     int document_page = 0;  ///< number of the page in the document, from 1
@@ -42,28 +42,29 @@ struct OverlayOptions {
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
     double dpi = 600;      ///< resolution of the printer; see PrintOptions
     DotDrawing drawing = DotDrawing::automatic;
-    /// Numbers of the pages that get dots, from 1, for example "1-3,7". "z" is the last page. Empty
-    /// for all pages.
+    /// Numbers of the pages to which dots are added, from 1, for example "1-3,7". "z" is the last
+    /// page. Empty for all pages.
     std::string pages;
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.
     /// All pages with dots must have the same size. Cards have no links or form fields, and pages
     /// without dots are omitted. Without card paper, each page of the document remains a page.
     std::optional<Paper> card_paper;
-    bool under = false;    ///< true for dots below the content of the page instead of above
+    /// True to draw the dots below the content of the page instead of above it.
+    bool under = false;
     std::string password;  ///< password of an encrypted file; the result is also encrypted
     /// True to replace black ink with the other inks, because black ink is visible in infrared
     /// light.
     bool black_to_cmy = false;
     double lighten = 0;  ///< fraction of the ink that is removed from the document, 0 to below 1
     /// Maximum size of the uncompressed content of one page, in megabytes. The limit for all pages
-    /// together is eight times as large. Processing a page needs a few times this size in memory.
+    /// together is eight times as large. Processing a page needs a few times this amount of memory.
     /// Increase the limit for large maps.
     int max_content_mb = 64;
     Progress progress;
-    /// Called once with all pages that get dots, before anything is written. It may change each
-    /// `sheet.origin`, for example to a free region of a SheetFile. An exception cancels the
-    /// overlay.
+    /// Called once, before anything is written, with all pages to which dots are added. It may
+    /// change each `sheet.origin`, for example to a free region of a SheetFile. An exception
+    /// cancels the overlay.
     std::function<void(std::span<OverlaidPage>)> place;
 };
 
@@ -72,10 +73,10 @@ struct OverlayReport {
     std::vector<OverlaidPage> pages;
     /// Messages for the user about content that may hide dots or was not converted.
     std::vector<std::string> warnings;
-    int card_pages = 0;  ///< number of pages with cards; 0 if there are no cards
+    int card_pages = 0;  ///< number of pages with cards, or 0 if there are no cards
 };
 
-/// Writes `in` with dots to `out`. Writes `out` completely or not at all.
+/// Adds dots to the document `in`, and writes the result to `out`. Writes `out` atomically.
 ///
 /// `black_to_cmy` and `lighten` change colours only on pages with dots. They change the colours of
 /// text, drawings, forms, fonts and appearances, and of images if their colour space permits. The

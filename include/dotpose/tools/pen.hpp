@@ -29,7 +29,7 @@ struct TipPose {
     /// the camera file.
     std::array<std::array<double, 3>, 3> covariance{};
 
-    /// Returns the standard deviation of x (0), y (1) or the height (2).
+    /// Returns the standard deviation along an axis: 0 for x, 1 for y, 2 for the height.
     double sigma_mm(std::size_t axis) const;
 };
 
@@ -41,12 +41,12 @@ TipPose tip_of(const SpacePose& pose, const PenTip& tip,
 /// Converts a tip from the pattern frame to the frame of a sheet.
 TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
 
-/// Detects with hysteresis whether a pen touches the paper. A pen on the paper counts as lifted if
-/// its height is at least `kLift_mm` plus three standard deviations. A lifted pen counts as on the
-/// paper again if its height is below `kLift_mm`.
+/// Detects with hysteresis whether a pen touches the paper. A pen on the paper is considered lifted
+/// once its height reaches `kLift_mm` plus three standard deviations. A lifted pen is considered to
+/// be on the paper again once its height falls below `kLift_mm`.
 class PenContact {
   public:
-    /// Height above the nominal plane that uneven paper on a table may cause.
+    /// Maximum height above the nominal plane due to unevenness of paper on a table.
     static constexpr double kLift_mm = 0.05;
 
     /// `is_down` is the state before the first pose.

@@ -6,7 +6,7 @@
 ///     const dotpose::Sheet sheet = dotpose::make_sheet(options);
 ///     dotpose::write_sheet(sheet, "page.png");
 ///
-/// Rows are written immediately, so memory use grows with the width of the page, not with its area.
+/// Pages are written row by row, so memory use grows with the width of the page, not with its area.
 /// Functions throw BadArgument or Error (error.hpp). They share no state, so threads may write
 /// different files at the same time.
 #pragma once
@@ -49,8 +49,8 @@ Paper landscape(Paper paper);
 struct SheetOptions {
     Pattern pattern;       ///< code, section, and dimensions of the dots
     Cell origin;           ///< cell of the top left dot; each sheet should have its own cells
-    Paper paper;           ///< size of the page; default A4 portrait
-    double margin_mm = 5;  ///< margin without ink on all sides; 0 for printers without margins
+    Paper paper;           ///< size of the page, by default A4 portrait
+    double margin_mm = 5;  ///< unprinted margin on all sides, 0 for borderless printing
 };
 
 /// Lays out a sheet: fills the page inside its margins with whole cells, from the top left.
@@ -69,8 +69,8 @@ Sheet make_sheet(const SheetOptions& options);
 /// right of the previous one. At the right end of the plane, the regions continue below, starting
 /// at `options.origin.x`.
 ///
-/// Throws BadArgument in the cases listed for `make_sheet`, and if `pages` is not in 1 to
-/// kMaxPages.
+/// Throws BadArgument in the cases listed for `make_sheet`, and if `pages` is outside [1,
+/// kMaxPages].
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
 /// Checks that a printer of this resolution can print the pattern. The resolution must be above 0
@@ -91,8 +91,8 @@ enum class PrintFormat {
 /// lower case. Throws BadArgument for other extensions.
 PrintFormat print_format(const std::filesystem::path& path);
 
-/// Called after each part of the work, usually a row of the pattern. `rows` is the total number of
-/// parts. Returning false stops the work with an Error.
+/// Called after each step, usually a row of the pattern. `rows` is the total number of steps.
+/// Returning false aborts the operation with an Error.
 using Progress = std::function<bool(int rows_done, int rows)>;
 
 /// Methods of drawing dots in a PDF.
@@ -137,9 +137,9 @@ struct PrintOptions {
 /// same directory, and then renamed. After an error, and if `progress` returned false, an existing
 /// file is unchanged and no temporary file remains.
 ///
-/// Throws BadArgument as `print_format`, `validate` and `validate_resolution` do, and for
-/// DotDrawing::glyphs if lengths are not whole numbers of pixels. Throws Error if the file cannot
-/// be created or written (with the system's reason), or if `progress` returned false.
+/// Throws BadArgument in the same cases as `print_format`, `validate` and `validate_resolution`,
+/// and for DotDrawing::glyphs if lengths are not whole numbers of pixels. Throws Error if the file
+/// cannot be created or written (with the system's reason), or if `progress` returned false.
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
 
@@ -158,7 +158,7 @@ struct InkRectangle {
 };
 
 /// A page that may contain several regions of the code, and other marks. There must be at least one
-/// sheet. The width and height of each sheet must be those of the page.
+/// sheet. Each sheet must have the width and height of the page.
 struct PrintPage {
     double width_mm = 0;
     double height_mm = 0;
@@ -172,10 +172,10 @@ struct PrintPage {
 std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
                                    double height_mm);
 
-/// Writes a page as `write_sheet` does, as PDF, SVG, PNG or TIFF. Throws BadArgument for the text
-/// format, and for pages without sheets or with a sheet of another size. If regions overlap, both
-/// are printed. For PNG and TIFF, the whole page is stored in memory with one bit per pixel. A PDF
-/// contains the marks but no labels.
+/// Writes a page as PDF, SVG, PNG or TIFF, in the same way as `write_sheet`. Throws BadArgument for
+/// the text format, and for pages that contain no sheet or a sheet of another size. If regions
+/// overlap, both are printed. For PNG and TIFF, the whole page is stored in memory with one bit per
+/// pixel. A PDF contains the marks but no labels.
 void write_page(const PrintPage& page, const std::filesystem::path& path,
                 const PrintOptions& options = {});
 

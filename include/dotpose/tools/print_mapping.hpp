@@ -1,4 +1,4 @@
-/// Print mapping: makes a map of a printed page from many frames, and corrects fixes by a map.
+/// Print mapping: creates a map of a printed page from many frames, and corrects fixes with it.
 ///
 ///     PrintMapping mapping({.sheets = read_sheets("sheets.json"), .camera = camera});
 ///     for (const GreyImage& image : images) mapping.add(image.view());
@@ -35,8 +35,8 @@ struct PrintMappingOptions {
     /// Lens and view of the camera. Without a camera file, the lens is assumed to have no
     /// distortion, and the view is taken from the fixes.
     std::optional<Camera> camera;
-    /// Earlier map of some of the sheets. The frames update this map. Pages that are in view in
-    /// fewer than `PrintMapping::kMinFrames` frames are copied from it unchanged.
+    /// Earlier map of some of the sheets. The frames update this map. Pages seen in fewer than
+    /// `PrintMapping::kMinFrames` frames are copied from it unchanged.
     PrintMap earlier;
 };
 
@@ -47,26 +47,25 @@ struct MappedPage {
     std::size_t dots = 0;          ///< number of dots of the page
     std::size_t seen = 0;          ///< number of dots that were seen
     std::size_t observations = 0;  ///< number of measured dots in all frames
-    std::size_t outliers = 0;      ///< number of measured dots that were not used
+    std::size_t outliers = 0;      ///< number of measured dots that were rejected as outliers
     double noise_mm = 0;           ///< standard deviation of a measured dot, per axis
     /// Standard deviation of the print jitter, per axis (see MapPage::jitter).
     double jitter_mm = 0;
-    /// Rms offset of the dots, per axis, without the jitter: the smooth distortion of the page.
+    /// Rms offset of the dots, per axis, after subtraction of the jitter: the smooth distortion of
+    /// the page.
     double slow_mm = 0;
     /// True if all frames had the same scale, because the camera was mounted at a constant height.
     bool is_rigid = true;
     int iterations = 0;  ///< conjugate gradient iterations in the last round
-    /// Standard deviation of the error of the map in a view, per axis, rms over the dots that were
-    /// seen (see MapErrors). It is 0 if it is not known, because the earlier map does not contain
-    /// it.
+    /// Standard deviation per axis of the map error in a view (see MapErrors), as the rms over all
+    /// dots that were seen. 0 if unknown, because the earlier map does not contain it.
     double error_mm = 0;
 };
 
 struct PrintMapResult {
     PrintMap map;
-    std::vector<MappedPage> pages;  ///< statistics of the pages that the frames show, in the order
-                                    ///< of the map
-    std::size_t frames = 0;         ///< number of frames given
+    std::vector<MappedPage> pages;  ///< statistics of the pages in view, in the order of the map
+    std::size_t frames = 0;         ///< number of input frames
 };
 
 /// Collects the dots of frames, and computes the map. Needs 12 bytes of memory for each dot in each
@@ -81,17 +80,16 @@ class PrintMapping {
     PrintMapping& operator=(PrintMapping&&) noexcept;
 
     /// Locates a frame, and stores its dots for `solve`. Returns false if the frame is not used,
-    /// because it is not on one of the sheets or shows fewer than 20 dots of the sheet. Throws
-    /// BadArgument if the image does not have the size in the camera file.
+    /// because it shows none of the sheets, or fewer than 20 dots of a sheet. Throws BadArgument if
+    /// the image does not have the size in the camera file.
     bool add(const ImageView& image);
 
     /// Minimum number of frames of a page. If fewer frames were used, the page is not mapped.
     static constexpr std::size_t kMinFrames = 10;
 
-    /// Computes the map. `progress` is called with the completed fraction of the work on one page,
-    /// and starts again at 0 for each page. If it returns false, the work ends with an Error.
-    /// Throws Error if no page was seen in kMinFrames frames, or if the frames contradict the
-    /// earlier map.
+    /// Computes the map. `progress` is called with the completed fraction of the current page.
+    /// Returning false aborts the computation with an Error. Throws Error if no page was seen in
+    /// kMinFrames frames, or if the frames contradict the earlier map.
     PrintMapResult solve(const std::function<bool(double share)>& progress = {});
 
   private:
@@ -105,12 +103,13 @@ struct MappedFix {
     MapUse use = MapUse::no_map;
 };
 
-/// Corrects a fix by a map of the print, given the trace of the frame. Fits the place, angle and
+/// Corrects a fix with a map of the print, given the trace of the frame. Fits the place, angle and
 /// scale to the dots at their mapped places. Also fits perspective and shear if they are
 /// significant. The covariance is that of the absolute position on the page. It is computed from
 /// the residuals and from the error of the map (`MapPage::error_covariance`), so it no longer
-/// contains the errors of the print. Fixes at the same place have the same error of the map. To
-/// obtain the covariance of differences between such fixes, subtract the covariance of this error.
+/// contains the errors of the print. Fixes at the same place share the same map error. To obtain
+/// the covariance of the difference between such fixes, first subtract the covariance of the map
+/// error from both.
 ///
 /// A map that contains the dots in view is used only if the variance of the residuals with the map
 /// is at most 0.8 times the variance without the map, or at most twice the square of

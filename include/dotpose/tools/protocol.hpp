@@ -59,7 +59,7 @@ struct ProtocolResult {
 /// The experiment on a perfect page and on a printed page.
 struct Protocol {
     int samples = 0;
-    /// Result for a page whose dots are at their intended positions and have only jitter.
+    /// Result for a page whose dots deviate from their intended positions only by jitter.
     ProtocolResult perfect;
     ProtocolResult printed;  ///< result for a page with the errors of `PrintModel`
 };

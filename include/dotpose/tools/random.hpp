@@ -1,5 +1,5 @@
-/// Random numbers that are the same on every machine. The distributions of `<random>` are not used,
-/// because their numbers depend on the standard library. For simulation only, not for secrets.
+/// Random numbers that are the same on every machine, unlike the distributions of `<random>`, whose
+/// results depend on the standard library. For simulation only, not for secrets.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
 /// generator.
 class Rng {
   public:
-    /// Starts the sequence of numbers of a seed.
+    /// Seeds the generator.
     explicit constexpr Rng(std::uint64_t seed) noexcept : state_(seed) {}
 
     /// Starts an independent sequence for item `index` of a run.
@@ -36,25 +36,25 @@ class Rng {
         return scramble(state_);
     }
 
-    /// Returns a uniform number in [0, 1), a multiple of 2^-53.
+    /// Returns a uniformly distributed number in [0, 1), a multiple of 2^-53.
     constexpr double uniform() noexcept { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-    /// Returns a uniform number in [low, high), or `low` if the limits are equal.
+    /// Returns a uniformly distributed number in [low, high), or `low` if the limits are equal.
     constexpr double uniform(double low, double high) noexcept {
         return low + (high - low) * uniform();
     }
 
-    /// Returns a uniform number in [0, limit), where 0 < limit < 2^32. The bias is below limit /
-    /// 2^64.
+    /// Returns a uniformly distributed integer in [0, limit), where 0 < limit < 2^32. The bias is
+    /// below limit / 2^64.
     constexpr std::uint32_t below(std::uint32_t limit) noexcept {
         const std::uint64_t high = bits() >> 32;
         const std::uint64_t low = bits() >> 32;
         return static_cast<std::uint32_t>((high * limit + ((low * limit) >> 32)) >> 32);
     }
 
-    /// Returns a normal number with mean 0 and standard deviation 1: the number of ones among 128
-    /// random bits, smoothed by a uniform number. The excess kurtosis is -0.016, and the absolute
-    /// value is at most 11.4. Uses no logarithm, because the last digit of a logarithm differs
+    /// Returns a normally distributed number with mean 0 and standard deviation 1: the number of
+    /// ones among 128 random bits, smoothed by a uniform number. The excess kurtosis is -0.016, and
+    /// the absolute value is at most 11.4. Avoids logarithms, because their last digits differ
     /// between machines.
     constexpr double normal() noexcept {
         constexpr double kInverseDeviation = 0.1765469659009499;  // 1 / sqrt(128 / 4 + 1 / 12)

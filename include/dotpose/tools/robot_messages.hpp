@@ -8,8 +8,8 @@
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
 /// Coordinate frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105):
-/// - `map` is the world of the sheet file. Without a sheet file, `map` is the pattern frame with y
-///   up and the same origin.
+/// - `map` is the world of the sheet file or, without a sheet file, the pattern frame with y up and
+///   the same origin.
 /// - `odom` begins at the first pose of the robot.
 /// - `base_link` is the reference point of the camera file on the paper, with the robot's heading.
 ///   Without a camera file, `base_link` is the point under the image centre, with x along the image
@@ -17,12 +17,12 @@
 ///
 /// `camera_optical` is the camera, with z along the optical axis and x and y along the axes of the
 /// image. It is constant in `base_link` (`camera_mount`). With poses in space
-/// (`FollowerOptions::fits_space_pose`), it is in `map` instead, with a new pose in each frame. Do
-/// not publish the mount then, because a frame has only one parent.
+/// (`FollowerOptions::fits_space_pose`), it is in `map` instead, with a new pose in each frame. In
+/// that case, do not publish the mount, because a frame can have only one parent.
 ///
 /// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
-/// robot is found again after it was lost or moved by hand, and when the robot enters another
-/// plane. The transform from `odom` to `base_link` is always continuous.
+/// robot is found again after being lost or moved by hand, and when the robot enters another plane.
+/// The transform from `odom` to `base_link` is always continuous.
 #pragma once
 
 #include <array>
@@ -71,7 +71,7 @@ struct PlanarMotion {
     std::array<std::array<double, 6>, 6> covariance{};
 };
 
-/// The results of a frame, in the frame `map`.
+/// Results for one camera frame, in the coordinate frame `map`.
 struct RobotUpdate {
     std::int64_t time_ns = 0;            ///< middle of the exposure
     std::optional<PlanarFix> fix;        ///< none if there is no fix, or if the place of the fix is
@@ -87,7 +87,7 @@ struct RobotUpdate {
                                   ///< are unrelated
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"
-    std::string problem;          ///< reason why there is no fix; empty if there is one
+    std::string problem;          ///< reason why there is no fix, or empty
     std::vector<KeyValue> facts;  ///< additional values of the frame, for the diagnostics
 };
 
@@ -102,9 +102,9 @@ struct RobotFrames {
     std::string camera = "camera_optical";
 };
 
-/// Returns the frames with `prefix`, for example "anna/", before the names of the frames of the
-/// robot: `odom`, `base` and `camera`. Robots with different prefixes share one tree of transforms,
-/// with one `map`. Throws BadArgument if ROS does not allow the prefix, because it begins with a
+/// Returns the frame names with `prefix`, for example "anna/", prepended to the frames of the
+/// robot: `odom`, `base` and `camera`. Robots with different prefixes share one transform tree with
+/// a common `map`. Throws BadArgument if ROS does not allow the prefix, because it begins with a
 /// slash or contains a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 

@@ -1,5 +1,5 @@
-/// Messages of ROS 2 without ROS: plain structs with the names and members of the common message
-/// packages, their serialised form, and their definitions as text.
+/// ROS 2 messages without a dependency on ROS: plain structs with the names and members of the
+/// common message packages, their serialisation, and their definitions as text.
 ///
 ///     PoseWithCovarianceStamped message;
 ///     message.header = {ros_time(time_ns), "map"};
@@ -147,11 +147,11 @@ std::vector<std::uint8_t> to_cdr(const TFMessage& message);
 std::vector<std::uint8_t> to_cdr(const DiagnosticArray& message);
 std::vector<std::uint8_t> to_cdr(const CompressedImage& message);
 
-/// Name and definition of a message type. Recordings contain them, so that programs without ROS can
-/// read the messages.
+/// Name and definition of a message type. They are stored in recordings, so programs without ROS
+/// can decode the messages.
 struct MessageType {
     std::string name;  ///< such as "geometry_msgs/msg/PoseWithCovarianceStamped"
-    /// The .msg files of the type and of all types in it, in the format ros2msg.
+    /// The .msg definitions of the type and of all types that it contains, in the format ros2msg.
     std::string definition;
     std::string hash;  ///< "RIHS01_" and 64 hexadecimal digits (ROS REP 2011)
 };

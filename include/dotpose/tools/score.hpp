@@ -16,8 +16,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Quantiles by the nearest-rank method. The quantile of a fraction is the smallest value that at
-/// least this fraction of all values does not exceed. NaN if there are no values.
+/// Quantiles by the nearest-rank method. The quantile for a fraction p is the smallest value such
+/// that at least a fraction p of all values is less than or equal to it. NaN if there are no
+/// values.
 struct Quantiles {
     double median = std::numeric_limits<double>::quiet_NaN();
     double p95 = std::numeric_limits<double>::quiet_NaN();

@@ -9,14 +9,14 @@
 ///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
 ///     const GreyImage image = render(shot);
 ///
-/// Every frame depends only on (setup, i). Its bytes are the same on every machine, for any order
-/// of rendering and any number of threads. All functions are pure and thread-safe. Functions throw
+/// Each frame depends only on (setup, i), and is bit-identical on all machines, for any order of
+/// rendering and any number of threads. All functions are pure and thread-safe. Functions throw
 /// BadArgument for invalid values.
 ///
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
 /// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
 /// the pose point, which is the pattern point under the image centre. Offsets are small numbers, so
-/// they are not rounded noticeably, although the plane is 2.1e8 mm wide.
+/// their rounding errors are negligible, although the plane is 2.1e8 mm wide.
 #pragma once
 
 #include <array>
@@ -56,9 +56,9 @@ struct CameraModel {
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
-    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows. The
-    /// limit is 75 % of the side of the image along each axis. The pose applies to the time of the
-    /// middle row. (0, 0) for a global shutter.
+    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows. At most
+    /// 75 % of the image size along each axis. The pose refers to the time at which the middle row
+    /// is read. (0, 0) for a global shutter.
     Vec2 readout_px;
     /// Rotation of the scene about the image centre while a rolling shutter reads the rows, in
     /// addition to the motion. The direction is from the image x axis towards the image y axis.
@@ -88,7 +88,7 @@ double y_grid(const CameraPose& pose);
 
 /// Effects of printer, paper, light and sensor on a frame. The defaults are those of the preset
 /// `clean`, in which all of these effects are absent. Fractions and reflectances are in [0, 1].
-/// Sigmas, lengths and counts are not negative.
+/// Sigmas, lengths and counts must not be negative.
 struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
     double ink_reflectance = 0.15;  ///< reflectance relative to paper
@@ -98,16 +98,16 @@ struct Imperfections {
     /// four inks are evenly spaced.
     double palest_ink = 1;
     double vignetting = 0;  ///< relative loss of light in the image corners; it grows with r^2
-    /// Linear change of light from one side to the opposite side, relative to the light at the
-    /// centre. 0 to 2.
+    /// Linear change of illumination across the image, relative to the illumination at the centre.
+    /// 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< direction in which the light decreases, from +u towards +v
     double blur_sigma_px = 0;
-    Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose applies to
+    Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose refers to
                      ///< the middle of the exposure
     double noise_sigma = 0;  ///< standard deviation of the noise, in grey levels
-    /// Standard deviation of the offsets of the pixels, in grey levels. The offsets belong to the
-    /// sensor and are the same in every frame.
+    /// Standard deviation of the fixed-pattern noise, in grey levels: an offset of each pixel that
+    /// is the same in every frame.
     double fixed_pattern = 0;
     double salt_and_pepper = 0;  ///< fraction of the pixels that are black or white
     double jitter_mm = 0;        ///< standard deviation of a printed dot's place, per axis
@@ -154,9 +154,9 @@ struct PageArea {
 /// A printed page: a pattern, its printing errors, and its extent.
 struct Page {
     Pattern pattern;
-    /// Seed of the printing errors and of the texture of the paper. The jitter, the ink and the
-    /// absence of a dot depend only on the seed, the section and the cell, so they are the same in
-    /// every frame.
+    /// Seed of the printing errors and of the texture of the paper. The jitter and the ink of a
+    /// dot, and whether it is missing, depend only on the seed, the section and the cell, so they
+    /// are the same in every frame.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
     /// `columns` is 0.
@@ -183,13 +183,13 @@ struct Page {
 Page page_of(const Sheet& sheet, std::uint64_t seed = 1);
 
 /// Camera geometry: converts between pixels and offsets from the pose point. The two conversions
-/// are inverse to each other.
+/// are inverses of each other.
 class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// Returns the pixel that shows the point at an offset. For a point that the camera cannot see,
-    /// returns (1e9, 1e9), a pixel far outside the image.
+    /// Returns the pixel that shows the point at an offset, or (1e9, 1e9), a pixel far outside the
+    /// image, if the camera cannot see the point.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
     /// Returns the offset in mm of the point that a pixel shows.
     Vec2 offset_from_pixel(Vec2 pixel) const;
@@ -197,12 +197,12 @@ class Projection {
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
-    /// Returns the image point at `time` of the scene point that is at `undistorted` at the time of
+    /// Returns where a scene point appears at `time` if it appears at `undistorted` at the time of
     /// the middle row. Points are in px from the image centre of the undistorted image. `time` is
     /// in units of the readout time, from the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
-    /// Returns the motion of the pose point in the undistorted image, along an arc, from the time
-    /// of the middle row to `time`.
+    /// Returns the displacement of the pose point in the undistorted image, along an arc, from the
+    /// time of the middle row to `time`.
     Vec2 way_at(double time) const;
 
     Vec2 centre_px_;
@@ -222,24 +222,23 @@ class Projection {
 GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// Renders the whole plane, printed with `Page::seed` 1.
+/// Variant of `render` for a page that contains the whole plane and has the seed 1.
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// A page given as an image, for example a PDF rendered at 1200 dpi. Between its pixels, the grey
-/// levels are interpolated linearly.
+/// A page in the form of an image, for example a PDF rendered at 1200 dpi. Grey levels between its
+/// pixels are interpolated linearly.
 struct PageImage {
-    ImageView image;  ///< 255 is bare paper, and 0 is solid ink; the page is surrounded by
-                      ///< unlimited paper
+    ImageView image;  ///< 255 is bare paper, and 0 is solid ink; unlimited paper surrounds the page
     double mm_per_px = 25.4 / 1200;
     /// Point under the image centre, relative to the upper left corner of the image: x right, y
     /// down.
     Vec2 centre_mm;
 };
 
-/// Renders the camera's image of a page image. Ignores the position in `pose`, because the page
-/// image contains it. Also ignores the imperfections of the printer (jitter, missing dots), dirt
-/// and graphics.
+/// Renders the camera's image of a page image. Ignores the position in `pose`, because
+/// `PageImage::centre_mm` replaces it. Also ignores the imperfections of the printer (jitter,
+/// missing dots), dirt and graphics.
 GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
@@ -273,7 +272,7 @@ struct PartialView {
     int islands = 0;
     static constexpr int kMinIslandDots = 60;
     /// Minimum and maximum fraction of the image that the single area covers. The area has at least
-    /// `min_dots` dots, even if it must therefore cover more than `max_share`.
+    /// `min_dots` dots, even if it then covers more than `max_share`.
     double min_share = 0.15;
     double max_share = 0.45;
     int min_dots = 150;
@@ -283,19 +282,19 @@ struct PartialView {
 
 /// Chooses the areas with dots and the edge of the paper at random, from the shot's seed. Areas are
 /// aligned either with the pattern or with the image, with equal probability. Throws BadArgument
-/// unless 0 < `min_share` <= `max_share` <= 1, if the number of islands is not 0 to 16, or if there
-/// is no room for the islands.
+/// unless 0 < `min_share` <= `max_share` <= 1, if the number of islands is outside [0, 16], or if
+/// there is no room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Kinds of frames without a unique valid position. A locator must refuse them. The two seams are
-/// an exception: the position and section of either side of a seam also count as correct.
+/// Kinds of frames without a unique valid position. A locator must reject them. At the two seams,
+/// however, a fix with the position and section of either side is also correct.
 enum class Scene : std::uint8_t {
     black,
     white,
-    noise,            ///< each pixel is dark with probability `density`, without any pattern
+    noise,            ///< no pattern; each pixel is dark with probability `density`
     text,             ///< a page of words
     plain_grid,       ///< dots on the intersections, not displaced
     random_symbols,   ///< a perfect grid with random symbols

@@ -19,7 +19,7 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Pose of a pen. The angles are those of `CameraLean`: the camera first looks straight at the
-/// paper, is then turned about its optical axis, and is finally leaned over by the tilt in the
+/// paper, is then turned about its optical axis, and finally leans over by the tilt in the
 /// direction of the azimuth.
 struct PenPose {
     double x_mm = 0;  ///< place of the tip in the pattern frame
@@ -30,10 +30,10 @@ struct PenPose {
     double turn_rad = 0;
 };
 
-/// Returns `shot` with the camera moved to its place in a pen that has the given pose. Sets the
-/// pose, the working distance and the scale of the camera. The focal length in px, which is the
-/// ratio of `working_distance_mm` to `mm_per_px`, does not change. Throws BadArgument if the camera
-/// does not look down at the paper, or is not above it.
+/// Returns `shot` with the camera placed in a pen with the given pose. Sets the pose, the working
+/// distance and the scale of the camera. The focal length in px, which is the ratio of
+/// `working_distance_mm` to `mm_per_px`, does not change. Throws BadArgument if the camera does not
+/// look down at the paper, or is not above it.
 Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose);
 
 /// Options of simulated handwriting.
@@ -53,8 +53,8 @@ struct PenSample {
 
 /// Returns a path of random strokes with loops, in lines of four strokes from left to right.
 /// Between the strokes, the pen is lifted by 1 to 3 mm. After the last stroke, it remains above the
-/// paper. At both ends of a stroke, the pen does not move along the paper, but it has a vertical
-/// velocity. The tilt varies slowly between 20 and 40 degrees.
+/// paper. At both ends of a stroke, the pen moves only vertically. The tilt varies slowly between
+/// 20 and 40 degrees.
 std::vector<PenSample> simulate_handwriting(const Handwriting& options);
 
 }  // namespace dotpose

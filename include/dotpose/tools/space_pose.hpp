@@ -52,7 +52,7 @@ struct CameraInSpace {
 };
 
 /// A rotation as three angles in the pattern or sheet frame: the camera first looks straight at the
-/// paper, is then turned about its optical axis, and is finally leaned over by the tilt in the
+/// paper, is then turned about its optical axis, and finally leans over by the tilt in the
 /// direction of the azimuth. These are the angles of a pen in the W3C's Pointer Events. The tilt is
 /// 90 degrees minus the altitude.
 struct CameraLean {
@@ -74,8 +74,9 @@ using SpaceCovariance = std::array<std::array<double, 6>, 6>;
 /// tilt is approximately the tilt of the first pose, mirrored about the line of sight.
 struct SecondPose {
     CameraInSpace camera;
-    /// log2 of the likelihood of the dots with this pose, divided by their likelihood with the
-    /// first pose. Assumes that the errors of the dots are independent. At most 0.
+    /// log2 of a likelihood ratio: the likelihood of the dots with this pose, divided by their
+    /// likelihood with the first pose. Assumes that the errors of the dots are independent. At most
+    /// 0.
     double odds_log2 = 0;
 };
 
@@ -91,8 +92,8 @@ struct SpacePose {
     /// The second pose that explains the view, if there is one. It may be improbable.
     std::optional<SecondPose> second;
 
-    /// Limit of `SecondPose::odds_log2`. The dots exclude a second pose if its odds are at most
-    /// this limit. The limit is low because the errors of dots on bent paper are not independent.
+    /// Limit of `SecondPose::odds_log2`, at or below which the dots exclude the second pose. The
+    /// limit is low because the errors of dots on bent paper are not independent.
     static constexpr double kMaxOdds_log2 = -30;
     /// Returns true if the dots do not exclude the second pose.
     bool is_ambiguous() const { return second && second->odds_log2 > kMaxOdds_log2; }
@@ -111,18 +112,18 @@ void require_focal_length(const Camera& camera);
 /// errors of the dot centres in the image. Both variances are estimated from the residuals. Dots
 /// with residuals above four standard deviations are not used.
 ///
-/// `print` is the print scale of the sheet. `map` is the map of the page, or null: with a map, the
-/// dots are at their mapped places, and only dots that the map has seen are used. Check the map
-/// with `with_print_map` first, because this function does not detect that the map is of a
-/// different print. Returns none if there is no fix, if the spacing is unknown (`Fix::spacing_nm`
-/// is 0), or if there are fewer than 12 dots. Throws BadArgument if `camera` has neither a focal
-/// length nor a pinhole model.
+/// `print` is the print scale of the sheet. `map` is the map of the page, or null. With a map, the
+/// mapped places of the dots replace their nominal places, and dots that no frame of the map has
+/// seen are ignored. Check the map with `with_print_map` first, because this function does not
+/// detect a map of a different print. Returns none if there is no fix, if the spacing is unknown
+/// (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument if `camera` has
+/// neither a focal length nor a pinhole model.
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
                                     const Trace& trace, const AxisScale& print = {},
                                     const MapPage* map = nullptr);
 
 /// Converts a pose from the pattern frame to the frame of a sheet. The rotation and its covariance
-/// are equal in both frames.
+/// are the same in both frames.
 CameraInSpace on_sheet(const CameraInSpace& camera, const SheetEntry& entry);
 
 /// Pose of a camera in the world of a sheet file.
@@ -145,7 +146,7 @@ CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covar
 
 /// Returns the pose of a camera in the world of the sheet that contains `place`. Returns none if
 /// there is no pose or no place, if the dots do not exclude the second pose, or if the sheet has no
-/// place in the world.
+/// world pose.
 std::optional<CameraInWorld> certain_in_world(const std::optional<SpacePose>& pose,
                                               const std::optional<SheetPlace>& place);
 

@@ -1,5 +1,5 @@
-/// Tracker of a camera in space: smooths the poses of single frames, predicts the pose at other
-/// times, and rejects outliers and wrong second poses.
+/// Tracks a camera in space: smooths the poses of single frames, predicts the pose at other times,
+/// and rejects outliers and wrong second poses.
 ///
 ///     SpaceTracker tracker;
 ///     for (;;) {
@@ -40,16 +40,17 @@ struct SpaceSighting {
 };
 SpaceSighting sighting_of(const SpacePose& pose, std::int64_t time_us, std::uint32_t plane = 0);
 
-/// Returns the sighting in the world of the sheet that contains `place`, for a camera that moves
-/// over several sheets. The frame is the world frame turned about x by 180 degrees, in mm: y is
-/// down and z is into the paper, as in the pattern. Returns none if the sheet has no place in the
-/// world.
+/// Converts a pose to a sighting in the world, for a camera that moves over several sheets. `place`
+/// is on the sheet in view. The sighting is in the world frame rotated by 180 degrees about x, in
+/// mm, so y is down and z is into the paper, as in the pattern. Returns none if the sheet has no
+/// world pose.
 std::optional<SpaceSighting> world_sighting(const SpacePose& pose, const SheetPlace& place,
                                             std::int64_t time_us);
 
 /// Assumptions about the motion of the camera, and criteria for accepting sightings.
 struct SpaceTrackOptions {
-    /// Standard deviation of the acceleration along each axis. The default is suitable for a hand.
+    /// Standard deviation of the acceleration along each axis. The default suits a hand-held
+    /// camera.
     double acceleration_mm_s2 = 2000;
     double angular_acceleration_rad_s2 = 20;
     double hold_s = 0.5;  ///< time constant of the decay of accelerations
@@ -57,17 +58,17 @@ struct SpaceTrackOptions {
     /// axis, at the start of a track.
     double speed_mm_s = 500;
     double turn_rad_s = 5;
-    /// Maximum normalised squared innovation of the six coordinates of an accepted sighting. A
-    /// correct sighting exceeds the default by chance once in 10^7.
+    /// Maximum normalised innovation squared, with six degrees of freedom, of an accepted sighting.
+    /// A correct sighting exceeds the default by chance about once in 10^7.
     double max_innovation = 45;
-    /// Number of consecutive rejected sightings that are consistent with each other after which the
-    /// track starts again from the newest of them.
+    /// Number of consecutive rejected sightings, consistent with each other, after which the track
+    /// restarts from the newest of them.
     int confirmations = 3;
     /// Time without an accepted sighting after which the camera is lost.
     std::int64_t lost_after_us = 200'000;
 };
 
-/// Decision of a tracker about the pose of a frame.
+/// Verdict of the tracker on the sighting of a frame.
 enum class SpaceVerdict : std::uint8_t {
     none,             ///< there was no sighting
     accepted,         ///< the first pose was used
@@ -125,7 +126,7 @@ struct Motion {
     /// Process noise along each axis: the ratio of the variance of the acceleration noise to the
     /// variance in the options.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
-    std::array<double, 6> innovation{};  ///< of the latest accepted sighting
+    std::array<double, 6> innovation{};  ///< innovation of the latest accepted sighting
 };
 
 }  // namespace space_track
@@ -135,11 +136,11 @@ class SpaceTracker {
   public:
     explicit SpaceTracker(const SpaceTrackOptions& options = {}) : options_(options) {}
 
-    /// Takes the sighting of a frame. A sighting in another plane, or not later than the previous
-    /// frame, starts a new track. An ambiguous sighting cannot start a track, so the camera is then
-    /// lost.
+    /// Processes the sighting of a frame. A sighting in another plane, or not later than the
+    /// previous frame, starts a new track. An ambiguous sighting cannot start a track, so the
+    /// camera is then lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
-    /// Takes a frame without a sighting. The camera is lost if the frame is earlier than the
+    /// Processes a frame without a sighting. The camera is lost if the frame is earlier than the
     /// previous frame, or too late (see `lost_after_us`).
     const SpaceTrack& update(std::int64_t time_us);
 
@@ -158,8 +159,8 @@ class SpaceTracker {
     SpaceTrack track_;
     space_track::Motion motion_;
     std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
-    // The newest unambiguous sighting that was rejected since then, and the length of the series of
-    // rejected sightings up to it in which each is consistent with the one before.
+    // The newest unambiguous sighting that was rejected since then, and the number of consecutive
+    // rejected sightings, up to and including it, that are each consistent with the previous one.
     std::optional<SpaceSighting> rejected_;
     int rejections_ = 0;
 };

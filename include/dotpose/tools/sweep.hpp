@@ -1,4 +1,4 @@
-/// Sweep: the score of `locate` for simulated frames with increasing degradation of one condition.
+/// Sweep: the score of `locate` for simulated frames as one condition is degraded step by step.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ enum class SweepKind : std::uint8_t {
     missing,    ///< dots not printed, %
     tilt,       ///< tilt of the camera about a random axis in the image, degrees
     spacing,    ///< grid spacing in the image, px
-    occlusion,  ///< percentage of the image that a dark area with a straight edge covers from a
+    occlusion,  ///< percentage of the image covered by a dark area with a straight edge, from a
                 ///< random side
 };
 /// All values of SweepKind, for tables.
@@ -36,15 +36,14 @@ const char* name(SweepKind kind);
 
 /// Options for a sweep.
 struct SweepOptions {
-    Setup setup;  ///< setup of all frames; only the varied condition is replaced
-    /// Number of frames per value. Frames with the same index differ only in the condition that is
-    /// varied.
+    Setup setup;  ///< setup of all frames, except for the varied condition
+    /// Number of frames per value. Frames with the same index differ only in the varied condition.
     int frames_per_value = 200;
     /// Options for `locate`. Both decoders are run, so `decoder` is ignored.
     DeviceOptions locate;
     int threads = 0;
-    /// Called with the number of frames that are done and the number of all frames. Returning false
-    /// ends the sweep. If at least two values are complete, the result contains the complete
+    /// Called with the number of frames done and the total number of frames. Returning false ends
+    /// the sweep. If at least two values are complete, the result contains only the complete
     /// values. Otherwise, `run_sweep` throws Error.
     Progress progress;
 };

@@ -6,9 +6,9 @@
 ///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
 ///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)
 ///
-/// The position that `locate` reads anywhere in a patch therefore identifies the patch. Cells with
-/// x and y from kTestPageCell are reserved for test pages and must not be used for sheets. The
-/// displacement of the dots is a sixth of the spacing.
+/// The position that `locate` reads anywhere in a patch therefore identifies the patch. Cells whose
+/// x and y are at least kTestPageCell are reserved for test pages and must not be used for sheets.
+/// The displacement of the dots is a sixth of the spacing.
 #pragma once
 
 #include <optional>
@@ -37,19 +37,19 @@ struct TestPageOptions {
     Paper paper;
     double margin_mm = 10;
     /// Spacings of the columns of patches, and dot diameters of the rows of patches, in 1/1200
-    /// inch. Each is 1 to 80.
+    /// inch. Range: 1 to 80.
     std::vector<int> spacings = {18, 24, 30, 36};  ///< 0.381, 0.508, 0.635, 0.762 mm
     std::vector<int> dots = {2, 3, 4, 6, 8};       ///< 0.042, 0.064, 0.085, 0.127, 0.169 mm
 };
 
 /// Lays out the patches, with a label "spacing/dot" in mm above each patch. Omits combinations in
 /// which dots would touch. Throws BadArgument if a patch does not give a valid sheet (see
-/// `make_sheet`), if a setting is not in 1 to 80, or if there are no spacings or no dot diameters.
+/// `make_sheet`), if a setting is outside [1, 80], or if there are no spacings or no dot diameters.
 PrintPage make_test_page(const TestPageOptions& options);
 
 /// Returns the settings of the patch whose first cell is nearest to `cell` on both axes, even if
 /// `cell` is slightly outside the patch. Returns none if the cell is outside the region of the test
-/// pages, or if the dots of such a patch would touch.
+/// pages, or if the dots of the patch would touch.
 std::optional<Pattern> test_patch_at(CodeVariant code, Cell cell);
 
 }  // namespace dotpose

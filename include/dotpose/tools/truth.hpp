@@ -18,11 +18,12 @@ namespace dotpose {
 
 /// The true pose of a frame, with the conventions of `Fix`.
 struct Truth {
-    bool has_pose = true;  ///< false if the frame has no readable pattern and must be refused
+    bool has_pose = true;  ///< false if the frame has no readable pattern and must be rejected
     double x_grid = 0;
     double y_grid = 0;
     double theta_rad = 0;
-    std::optional<Section> section;  ///< section of the pose; not checked if unknown
+    /// Section of the pose. If it is none, the section of the fix is not checked.
+    std::optional<Section> section;
     double spacing_mm = kDefaultSpacing_mm;
 };
 
@@ -34,7 +35,7 @@ struct TruePlace {
     /// True for the world: y points up, and angles are counter-clockwise. False for a sheet: y
     /// points down, and angles are clockwise.
     bool is_in_world = false;
-    std::string sheet;  ///< name of the sheet; empty if not known
+    std::string sheet;  ///< name of the sheet, or empty if not known
     double x_mm = 0;
     double y_mm = 0;
     std::optional<double> angle_rad;
