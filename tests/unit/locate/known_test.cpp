@@ -50,13 +50,13 @@ TEST_F(Known, SixCellsSufficeIfNoOtherSheetIsPossible) {
     EXPECT_GE(located, kFrames - 1);
 }
 
-/// Dots that are cut off by the border of the image are also read, and grids may be as fine as 4.5
+/// Dots that are cut off by the border of the image are also read, and grids may be as fine as 5
 /// px per spacing.
 TEST_F(Known, FiveCellsSufficeAtAnySpacing) {
     know(OtherSheets::impossible);
     constexpr int kFrames = 40;
     for (const auto& [spacing_px, side_px] :
-         {std::pair{4.6, 36}, {5.0, 36}, {6.5, 36}, {9.0, 49}, {11.0, 60}}) {
+         {std::pair{5.0, 36}, {5.5, 36}, {6.5, 36}, {9.0, 49}, {11.0, 60}}) {
         SCOPED_TRACE(spacing_px);
         int located = 0;
         for (std::uint64_t i = 0; i < kFrames; ++i) {
