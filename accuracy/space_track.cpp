@@ -20,8 +20,7 @@
 namespace dotpose::tables {
 namespace {
 
-constexpr int kStart = 30;  ///< number of frames that are not counted at the start, while the
-                            ///< tracker settles
+constexpr int kStart = 30;  ///< number of initial frames that are not counted
 
 /// Returns the view of a camera at time `t_s`. The camera moves like a writing hand, over a width
 /// of 20 mm and with tilts of up to 30 degrees.

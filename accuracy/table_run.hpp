@@ -21,8 +21,7 @@ namespace dotpose::tables {
 /// Progress through a number of items.
 struct Done {
     std::uint64_t wanted = 0;  ///< number of items
-    std::uint64_t done = 0;    ///< number of completed items, less than `wanted` if the run was
-                               ///< interrupted
+    std::uint64_t done = 0;    ///< number of completed items, less than `wanted` if interrupted
     double seconds = 0;
 
     bool is_complete() const { return done == wanted; }

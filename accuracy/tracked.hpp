@@ -52,8 +52,7 @@ struct TrackedTally {
     std::uint64_t none = 0;           ///< number of frames without a fix
     std::uint64_t tracked_wrong = 0;  ///< number of wrong fixes based on the prediction
     std::uint64_t afresh_wrong = 0;   ///< number of wrong fixes after the prediction was rejected
-    std::vector<double> errors_um;    ///< position errors of the correct fixes based on the
-                                      ///< prediction
+    std::vector<double> errors_um;    ///< position errors of the fixes in `tracked`
 
     /// Counts a fix. Without a true pose, every fix counts as wrong.
     void count(const Fix& fix, const std::optional<TrueView>& truth) {

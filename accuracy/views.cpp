@@ -149,14 +149,11 @@ struct ViewCounts {
     // The next counts include only the views counted in `given`, which are located again with code
     // detection.
     int alone = 0;        ///< number of views located without evidence from other views
-    int ambiguous = 0;    ///< number of views refused as `ambiguous_code` without evidence from
-                          ///< other views
+    int ambiguous = 0;    ///< number of views refused as `ambiguous_code` when read alone
     int later_given = 0;  ///< number of views after the first kFirstViews
-    int later = 0;        ///< number of views in `later_given` that are located with the evidence
-                          ///< of earlier views
+    int later = 0;        ///< number of `later_given` located with earlier evidence
     int wrong = 0;
-    double max_against_log2 = 0;  ///< maximum evidence of a single view against the given code
-                                  ///< (log2 of the odds)
+    double max_against_log2 = 0;  ///< maximum log2 evidence of a view against the given code
 };
 
 class ViewReader {

@@ -58,8 +58,7 @@ struct GuideOptions {
 
 struct GuideResult {
     Camera camera;
-    std::string report;                           ///< report lines in the format of `dotpose
-                                                  ///< calibrate`
+    std::string report;                           ///< lines in the format of `dotpose calibrate`
     bool is_good = true;                          ///< false if the verdict is a warning
     std::optional<ResidualField> residuals = {};  ///< for the step `lens` only
     std::vector<SpinStation> stations = {};       ///< for the step `spin` only

@@ -145,8 +145,7 @@ class FleetState {
     ConditionLimits limits_;
     mutable std::mutex mutex_;
     std::map<std::string, Robot, NaturalOrder> robots_;
-    std::list<const std::string*> by_age_;  ///< names of the robots, sorted by their newest
-                                            ///< message, oldest first
+    std::list<const std::string*> by_age_;  ///< names of the robots, oldest message first
     StateCounts of_removed_;
     std::uint32_t next_id_ = 1;
     std::vector<float> latencies_ms_;

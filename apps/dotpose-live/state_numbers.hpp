@@ -13,8 +13,7 @@ namespace dotpose::cli {
 struct StateCounts {
     std::int64_t messages = 0;
     std::int64_t missed = 0;  ///< number of missing states, based on gaps in the sequence numbers
-    std::int64_t late = 0;    ///< number of states that arrived after newer states (not included in
-                              ///< `missed`)
+    std::int64_t late = 0;    ///< number of states that arrived after newer ones, not in `missed`
     /// Number of states received more than once. With QoS 1, some states are sent again after a
     /// connection was broken.
     std::int64_t repeated = 0;
@@ -47,8 +46,7 @@ class StateNumbers {
 
     bool is_first_ = true;
     Sent newest_;
-    std::array<Sent, kRemembered> seen_{};  ///< states indexed by their number modulo the array
-                                            ///< size
+    std::array<Sent, kRemembered> seen_{};  ///< indexed by the state number modulo the array size
     /// Number of consecutive states that are older than `newest_` but in ascending order of time.
     /// `doubted_us_` is the time of the last one.
     int doubts_ = 0;

@@ -23,8 +23,7 @@ class WatchMetrics {
 
   private:
     mutable std::mutex mutex_;
-    RefusedFrames frames_{};  ///< indexed by status, where the element of Status::ok counts located
-                              ///< frames
+    RefusedFrames frames_{};  ///< indexed by status; that of Status::ok are located
     WatchTally tally_;
     std::int64_t dropped_ = 0;
     double rate_hz_ = 0;

@@ -29,8 +29,7 @@ struct HistoryRequest {
     double last_s = 0;
     double from_s = 0;
     double to_s = 0;
-    double ask = 0;  ///< number chosen by the page, which changes it to read the same time span
-                     ///< again
+    double ask = 0;  ///< changed by the page to read the same time span again
     bool operator==(const HistoryRequest&) const = default;
 };
 

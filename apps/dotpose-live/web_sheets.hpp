@@ -88,8 +88,7 @@ class WebSheets {
 
     // Used only by the thread.
     SheetEdits edits_;
-    std::deque<std::string> pdf_paths_;         ///< paths of the PDFs that are available for
-                                                ///< download
+    std::deque<std::string> pdf_paths_;         ///< paths of the downloadable PDFs
     std::int64_t taken_version_ = 0;            ///< version of the sheets in `changed_`
     std::int64_t pdfs_ = 0;                     ///< number of PDFs created so far
     std::vector<SheetEdits::Target> measured_;  ///< sheets at the start of the measurement

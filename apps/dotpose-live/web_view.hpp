@@ -28,10 +28,9 @@ struct WebOptions {
     serve::ServerOptions server;
     std::vector<std::string> sources;  ///< names of the frame sources
     std::string recordings = ".";      ///< folder for recordings that are started on the page
-    std::string log;              ///< path of the run's log, which the page offers for download, or
-                                  ///< empty
-    RobotOutputOptions messages;  ///< description of the robot for recordings
-    WebSheetsOptions sheets;      ///< the path is empty if there is no sheet file
+    std::string log;                   ///< path of the log to offer for download, or empty
+    RobotOutputOptions messages;       ///< description of the robot for recordings
+    WebSheetsOptions sheets;           ///< the path is empty if there is no sheet file
     /// Options of the calibration on the page, or none if the page must not calibrate.
     std::optional<GuideOptions> calibration;
 };
@@ -115,8 +114,7 @@ class WebView {
     SheetTopics sheet_topics_;
     std::optional<WebSheets> sheet_view_;  ///< none without a sheet file
     WebCalibration calibration_;
-    AdviceWorker adviser_;  ///< destroyed before the server, because its thread publishes to the
-                            ///< server
+    AdviceWorker adviser_;  ///< destroyed before the server, which its thread uses
 };
 
 }  // namespace dotpose::cli

@@ -145,10 +145,8 @@ class Command {
     std::string get_name() const;
     std::string get_description() const;
     std::size_t count(const std::string& option) const;
-    Option* get_option(const std::string& name) const;           ///< throws if there is no such
-                                                                 ///< option
-    Option* get_option_no_throw(const std::string& name) const;  ///< null if there is no such
-                                                                 ///< option
+    Option* get_option(const std::string& name) const;           ///< throws if it does not exist
+    Option* get_option_no_throw(const std::string& name) const;  ///< null if it does not exist
     std::vector<Option*> get_options() const;
     std::vector<Command*> get_all_subcommands() const;
     std::vector<Command*> get_parsed_subcommands() const;

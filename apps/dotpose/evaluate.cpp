@@ -79,8 +79,7 @@ struct EvaluateArguments {
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
-    std::optional<CodeVariant> code;   ///< code of all frames, or none if --code does not specify
-                                       ///< one
+    std::optional<CodeVariant> code;   ///< code of all frames, or none if not specified
     bool ignores_truth_codes = false;  ///< ignore the codes in truth.csv
     int threads = 0;
 };

@@ -13,8 +13,7 @@
 namespace dotpose::cli {
 
 struct KnownFrames {
-    std::vector<TruthRow> rows;  ///< true pose of each frame, where `file` is the path or name of
-                                 ///< the frame
+    std::vector<TruthRow> rows;  ///< true poses, where `file` is the path or name of the frame
     /// Returns a frame. If the frame cannot be read, `problem` of the result is the reason.
     dotpose::FrameSource frame_at;
     /// Returns the number of frames. If the run was interrupted, returns the number of frames read

@@ -16,8 +16,7 @@ namespace dotpose::cli {
 struct Record {
     std::string file;
     Fix fix;
-    CodeReading reading;         ///< code and alternative places, which refer to the image centre,
-                                 ///< as `fix` does
+    CodeReading reading;         ///< code and alternative places, relative to the image centre
     bool code_is_given = false;  ///< whether the user or the sheet file specifies the code
     double spacing_mm = 0;       ///< NaN if unknown; fields in mm are then empty
     /// Spacing computed from the fix and the camera file, see Located.
@@ -31,8 +30,7 @@ struct Record {
     bool is_pen_down = false;
     MapUse map_use = MapUse::no_map;  ///< how the print map was used, see Located
     bool has_sheets = false;          ///< whether the record has the fields of a sheet file
-    std::optional<SheetPlace> place;  ///< place of the fix on its sheet, or none if it is not on a
-                                      ///< sheet
+    std::optional<SheetPlace> place;  ///< place of the fix on its sheet, if it is on one
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
     double elapsed_us = 0;  ///< time to locate the image in µs, or NaN if not measured
     std::string advice;     ///< advice if there is no fix, or empty
@@ -69,8 +67,8 @@ std::vector<Field> sheet_fields(const Record& record, Units units);
 
 /// Selection of CSV columns.
 enum class Columns {
-    brief,  ///< pose with standard deviations and p_wrong. With a sheet file, the poses on the
-            ///< sheet and in the world.
+    brief,  ///< pose, standard deviations and p_wrong; with a sheet file, the poses on the sheet
+            ///< and in the world instead of the pose in the pattern frame
     all,
 };
 

@@ -70,8 +70,7 @@ class DocumentOutput {
 
   private:
     std::filesystem::path path_;
-    std::filesystem::path folder_;  ///< temporary folder, or empty if the document is written
-                                    ///< directly to the output file
+    std::filesystem::path folder_;  ///< temporary folder, or empty if none is needed
 };
 
 }  // namespace dotpose::cli

@@ -12,9 +12,8 @@ namespace dotpose::cli {
 
 /// Units and axes of poses in the output. World poses are always in metres and radians.
 enum class Units {
-    mm,   ///< mm and degrees, with y down and clockwise angles, as seen on the paper
-    ros,  ///< metres and radians, with y up, z out of the paper and counter-clockwise angles (ROS
-          ///< REP 103)
+    mm,   ///< mm and degrees, y down, clockwise, as seen on the paper
+    ros,  ///< metres and radians, y up, z out of the paper, counter-clockwise (ROS REP 103)
 };
 
 /// A pose in a plane, in mm and rad.

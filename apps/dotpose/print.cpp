@@ -27,8 +27,7 @@ namespace {
 
 struct PrintArguments {
     std::string out;
-    std::string ending;  ///< file extension for --format, such as ".pdf", or empty if --format is
-                         ///< not given
+    std::string ending;  ///< file extension for --format, such as ".pdf", or empty
     std::string paper = "A4";
     bool landscape = false;
     SheetOptions sheet;

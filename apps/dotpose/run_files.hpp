@@ -71,8 +71,8 @@ class RunFiles {
     void add_output(const std::string& label, const std::optional<FileIdentity>& identity);
     void require_free(const std::string& label, const FileIdentity& identity) const;
 
-    std::map<FileIdentity, std::string> inputs_;  ///< option and path as the user wrote them, for
-                                                  ///< error messages
+    std::map<FileIdentity, std::string> inputs_;  ///< option and path of each input, for error
+                                                  ///< messages
     std::map<FileIdentity, std::string> outputs_;
 };
 

@@ -78,8 +78,7 @@ class LogReader {
     int line_ = 0;
     bool is_json_ = false;
     std::size_t width_ = 0;
-    LogCells::Columns columns_;  ///< columns of the CSV file, or of the newest row if the file
-                                 ///< contains JSON lines
+    LogCells::Columns columns_;  ///< columns of the file or, for JSON lines, of the newest row
 };
 
 struct LogRow {
