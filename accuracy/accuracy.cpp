@@ -106,9 +106,9 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the most difficult value of a condition for which at least the fraction `share` of the
-/// frames is still located. For the spacing, which has both a lower and an upper limit, returns the
-/// range between them.
+/// Returns the most difficult value of a condition at which at least the fraction `share` of the
+/// frames is still located. For the spacing, which has a lower and an upper limit, returns the
+/// range between the two limits.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];

@@ -74,7 +74,7 @@ struct LensTally {
 struct Series {
     const CameraKind& kind;
     std::uint64_t seed;
-    CameraPose mounted;  ///< tilt of the camera in its mount, without a position
+    CameraPose mounted;  ///< only the tilt is used, which is constant for a mounted camera
 
     Series(const CameraKind& k, std::uint64_t s, std::uint64_t index)
         : kind(k), seed(scramble(s) + index) {

@@ -55,8 +55,8 @@ struct Noise {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// Returns the expected information in a cell's bit, in bits, averaged over all weights and
-    /// including missing cells, which contain no information.
+    /// Returns the expected information in a cell's bit, in bits, averaged over all weights.
+    /// Missing cells count as cells without information.
     double information() const {
         double sum = 0;
         for (int weight = min_weight; weight <= 127; ++weight)
@@ -65,9 +65,9 @@ struct Noise {
     }
 };
 
-/// Draws the odds of a correct bit for which a reading with this number of cells is doubtful. Along
-/// one axis, there are 2^36.6 combinations of position, section and turn. The decoder needs 36.6
-/// bits to distinguish them. 30 more bits result in a p_wrong of about 2^-13.
+/// Draws the odds of a correct bit such that a reading with this number of cells is doubtful. Along
+/// one axis, there are 2^36.6 combinations of position, section and turn, so the decoder needs 36.6
+/// bits to distinguish them. With 30 more bits, p_wrong is about 2^-13.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;
@@ -160,9 +160,9 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Returns true if p_wrong is probably between 1e-5 and 1e-3. The range is centred on 1e-5, because
-/// this class needs the most readings. All other readings are skipped, because `verify` takes 20
-/// times as long as all previous steps.
+/// Returns true if p_wrong is probably near 1e-5. This class needs the most readings, and the
+/// selection includes enough readings with a p_wrong near 1e-4 and 1e-3. Other readings are
+/// skipped, because `verify` takes 20 times as long as all previous steps together.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);

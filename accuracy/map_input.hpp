@@ -1,5 +1,5 @@
-/// Simulated input for the solver of print maps: the measured dots in many frames of a page. No
-/// images are rendered.
+/// Simulated input for the print map solver: the measured dots in many frames of a page. No images
+/// are rendered.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct SolverInput {
     calibrate::MapGrid grid;
     std::vector<Eigen::Vector2d> offsets_mm;  ///< true offsets
     std::vector<calibrate::MapObservation> observations;
-    calibrate::MapSolution start;  ///< start of the solver, with approximate poses of the frames
+    calibrate::MapSolution start;  ///< initial state, with approximate poses of the frames
     double reach_mm = 0;
 };
 

@@ -93,7 +93,7 @@ struct RawErrors {
         theta_variance += static_cast<double>(located.fix.covariance[2][2]);
     }
     std::size_t count() const { return pages[0].count() + pages[1].count(); }
-    /// Returns error^2 / variance of the absolute positions, and of the headings.
+    /// Returns the means of error^2 / variance for the absolute positions and for the headings.
     std::array<double, 2> normalised() const {
         double variance = 0;
         for (const test::PlaceErrors& page : pages)

@@ -78,7 +78,7 @@ Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
     return variance / (peak * peak * std::numbers::pi / 2 * root) * shape;
 }
 
-/// Returns the options of a locator that records the trace which `space_pose` needs.
+/// Returns the options of a locator that records the trace that `space_pose` needs.
 DeviceOptions options_of(const Camera& camera) {
     DeviceOptions options;
     use_camera(camera, camera.width_px, camera.height_px, options);

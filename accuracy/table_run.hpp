@@ -18,7 +18,7 @@
 
 namespace dotpose::tables {
 
-/// Progress through a number of items.
+/// Number of completed items and elapsed time.
 struct Done {
     std::uint64_t wanted = 0;  ///< number of items
     std::uint64_t done = 0;    ///< number of completed items, less than `wanted` if interrupted

@@ -1,5 +1,5 @@
-// Measures how many frames are needed to locate a moving camera whose views are individually too
-// small for a fix, so the bits of successive frames are joined. Prints a table in Markdown.
+// Measures how many frames are needed to locate a moving camera if a single view is too small for a
+// fix. The bits of successive frames are joined. Prints a table in Markdown.
 //
 //   dotpose_tables together [--series N] [--seed S]
 //

@@ -1,4 +1,4 @@
-/// Functions that measure the tables of `tracked`, and the counters of their results.
+/// Functions that measure the tables of the command `tracked`, and counters for the results.
 #pragma once
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 //   dotpose_tables slips [--frames N] [--seed S] [--threads N]
 //   dotpose_tables seams [--frames N] [--seed S] [--threads N]
 //
-// `slips`: sheets whose halves are displaced relative to each other, and wrinkled paper. `seams`:
-// two adjacent sheets, drawn by a renderer that is independent of the simulator.
+// `slips`: sheets whose halves are displaced relative to each other, and wrinkled paper.
+// `seams`: two adjacent sheets, drawn by a renderer that is independent of the simulator.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -79,8 +79,8 @@ struct Varied {
 };
 
 /// Measures the time that `locate` needs for each of `frames` nominal frames of 188 x 120 px, and
-/// libapriltag for each of `frames` / 10 frames with tags. Each frame is measured `passes` times.
-/// Throws Error if a fix is wrong.
+/// the time that libapriltag needs for each of `frames` / 10 frames with tags. Each frame is
+/// measured `passes` times. Throws Error if a fix is wrong.
 Varied time_varied_frames(int frames, int passes);
 std::string varied_table(const Varied& varied);
 

@@ -28,8 +28,7 @@ constexpr std::array<const char*, 5> kSteps = {"lens", "spin", "drive", "readout
 constexpr std::array<const char*, 6> kPhases = {"idle",   "collecting", "solving",
                                                 "solved", "failed",     "saved"};
 
-/// Returns the reason why a step cannot start with this camera, or an empty string if there is
-/// none.
+/// Returns the reason why a step cannot start with this camera, or an empty string if it can.
 std::string problem_before(GuideStep step, const std::optional<Camera>& camera) {
     if (step == GuideStep::readout && !(camera && camera->paper)) {
         return "the camera file has no view of the paper: first calibrate the lens of the mounted "

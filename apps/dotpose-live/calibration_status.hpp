@@ -25,7 +25,7 @@ struct CalibrationStatus {
     /// Standard deviation of the undistorted position of the farthest image corner, according to
     /// the last finished calibration. None if no calibration has finished or the last one failed.
     std::optional<double> corner_sigma_px;
-    std::optional<double> theta_rad;  ///< direction in the newest frame, if it was located
+    std::optional<double> theta_rad;  ///< camera angle in the newest frame, if it was located
     std::vector<FrameTilt> tilts;     ///< tilts of the collected frames
     std::string now;                  ///< text about the newest frame
     std::string remark;               ///< advice after the last calibration, or empty

@@ -23,7 +23,7 @@ class ClockOffset {
         current_us_ = std::min(current_us_, offset_us);
     }
 
-    /// Discards all messages so far. To be called after the clock of the robot was set back.
+    /// Discards all messages so far. Must be called after the clock of the robot was set back.
     void reset() { *this = {}; }
 
     /// Returns the offset in us. At least one message must have been added.

@@ -31,9 +31,9 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 }  // namespace
 
 /// Counts the failed frames of each status and keeps a copy of one of them for the report at the
-/// end of the run. Copies the first, second, fourth, eighth, and so on, frame of each status,
-/// replacing the previous copy. Few frames are therefore copied, and the copy is always from the
-/// more recent half of the frames with its status.
+/// end of the run. Copies frames 1, 2, 4, 8 and so on of each status, each replacing the previous
+/// copy. Few frames are therefore copied, and the copy is always from the more recent half of the
+/// frames with its status.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

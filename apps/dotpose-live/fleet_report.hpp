@@ -12,9 +12,9 @@
 
 namespace dotpose::cli {
 
-/// How the states are delivered: `all` states of its robots to this instance of `dotpose fleet`, or
-/// `shared` among several instances. If the states are shared, gaps in the sequence numbers are not
-/// reported as missing states, because other instances may have received the states.
+/// Whether this instance of `dotpose fleet` receives all states of its robots, or shares the states
+/// with other instances. If the states are shared, states that appear to be missing may have been
+/// delivered to another instance, so missing states are not reported.
 enum class Delivery { all, shared };
 
 /// The contents of the sheet file of a fleet.
@@ -35,8 +35,9 @@ using FleetRobots = std::vector<FleetEntry>;
 /// file, the map of the first robot that has one. Returns an empty string if there is no map.
 std::string shown_map(const FleetMap& map, const FleetRobots& robots);
 
-/// Returns how urgently a robot needs attention, from 0 (most urgent) to 4: silent; lost; moving or
-/// still on an unknown map or sheet; moving or still on a known one; gone.
+/// Returns a rank that orders the robots by the attention that they need, most urgent first: 0 for
+/// silent, 1 for lost, 2 for moving or still on an unknown map or sheet, 3 for moving or still on a
+/// known map and sheet, and 4 for gone.
 int attention_rank(const FleetRobot& robot, const FleetMap& map);
 
 /// Sorts the robots by `attention_rank`. The sort is stable.

@@ -68,7 +68,7 @@ class SpinFrames : public GuidedFrames {
     std::array<bool, kDirections> directions_{};
 };
 
-/// A straight drive: collects frames at a constant distance.
+/// A straight drive: collects frames at regular distances.
 class DriveFrames : public GuidedFrames {
   public:
     void take(const GuidedFrame& frame) override;

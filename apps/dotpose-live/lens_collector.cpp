@@ -23,8 +23,8 @@ constexpr double kSteady_px_s = 30;
 /// Time without a steady frame after which frames of a moving camera are also accepted, in case the
 /// robot never stops.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// Minimum number of image blocks that a frame must be the first to cover to be accepted at a place
-/// that was already seen.
+/// Minimum number of newly covered image blocks that makes a frame useful even though it shows a
+/// place that was already seen. A block is newly covered if no collected frame covers it.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {

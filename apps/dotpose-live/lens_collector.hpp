@@ -82,8 +82,9 @@ class LensCollector {
     /// `goes_on` repeatedly. Returns false if `goes_on` has returned false, and true otherwise.
     bool finish(const std::function<bool()>& goes_on);
 
-    /// Returns the last calibration. To be called after `finish`. Throws Error, whose message names
-    /// the unmet requirements, if the frames are not sufficient for the verdict `good`.
+    /// Returns the last calibration. Must be called after `finish`. If the frames are not
+    /// sufficient for the verdict `good`, throws Error with a message that names the unmet
+    /// requirements.
     const LensCalibration& result() const;
 
     /// Returns the unmet requirements. At least one frame must have been taken.

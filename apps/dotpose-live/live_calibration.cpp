@@ -66,10 +66,10 @@ bool LiveCalibration::look(capture::Frame& frame) {
     return display_.show(collector_.status(outcome), outcome.image, collector_.trace());
 }
 
-/// Calibrates with the frames collected so far if useful. With a camera, does not wait for the
-/// calibration, so further frames can be read. With any other source, waits for the calibration,
-/// which makes the result independent of the speed of the computer. Returns false if the user wants
-/// to stop.
+/// Starts a calibration with the frames collected so far if it would be useful. With a camera,
+/// returns without waiting for the calibration, because the camera continues to deliver frames.
+/// With any other source, waits for the calibration, which makes the result independent of the
+/// speed of the computer. Returns false if the user wants to stop.
 bool LiveCalibration::go_on_calibrating() {
     collector_.start_if_useful();
     while (collector_.is_calibrating()) {

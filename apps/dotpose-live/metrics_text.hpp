@@ -1,4 +1,4 @@
-/// Version 0.0.4 of the Prometheus text format.
+/// Writes metrics in version 0.0.4 of the Prometheus text format.
 #pragma once
 
 #include <iterator>

@@ -18,7 +18,7 @@ struct RobotOutputOptions {
     std::string mcap;         ///< path of the MCAP file, or empty for none
     bool has_images = false;  ///< whether to record images as well
     ImageEncoding image_format = ImageEncoding::png;
-    std::optional<dds::PublisherOptions> dds;  ///< none to publish nothing over DDS
+    std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published over DDS
     std::string robot;
     std::string frame_prefix;      ///< prefix for the names of the robot's coordinate frames
     std::optional<Camera> camera;  ///< provides the mount and the exposure time

@@ -31,7 +31,7 @@ struct OutputOptions {
     PublishArguments publish;     ///< the MQTT broker and the name of the robot
     std::string sheets;           ///< path of the sheet file
     video::ScreenOptions screen;
-    std::optional<WebOptions> web;  ///< none for no page
+    std::optional<WebOptions> web;  ///< none if there is no page
 };
 
 /// Writes pose packets to a file or serial device.

@@ -41,7 +41,7 @@ constexpr std::size_t kMaxQueries = 8;
 constexpr std::size_t kMaxHistories = 16;
 constexpr std::size_t kMaxRobotName = 400;
 constexpr double kMaxSpan_s = 31 * 86'400.0;
-/// Maximum time in a request, which is in the year 2100.
+/// Maximum time in a request: the year 2100.
 constexpr double kMaxTime_s = 4.1e9;
 /// Maximum number of states that a query reads: 23 days of a robot at 10 Hz.
 constexpr std::int64_t kMaxReadStates = 20'000'000;

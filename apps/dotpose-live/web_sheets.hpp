@@ -50,7 +50,7 @@ class WebSheets {
     WebSheets(const WebSheets&) = delete;
     WebSheets& operator=(const WebSheets&) = delete;
 
-    /// Publishes the sheets. To be called after the server was started.
+    /// Publishes the sheets. Must be called after the server was started.
     void start();
 
     /// Uses this camera in later measurements.

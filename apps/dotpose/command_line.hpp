@@ -1,4 +1,4 @@
-/// Commands and their options: a thin wrapper of CLI11 that keeps its names.
+/// Commands and their options: a thin wrapper around CLI11 that uses the same names.
 ///
 /// Only command_line.cpp includes the CLI11 header, because the header adds ten seconds to the
 /// compile time of a source file.
@@ -102,7 +102,7 @@ class Option {
 /// A command, or the program itself. Owns its subcommands and its options.
 class Command {
   public:
-    /// Creates a program. An empty `name` stands for the name of the executable file.
+    /// Creates a program. If `name` is empty, the program is named after its executable file.
     explicit Command(const std::string& what = "", const std::string& name = "");
     /// Creates a subcommand.
     explicit Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}

@@ -19,16 +19,16 @@ struct KnownFrames {
     /// Returns the number of frames. If the run was interrupted, returns the number of frames read
     /// before the interruption.
     std::function<std::size_t()> readable_frames;
-    /// Warns on standard error if there are more frames than poses. To be called after the last
+    /// Warns on standard error if there are more frames than poses. Must be called after the last
     /// frame.
     std::function<void()> finish = [] {};
 };
 
 /// Returns the frames of the sources with their poses, which are read from `poses` or, if `poses`
-/// is empty, from truth.csv next to the images or the video. A folder stands for the frames in its
-/// truth.csv. Any other image has the pose of the row whose `file` is the name of the image. If the
-/// sources include a video, a camera or a raw stream, row N is the pose of frame N, counted over
-/// all sources. Throws Error if there are no poses, or if an image has no pose.
+/// is empty, from truth.csv next to the images or the video. A folder contributes the frames listed
+/// in its truth.csv. Any other image has the pose of the row whose `file` is the name of the image.
+/// If the sources include a video, a camera or a raw stream, row N is the pose of frame N, counted
+/// over all sources. Throws Error if there are no poses, or if an image has no pose.
 KnownFrames known_frames(const SourceArguments& arguments, const std::string& poses,
                          std::optional<double> spacing_mm);
 

@@ -75,9 +75,9 @@ enum class Columns {
 /// Returns the fields that are columns of the CSV output, in their original order.
 std::vector<Field> columns_of(std::vector<Field> fields, Columns columns);
 
-/// Returns the CSV header, including the line break, for a run with the options of `follower`.
+/// Returns the CSV header, including the line break, of a run that has the options of `follower`.
 std::string csv_header(const Follower& follower, Units units, Columns columns);
-/// Returns a record without values, with the fields of a run with the options of `follower`.
+/// Returns an empty record with the fields of a run that has the options of `follower`.
 Record empty_record(const Follower& follower);
 
 /// Returns one line of text: file, sheet, x, y and angle with their standard deviations, and the

@@ -125,7 +125,7 @@ std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::strin
                     WorldPose{});
 }
 
-/// Returns the camera pose in space that was computed from the single frame. Returns none if the
+/// Returns the camera pose in space that was computed from the frame alone. Returns none if the
 /// pose is unknown or ambiguous.
 std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     if (row.text("camera_is_ambiguous") != "false") return std::nullopt;

@@ -16,8 +16,9 @@ class NewPlaces {
     /// differs from every stored place in the same section in at least one of these properties:
     /// - the centre of the frame, by a quarter of the shorter frame side and at least two spacings,
     /// - the direction, by 15 degrees, or
-    /// - the distance from the paper, by 10 %. Each call of `thin_out` doubles these differences.
-    ///   Returns false for a frame without a fix.
+    /// - the distance from the paper, by 10 %.
+    ///
+    /// Each call of `thin_out` doubles these differences. Returns false for a frame without a fix.
     bool take(const Fix& fix, ImageView image);
 
     std::size_t count() const { return places_.size(); }
@@ -35,7 +36,7 @@ class NewPlaces {
     };
 
     std::vector<Place> places_;
-    /// Factor of the minimum differences, which each call of `thin_out` multiplies.
+    /// Factor by which the minimum differences have grown. Each call of `thin_out` doubles it.
     double factor_ = 1;
 };
 

@@ -21,8 +21,9 @@ namespace dotpose::cli {
 template <typename Result>
 class OrderedThreads {
   public:
-    /// Accepts a result from a thread. Blocks while kMaxResults results of the thread are queued.
-    /// Returns false if no more results are needed, in which case the thread must return.
+    /// Function that a thread calls to deliver a result. Blocks while kMaxResults results of the
+    /// thread are queued. Returns false if no more results are needed, in which case the thread
+    /// must return.
     using Emit = std::function<bool(Result)>;
     using Work = std::function<void(std::size_t thread, const Emit& emit)>;
 

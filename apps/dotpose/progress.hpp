@@ -48,7 +48,7 @@ class ProgressLine {
     std::chrono::steady_clock::time_point next_;
 };
 
-/// Removes the progress line from the terminal. To be called before a message is written.
+/// Removes the progress line from the terminal. Must be called before a message is written.
 void hide_progress();
 
 }  // namespace dotpose::cli

@@ -62,8 +62,8 @@ class RunFiles {
     /// unlimited number of inputs.
     void require_not_written(const std::string& path) const;
 
-    /// Checks an output like `writes`, but does not store its path. For generated names, which are
-    /// known to differ from each other.
+    /// Checks an output like `writes`, but does not store its path. Use this function for generated
+    /// names, which are known to differ from each other.
     void require_free(const std::string& option, const std::string& path) const;
 
   private:

@@ -112,7 +112,7 @@ std::optional<LogCells> LogReader::next_row() {
     std::string line;
     if (!files::next_line(file_, line)) return std::nullopt;
     ++line_;
-    if (file_.eof()) return std::nullopt;  // the last line is incomplete without a line break
+    if (file_.eof()) return std::nullopt;  // a line without a line break is incomplete
     if (is_json_) return row_of_json(line);
     auto cells = cells_of(line);
     if (cells.size() != width_) {

@@ -1,4 +1,4 @@
-/// A simulated robot that drives over the sheets of a sheet file with a camera.
+/// A simulated robot with a camera, which drives over the sheets of a sheet file.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct DriveOptions {
 struct PoseOnSheet {
     const SheetEntry* entry = nullptr;
     CameraPose pose;          ///< pose in the pattern frame of the sheet
-    bool is_on_page = false;  ///< false if the table next to the page is at the image centre
+    bool is_on_page = false;  ///< false if the image centre shows the table
 };
 
 /// A robot that repeatedly drives a figure of eight at a constant speed. The x axis of its camera

@@ -21,8 +21,9 @@ std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 Units units);
 
 /// Returns the fields of the track of a camera in space. The result includes the pose in the world
-/// only if `has_sheets` is true. Depending on `is_in_world`, either the pose in the world has
-/// values or the pose in the pattern frame. While the camera is lost, only the verdict has a value.
+/// only if `has_sheets` is true. If `is_in_world` is true, only the pose in the world has values.
+/// Otherwise, only the pose in the pattern frame has values. While the camera is lost, only the
+/// verdict has a value.
 std::vector<Field> space_track_fields(const SpaceTrack& track, bool is_in_world, bool has_sheets,
                                       Units units);
 

@@ -66,8 +66,8 @@ std::string parsed_commands(const Command& app) {
     return words;
 }
 
-/// Returns the message for an unknown word in place of a command. `parent` is the program, or a
-/// command with subcommands.
+/// Returns the message for an unknown word where a command is expected. `parent` is the program, or
+/// a command with subcommands.
 std::string unknown_before_command(const Command& app, const Command& parent,
                                    const std::string& word) {
     if (!is_option(word)) {
