@@ -12,7 +12,7 @@ namespace dotpose::cli {
 
 inline constexpr double kMmPerM = 1000;
 
-/// Pose in the world of the top left corner of a page, with y up.
+/// World pose of the top left corner of a page, with y up.
 struct PagePose {
     double x_mm = 0;
     double y_mm = 0;
@@ -31,7 +31,7 @@ inline const std::vector<std::string> kDirections = {"x", "y", "both"};
 /// A length measured on a printed page.
 struct MeasuredLength {
     double measured_mm = 0;
-    double nominal_mm = 0;       ///< length that the page should have at the correct scale
+    double nominal_mm = 0;       ///< intended length
     std::string along = "both";  ///< one of `kDirections`
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Removes the frames of an earlier run, which the new file of true poses will not list.
+/// Removes the frames of an earlier run, because the new file of true poses will not list them.
 void remove_old_frames(const fs::path& folder, const fs::path& truth) {
     std::vector<fs::path> frames;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
