@@ -1,4 +1,4 @@
-// Locates many simulated frames and prints tables of the results, most of them in Markdown.
+// Locates many frames and prints tables of the results, most of them in Markdown.
 //
 //   dotpose_tables TABLE [OPTION...]
 //   dotpose_tables TABLE --help

@@ -80,7 +80,8 @@ class TableRun {
     void print_block(const std::string& name, const std::string& text);
     const Blocks& blocks() const { return blocks_; }
     /// Replaces the generated blocks of the document with the printed blocks, if a document was
-    /// named. Does nothing after an interruption, because the printed blocks may be incomplete.
+    /// named. After an interruption, leaves the document unchanged, because the printed blocks may
+    /// be incomplete.
     void update_document() const;
     const std::string& document() const { return document_; }
 

@@ -103,9 +103,9 @@ KnownFrames known_images(const std::vector<std::string>& names,
     return known;
 }
 
-/// Frames of sources that can only be read sequentially. Thread-safe. Each frame can be requested
-/// only once. A request reads all frames up to its index and buffers the earlier frames until they
-/// are requested, so requests should be roughly in order.
+/// Frames of sources that can only be read sequentially. Several threads may request frames at the
+/// same time, but each frame can be requested only once. A request reads all frames up to its index
+/// and buffers the earlier frames until they are requested, so requests should be roughly in order.
 class FramesInOrder {
   public:
     /// Opens the first source. Throws Error or BadArgument if the source cannot be opened.
