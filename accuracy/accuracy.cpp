@@ -1,11 +1,11 @@
-// Measures all numbers in docs/accuracy.md. Run by `make accuracy`.
+// Measures all numbers in docs/accuracy.md. `make accuracy` runs this table.
 //
 //   dotpose_tables accuracy [--quick] [--update docs/accuracy.md] [--seed S] [FOLDER]
 //
 // Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER
-// (accuracy-out). --update also replaces the generated parts of the document and its pictures.
-// --quick locates only a tenth of the frames. It is meant for testing the program, because its
-// numbers are inaccurate.
+// (accuracy-out). --update also replaces the generated blocks of the document and its pictures.
+// --quick locates only a tenth of the frames, which is enough to test the program but too few for
+// accurate numbers.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -28,7 +28,7 @@ struct AccuracyOptions {
     int share(int frames) const { return is_quick ? frames / 10 : frames; }
 };
 
-/// A combination of decoder and effort, with its name in the tables.
+/// A decoder, an effort, and the name of the combination in the tables.
 struct Way {
     const char* name;
     Decoder decoder;
@@ -56,7 +56,7 @@ std::string three(const Quantiles& quantiles, int decimals) {
 }
 
 std::string frame_row(Preset preset, const Way& way, const Score& score) {
-    // Effort `device` does not compute a covariance.
+    // `Effort::device` does not compute a covariance.
     const auto& [x, y, theta] = score.normalised;
     const std::string normalised =
         std::isfinite(x) ? fmt::format("{:.2f} / {:.2f} / {:.2f}", x, y, theta) : "-";
@@ -76,7 +76,8 @@ std::string status_rows(Preset preset, const Score& score) {
     return rows;
 }
 
-/// Prints the tables of clean, nominal and hard frames, located with every combination in `kWays`.
+/// Prints the tables of clean, nominal and hard frames, with one row for each combination in
+/// `kWays`.
 void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     std::string frames =
         "| preset | decoder | frames | located | wrong | position error, µm: median / 95 % / max | "
@@ -105,8 +106,9 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the hardest value of a condition up to which at least the fraction `share` of the frames
-/// is located. For the spacing, which has a lower and an upper limit, returns a range of values.
+/// Returns the most difficult value of a condition at which at least the fraction `share` of the
+/// frames is still located. For the spacing, which has a lower and an upper limit, returns the
+/// range between the two limits.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];
@@ -164,7 +166,7 @@ void print_protocol(const AccuracyOptions& accuracy, TableRun& run) {
 bool accuracy_table(TableRun& run) {
     AccuracyOptions options;
     std::string folder = "accuracy-out";
-    run.seed = 404;  // not used by any test or for tuning
+    run.seed = 404;  // not used by any test or for parameter tuning
     run.command.add_option("FOLDER", folder, "Folder of tables and figures")->capture_default_str();
     run.command.add_flag("--quick", options.is_quick, "A tenth of the frames: not exact");
     run.add_update();

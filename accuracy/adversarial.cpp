@@ -1,11 +1,12 @@
-// Counts wrong fixes of `locate` in adversarial frames, which show patterns that resemble the code.
+// Counts the wrong fixes that `locate` returns for adversarial frames, whose patterns resemble the
+// code.
 //
 //   dotpose_tables adversarial [--frames N] [--class NAME] [--code given|auto] [--seed S]
 //   [--threads N]
 //
-// Locates N frames, divided evenly among the classes in tests/adversarial_frames.hpp, or all of
-// class NAME. The exit status is 1 if any fix is wrong. After Ctrl-C, the table contains the frames
-// located so far. Times are CPU times.
+// Locates N frames, divided equally among the classes in tests/adversarial_frames.hpp, or all of
+// class NAME if it is given. The exit status is 1 if any fix is wrong. Ctrl-C ends the run early
+// and prints the results so far. Times are CPU times.
 #include <algorithm>
 #include <array>
 #include <ctime>
@@ -30,7 +31,7 @@ constexpr std::array<std::string_view, 5> kVerdicts{"refused", "right", "second"
 using Counts = std::array<std::uint64_t, kVerdicts.size()>;
 constexpr std::size_t kClasses = test::kAdversaries.size();
 
-/// Returns the CPU time of this thread in seconds.
+/// Returns the CPU time of the calling thread, in seconds.
 double thread_seconds() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -42,7 +43,7 @@ struct ClassTally {
     Counts verdicts{};
     double rendering_s = 0;
     double locating_s = 0;
-    double longest_s = 0;  ///< longest time of one call of `locate`
+    double longest_s = 0;  ///< longest CPU time of a single call of `locate`
 
     ClassTally& operator+=(const ClassTally& other) {
         for (std::size_t v = 0; v < verdicts.size(); ++v)
@@ -69,10 +70,10 @@ struct AdversaryTally {
     }
 };
 
-/// Source of the code variant: the options of the frame, or detection by the locator.
+/// Whether the code variant is taken from the options of the frame or detected by the locator.
 enum class Code : std::uint8_t { given, automatic };
 
-/// Locates a frame. Stores a detected code variant in the options of the frame.
+/// Locates a frame. If the code variant is detected, stores it in the options of the frame.
 Fix locate(test::AdversarialFrame& frame, Code code) {
     if (code == Code::given)
         return Locator(thread_memory(), frame.options).locate(frame.image.view());

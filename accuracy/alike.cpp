@@ -1,7 +1,7 @@
-// Measures the accuracy of frames in which all dots have the same sub-pixel phase: spacings of
-// whole pixels, no printing errors, and angles of 0, 45 and 90 degrees. For comparison, measures
-// frames at 7 degrees, in which the biases of the dots average out. Prints a table of
-// docs/accuracy.md in Markdown.
+// Measures the accuracy in frames whose dots all have the same sub-pixel phase: the spacing is a
+// whole number of pixels, there are no printing errors, and the angle is 0, 45 or 90 degrees. The
+// reference is the accuracy at 7 degrees, where the biases of the dots average out. Prints a table
+// of docs/accuracy.md in Markdown.
 //
 //   dotpose_tables alike [--frames N] [--seed S] [--threads N] [--spacings P,...] [--dots D,...]
 //                        [--blurs B,...]
@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kReference_deg = 7;
 constexpr std::array kAngles_deg{0.0, 45.0, 90.0};
-/// Limits beyond which the table marks a value: the maximum ratio of the error to the error at 7
-/// degrees, and the range of the mean of error^2 / variance.
+/// Limits beyond which the table marks a value with "!": the maximum ratio of the error to the
+/// error at 7 degrees, and the range of the mean of error^2 / variance.
 constexpr double kMaxErrorRatio = 2;
 constexpr std::array kNormalisedRange{0.7, 1.5};
 

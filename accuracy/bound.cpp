@@ -1,5 +1,5 @@
-// Compares position errors with the Cramer-Rao bound, for frames whose only source of error is
-// noise. The frames are drawn by the simulator and by an independent renderer (dot_image.hpp).
+// Compares position errors with the Cramer-Rao bound in frames in which noise is the only source of
+// error. The frames are drawn by the simulator and by an independent renderer (dot_image.hpp).
 // Prints a table of docs/accuracy.md in Markdown.
 //
 //   dotpose_tables bound [--frames N] [--seed S] [--threads N] [--rows R,...]
@@ -33,10 +33,10 @@ struct BoundFrames {
     int width_px;
     int height_px;
     int spacing_px;
-    /// Angle of the image x axis. If it is negative, each frame has a random angle.
+    /// Angle of the image x axis, or a negative value to draw a random angle for each frame.
     double theta_rad;
-    double motion_px;  ///< motion during the exposure
-    double fall;       ///< relative change of the illumination across the image
+    double motion_px;  ///< length of the motion blur
+    double fall;       ///< relative drop of the illumination across the image
 };
 
 constexpr double kAnyAngle = -1;
@@ -63,11 +63,11 @@ DotImage dot_of(const BoundFrames& frames) {
              frames.motion_px * std::sin(kMotionDirection_rad)}};
 }
 
-/// Returns the Cramer-Rao bound of the median position error, in px. Scale, angle and tilt are
-/// assumed to be known.
+/// Returns the Cramer-Rao bound of the median position error, in px, given that scale, angle and
+/// tilt are known.
 double bound_px(const BoundFrames& frames, const DotImage& dot) {
-    constexpr int kPhases = 4;  // number of sub-pixel phases of the dot along each axis
-    double xx = 0;              // Fisher information of a shift, averaged over the phases
+    constexpr int kPhases = 4;  // number of sub-pixel phases per axis
+    double xx = 0;              // Fisher information of one dot, averaged over the phases
     double xy = 0;
     double yy = 0;
     for (int phase = 0; phase < kPhases * kPhases; ++phase) {
@@ -83,13 +83,13 @@ double bound_px(const BoundFrames& frames, const DotImage& dot) {
             }
         }
     }
-    constexpr double kRounding = 1.0 / 12;  // variance of rounding to grey levels
+    constexpr double kRounding = 1.0 / 12;  // variance of the rounding to integer grey levels
     const double contrast = kPaper * (1 - kInk);
     const double dots =
         1.0 * frames.width_px * frames.height_px / (frames.spacing_px * frames.spacing_px);
     const double scale = dots * contrast * contrast / (kNoise * kNoise + kRounding);
     const double variance_px2 = (xx + yy) / 2 / (xx * yy - xy * xy) / scale;
-    // Median of the length of a vector with independent normal components of variance 1.
+    // Median length of a 2D vector whose components are independent standard normal variables.
     const double median = std::sqrt(2 * std::numbers::ln2);
     return median * std::sqrt(variance_px2);
 }
@@ -111,7 +111,7 @@ Shot shot_of(const BoundFrames& frames, std::uint64_t seed, int index) {
                                     frames.motion_px * std::sin(kMotionDirection_rad)};
     shot.imperfections.fall = frames.fall;
     shot.imperfections.fall_direction_rad = rng.uniform(0, 2 * std::numbers::pi);
-    shot.imperfections.sub_pixels = 8;  // fine sampling, because errors of 0.0005 px matter
+    shot.imperfections.sub_pixels = 8;  // fine, because errors of 0.0005 px matter
     return shot;
 }
 

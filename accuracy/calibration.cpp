@@ -1,5 +1,5 @@
-// Simulates many calibrations of each kind and measures their errors, absolute and relative to the
-// reported standard deviations. Prints all numbers in docs/calibration.md.
+// Simulates many calibrations of each kind. Measures their errors, both absolute and relative to
+// the reported standard deviations. Prints all numbers in docs/calibration.md.
 //
 //   dotpose_tables calibration [--calibrations N] [--large N] [--spins N] [--tables N] [--seed S]
 //                              [--threads N]

@@ -33,15 +33,15 @@ struct Errors {
         return *this;
     }
     double rms() const { return std::sqrt(squares / count); }
-    /// Returns the mean of error^2 / variance, which is 1 if the reported standard deviations are
-    /// correct, or "-" if no standard deviations are reported.
+    /// Returns the mean of error^2 / variance, or "-" if no standard deviations are reported. The
+    /// mean is 1 if the reported standard deviations are correct.
     std::string normalised_text() const {
         return std::isnan(normalised_squares) ? "-"
                                               : fmt::format("{:.2f}", normalised_squares / count);
     }
 };
 
-/// Maps the name of a parameter to its error statistics.
+/// Error statistics by parameter name.
 using ErrorTable = std::map<std::string, Errors>;
 inline ErrorTable& operator+=(ErrorTable& table, const ErrorTable& other) {
     for (const auto& [key, errors] : other)
@@ -69,19 +69,19 @@ struct Numbers {
     double mean() const { return sum / count; }
 };
 
-/// Measures the errors of lens parameters, the residuals, and the errors of positions located with
-/// the calibrated cameras. Prints tables in Markdown.
+/// Measures the errors of lens parameters, the residuals, and the position errors with the
+/// calibrated cameras. Prints tables in Markdown.
 void measure_lenses(std::uint64_t small_cameras, std::uint64_t large_cameras, const TableRun& run);
 
-/// Measures the errors of the reference point calibrated by turning a robot on the spot. Prints a
-/// table.
+/// Measures the errors of the reference point that is calibrated by turning a robot on the spot.
+/// Prints a table.
 void measure_spins(std::uint64_t count, const TableRun& run);
 
-/// Measures the errors of stitching four adjacent sheets that have different print scales. Prints a
+/// Measures the errors of stitching four adjacent sheets with different print scales. Prints a
 /// table.
 void measure_stitching(std::uint64_t count, const TableRun& run);
 
-/// Writes the frames of the example in docs/calibration.md to `folder`.
+/// Writes the frames of the example of docs/calibration.md to `folder`.
 void write_example(const std::string& folder, std::uint64_t seed);
 
 }  // namespace dotpose::tables

@@ -41,8 +41,8 @@ TrueDot nearest_dot(const Shot& shot, Vec2 offset_mm) {
     return best;
 }
 
-/// An unknown parameter of a camera: its name, the step of its numerical derivative, and a function
-/// that adds a value to the parameter.
+/// An unknown parameter of a camera: its name, the step for its numerical derivative, and a
+/// function that adds a value to the parameter.
 struct Parameter {
     const char* name;
     double step;
@@ -77,8 +77,8 @@ Vector2d on_paper_at(const Camera& camera, PixelPoint pixel) {
     return {point.x_mm, point.y_mm};
 }
 
-/// Returns the change of a dot's position on the paper for one step of each parameter. The last
-/// column is the derivative with respect to the length of the dot's displacement, which is unknown
+/// Returns the change of a dot's position on the paper per step of each parameter. The last column
+/// is the derivative with respect to the length of the dots' displacement, which is also unknown
 /// because it depends on ink and blur.
 MatrixXd jacobian(const Camera& camera, const TrueDot& dot,
                   const std::vector<Parameter>& parameters) {
@@ -127,7 +127,8 @@ std::map<std::string, double> min_sigmas(const Camera& camera, const std::vector
     for (const TrueDot& dot : dots) {
         const MatrixXd rows = jacobian(camera, dot, parameters);
         const Vector2d at = on_paper_at(camera, dot.pixel);
-        // Derivatives with respect to the position and the angle of the frame.
+        // Derivatives of the dot's position with respect to the position and the angle of the
+        // frame.
         Eigen::Matrix<double, 2, 3> pose;
         pose << 1, 0, -at.y(), 0, 1, at.x();
         FrameSums& frame = frames[dot.frame];

@@ -1,5 +1,5 @@
-// Reference values for the errors of a calibration: the residuals of the dots with the true
-// parameters, and the Cramer-Rao bounds of the parameters for the given jitter of the printed dots.
+// Reference values for the errors of a calibration: the residuals of the dots for the true
+// parameters, and the Cramer-Rao bounds of the parameters for a given jitter of the printed dots.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace dotpose::tables {
 
-/// A dot that a calibration used, with its true displacement and its true error.
+/// A dot used by a calibration, with its true displacement and its true printing error.
 struct TrueDot {
     int frame = 0;
     PixelPoint pixel;
@@ -27,9 +27,9 @@ enum class Unknown {
     straight,  ///< lens, one scale
 };
 
-/// Returns the minimum standard deviations of an unbiased estimate from these dots, keyed by the
-/// names of `Camera::sigma`. `jitter_mm` is the standard deviation of a dot's position along each
-/// axis.
+/// Returns the minimum standard deviations of any unbiased estimate from these dots, keyed by the
+/// names in `Camera::sigma`. `jitter_mm` is the standard deviation of a printed dot's position
+/// along each axis.
 std::map<std::string, double> min_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
                                          double jitter_mm, Unknown unknown);
 

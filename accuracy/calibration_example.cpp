@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace calibrate_test;
 
-/// Writes frame_at(0), frame_at(1) and so on to a folder.
+/// Writes frame_at(0) to frame_at(frames - 1) to a folder.
 template <typename FrameAt>
 void write_frames(const fs::path& folder, int frames, FrameAt frame_at) {
     fs::create_directories(folder);
@@ -22,8 +22,7 @@ void write_frames(const fs::path& folder, int frames, FrameAt frame_at) {
         write_pgm(folder / fmt::format("frame_{:06}.pgm", i), frame_at(i).view());
 }
 
-/// Writes the sheet file of the table. The poses are rounded to 1 mm, as if they were measured with
-/// a ruler.
+/// Writes the sheet file of the table, with poses rounded to 1 mm as if measured with a ruler.
 void write_sheets(const fs::path& path) {
     fs::remove(path);
     SheetFile file(path);

@@ -19,10 +19,10 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr int kLensFrames = 20;
-/// Print jitter of the preset `nominal`.
+/// Standard deviation of the print jitter in the preset `nominal`.
 constexpr double kJitter_mm = 0.010;
 
-/// A kind of camera to calibrate.
+/// A kind of camera whose calibration is measured.
 struct CameraKind {
     const char* title;
     CameraModel camera;
@@ -30,8 +30,8 @@ struct CameraKind {
     bool is_mounted = true;
 };
 
-/// Returns the camera of the paper. It has a field of view of 54 degrees and 12 % distortion in the
-/// corners, and it shows 8.6 x 5.5 mm after correction.
+/// Returns the camera of the paper. Its field of view is 54 degrees, or 8.6 x 5.5 mm on the paper
+/// after correction, and its distortion in the corners is 12 %.
 CameraModel small_camera() {
     CameraModel camera;
     camera.k = -8.7e-6;
@@ -49,10 +49,10 @@ CameraModel large_camera() {
 struct LensTally {
     ErrorTable errors;
     std::map<Unknown, ErrorTable> bounds_if;
-    Numbers residual;     ///< residual relative to the residual with the true parameters
+    Numbers residual;     ///< residual divided by the residual with the true parameters
     Errors located;       ///< position errors with the calibrated camera, um per axis
-    Errors undistorted;   ///< position errors for a lens without distortion, um per axis
-    int not_located = 0;  ///< frames without a fix, with the calibrated camera
+    Errors undistorted;   ///< position errors if the lens had no distortion, um per axis
+    int not_located = 0;  ///< number of frames without a fix, with the calibrated camera
     int not_good = 0;
     int wrong_kind = 0;
 
@@ -74,7 +74,7 @@ struct LensTally {
 struct Series {
     const CameraKind& kind;
     std::uint64_t seed;
-    CameraPose mounted;  ///< the tilt of a mounted camera
+    CameraPose mounted;  ///< only the tilt is used, which is constant for a mounted camera
 
     Series(const CameraKind& k, std::uint64_t s, std::uint64_t index)
         : kind(k), seed(scramble(s) + index) {
@@ -98,7 +98,7 @@ struct Series {
     }
 };
 
-/// Returns the length of the middle image row on the paper, in mm.
+/// Returns the length on the paper of the middle image row, in mm.
 double field_mm(const Camera& camera) {
     const double v = (camera.height_px - 1) / 2.0;
     const CameraPoint left = on_paper(camera, undistorted(camera, {0, v}));
@@ -113,7 +113,7 @@ double field_mm(const CameraModel& model) {
     return std::hypot(right.x - left.x, right.y - left.y);
 }
 
-/// The error of a parameter, its name and unit in the table, and the key of its standard deviation.
+/// The error of a parameter, its name and unit in the table, and its key in `Camera::sigma`.
 struct ParameterError {
     const char* title;
     const char* sigma;  ///< key in `Camera::sigma`, or empty if no standard deviation is reported
@@ -174,7 +174,7 @@ void measure_parameters(const Series& series, const LensCalibration& found,
 void measure_residual(const LensCalibration& found, const std::vector<Shot>& shots,
                       const std::vector<TrueDot>& dots, LensTally& tally) {
     Locator locator{DeviceOptions{}};
-    // The scale at the middle of each frame converts `residual_px` to mm.
+    // Scale at the centre of each frame, which converts `residual_px` to mm.
     std::vector<double> mm_per_px(shots.size(), NAN);
     for (std::size_t i = 0; i < shots.size(); ++i) {
         DeviceOptions options;
@@ -194,7 +194,8 @@ void measure_residual(const LensCalibration& found, const std::vector<Shot>& sho
     tally.residual.add(found.residual_px / std::sqrt(squares / count));
 }
 
-/// Locates further frames with the calibrated camera, and frames of a camera without distortion.
+/// Locates further frames with the calibrated camera, and frames of the same camera without lens
+/// distortion for comparison.
 void measure_positions(const Series& series, const Camera& camera, LensTally& tally) {
     Locator locator{DeviceOptions{}};
     Locator undistorted{DeviceOptions{}};

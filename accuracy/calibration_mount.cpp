@@ -16,7 +16,7 @@ using namespace calibrate_test;
 constexpr int kFramesOfCamera = 20;
 constexpr int kSpinFrames = 12;
 constexpr int kSeamFrames = 200;
-/// Maximum relative error of the print scale along each axis.
+/// Maximum relative error of the print scale, per axis.
 constexpr double kPrintError = 0.003;
 
 void print_table(const std::string& title, const ErrorTable& table) {
@@ -60,8 +60,8 @@ Table draw_table(Rng& rng) {
         lying.print = {1 + rng.uniform(-kPrintError, kPrintError),
                        1 + rng.uniform(-kPrintError, kPrintError)};
     }
-    // The sheet file contains the true mean scale of the first sheet. The mean of its print scales
-    // is therefore 1, but the scales along the two axes may differ.
+    // The sheet file contains the true mean scale of the first sheet. Its print scales are
+    // therefore normalised to a mean of 1, but may differ between the two axes.
     const double mean = std::sqrt(table[0].print.x * table[0].print.y);
     table[0].print = {table[0].print.x / mean, table[0].print.y / mean};
     return table;
@@ -91,7 +91,8 @@ Camera calibrated(const CameraModel& model, std::uint64_t seed) {
     return calibrate_lens(kFramesOfCamera, frame_at, {}).camera;
 }
 
-/// Calls `work(camera, model, seed, errors)` with the true camera and with a calibrated camera.
+/// Calls `work(camera, model, seed, errors)` `count` times with the true camera, and `count` times
+/// with calibrated cameras.
 template <typename Work>
 void measure_both(const std::string& what, std::uint64_t count, const CameraModel& model,
                   const TableRun& run, Work work) {

@@ -122,8 +122,8 @@ GreyImage draw_with(const DotTable& dot, const Shot& shot) {
             for (int v = first(at.y); v < std::min(height * 1.0, at.y + DotTable::kReach_px); ++v) {
                 for (int u = first(at.x); u < std::min(width * 1.0, at.x + DotTable::kReach_px);
                      ++u) {
-                    // Uses the illumination at the dot rather than at the pixel, because light
-                    // falls on the paper before the image is blurred.
+                    // The illumination is sampled at the dot rather than at the pixel, because
+                    // light is reflected by the paper before the optics blur the image.
                     darkness[static_cast<std::size_t>(width * v + u)] +=
                         light_at(at) * dot.darkness({u - at.x, v - at.y});
                 }

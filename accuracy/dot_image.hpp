@@ -1,5 +1,6 @@
-/// The image of one dot, computed from its geometry, and frames drawn with it. This renderer shares
-/// no code with the simulator (`render`) or the core, so it can detect faults of the simulator.
+/// Computes the image of a dot from its geometry and draws frames from such dots. This renderer
+/// shares no code with the simulator (`render`) or the core, so it can reveal errors of the
+/// simulator.
 #pragma once
 
 #include <vector>
@@ -8,8 +9,8 @@
 
 namespace dotpose::tables {
 
-/// A disk of ink, convolved with the motion during the exposure, with a Gaussian blur, and with the
-/// area of a pixel. Paper is 0, and a point that is completely covered with ink is 1.
+/// A disk of ink, convolved with the motion during the exposure, a Gaussian blur, and the area of a
+/// pixel. The darkness is 0 for paper and 1 for a pixel that is completely covered with ink.
 class DotImage {
   public:
     DotImage(double radius_px, double blur_px, Vec2 motion_px);
@@ -20,18 +21,19 @@ class DotImage {
     Vec2 derivative(Vec2 from_dot) const;
 
   private:
-    /// Returns the factor of one axis in the fraction of a point's light that a pixel receives.
-    /// `distance_px` is the distance along this axis.
+    /// Returns the fraction of a point's light that a pixel receives, along one axis. The total
+    /// fraction is the product over both axes. `distance_px` is the distance between the point and
+    /// the pixel centre along this axis.
     double share(double distance_px) const;
     double derivative_of_share(double distance_px) const;
 
-    std::vector<Vec2> points_;  ///< points of equal weight that represent the moving disk
+    std::vector<Vec2> points_;  ///< points of equal weight that represent the disk and its motion
     double weight_;
     double blur_px_;
 };
 
-/// Table of the darkness of a dot. Interpolates `DotImage::darkness` between the points of a fine
-/// grid. The darkness is 0 for pixels that are more than kReach_px away along either axis.
+/// A lookup table of the darkness of a dot. Interpolates `DotImage::darkness` on a fine grid. The
+/// darkness is 0 for pixels that are more than kReach_px away along either axis.
 class DotTable {
   public:
     explicit DotTable(const DotImage& dot);
@@ -40,7 +42,7 @@ class DotTable {
     double darkness(Vec2 from_dot) const;
 
   private:
-    static constexpr int kSteps = 16;  ///< per px
+    static constexpr int kSteps = 16;  ///< grid steps per px
     static constexpr int kSide = 2 * (kReach_px + 1) * kSteps + 1;
 
     double at(int i, int j) const { return values_[static_cast<std::size_t>(kSide * j + i)]; }
@@ -48,9 +50,9 @@ class DotTable {
     std::vector<double> values_;
 };
 
-/// Draws the frame of a shot. Ignores the tilt of the pose, and all imperfections except the levels
-/// of paper and ink, the illumination gradient and the noise. `dot` contains the blur, the motion
-/// and the size of the dots.
+/// Draws the frame of a shot. The blur, the motion and the size of the dots come from `dot`. The
+/// tilt of the pose is ignored, as are all imperfections except the levels of paper and ink, the
+/// illumination gradient and the noise.
 GreyImage draw_with(const DotTable& dot, const Shot& shot);
 
 }  // namespace dotpose::tables

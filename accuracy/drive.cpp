@@ -1,5 +1,5 @@
-// Measures the accuracy of tracking a robot. Processes the frames of the simulated drive of the
-// tests as `dotpose watch` does, at several speeds, on paper with and without printing errors.
+// Measures how accurately a robot is tracked. Processes the simulated drive of the tests in the
+// same way as `dotpose watch`, at several speeds and on paper with and without printing errors.
 //
 //   dotpose_tables drive [--speeds V...] [--width W] [--height H] [--draw FILE] [--threads N]
 #include <array>
@@ -99,7 +99,7 @@ void print_drive_row(const DriveKind& kind, double speed_mm_s, const DriveErrors
 
 using plot::Point;
 
-/// One panel of the picture: curves of one quantity over time.
+/// A panel of the picture: curves of one quantity over time.
 struct Panel {
     const char* label;
     double max;
@@ -125,7 +125,7 @@ double speed(const Sample& s) {
     return std::hypot(s.truth.vx_mm_s, s.truth.vy_mm_s);
 }
 
-/// Draws the errors along a drive, with gaps where the robot is not tracked.
+/// Draws the errors over the time of a drive, with gaps where the robot is not tracked.
 void draw_drive(const DriveSamples& run, const std::string& title, const std::string& file) {
     constexpr double kWidth = 900;
     constexpr double kLeft = 80;

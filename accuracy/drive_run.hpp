@@ -1,4 +1,4 @@
-/// Follows a robot on the simulated drive of the tests, as `dotpose watch` does.
+/// Tracks a robot on the simulated drive of the tests, as `dotpose watch` does.
 #pragma once
 
 #include <functional>
@@ -8,12 +8,12 @@
 
 namespace dotpose::tables {
 
-/// Called for each processed frame, with its index in the drive.
+/// Callback for each processed frame. `index` is the index of the frame in the drive.
 using TakeFrame =
     std::function<void(int index, const test::DriveState& truth, const Followed& followed)>;
 
-/// Processes every `step`-th frame of the drive, with a map of the print if there is one. Ctrl-C
-/// ends the run.
+/// Processes every `step`-th frame of the drive and corrects the positions with `map`, unless it is
+/// empty. Ctrl-C ends the run early.
 void follow_drive(const test::Drive& drive, const test::DriveCamera& camera, int step,
                   const TakeFrame& take, const PrintMap& map = {});
 

@@ -1,11 +1,11 @@
-// Computes checksums that detect every change of a pose, down to the last bit. Locates sets of
-// simulated frames with every attempt. For each set and attempt, prints a checksum of the pixels, a
-// checksum of all integers of the fixes, and the number of located frames.
+// Prints checksums that change if a single bit of a pose changes. Locates several sets of simulated
+// frames with every attempt. For each set and attempt, prints a checksum of the pixels, a checksum
+// of all integers in the fixes, and the number of located frames.
 //
 //   dotpose_tables golden [--threads N]
 //
-// scripts/golden-frames compares the lines with accuracy/golden.txt. Covariances and residuals are
-// not part of the checksums, because these floating-point numbers may differ between processors.
+// scripts/golden-frames compares the output with accuracy/golden.txt. The checksums exclude
+// covariances and residuals, because floating-point results may differ between processors.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uint64_t kGoldenSeed = 2424;
 
-/// FNV-1a, 64 bits (Fowler, Noll and Vo).
+/// The 64-bit FNV-1a hash (Fowler, Noll and Vo).
 class Checksum {
   public:
     void add(std::int64_t value) {
@@ -71,7 +71,7 @@ void add(Checksum& sum, const Fix& fix) {
     add(sum, fix.pattern_from_image);
 }
 
-/// Two consecutive frames. The fix of the first frame predicts the pose of the second.
+/// Two consecutive frames. The fix of the first frame is the prediction for the second.
 struct FramePair {
     GreyImage image;
     GreyImage next;
@@ -92,7 +92,8 @@ struct GoldenSet {
     std::vector<GoldenWay> ways;
 };
 
-/// The checksums of all frames are added, because a sum does not depend on the order of the frames.
+/// Sums of the checksums of all frames. A sum does not depend on the order in which the frames are
+/// processed.
 struct GoldenTally {
     struct Fixes {
         std::uint64_t checksum = 0;

@@ -1,15 +1,14 @@
 // Compares p_wrong, the upper bound of the probability that a position is wrong, with the frequency
-// of wrong positions. Accepts every reading, however large its p_wrong is, and groups the readings
-// by p_wrong.
+// of wrong positions. Accepts readings with any p_wrong and groups them by p_wrong.
 //
 //   dotpose_tables integrity [--grids N] [--doubtful N] [--frames N] [--seed S] [--threads N]
 //
 // A grid consists of bits with random errors and is decoded without an image. As in the model of
-// p_wrong, the errors are independent of each other, and less frequent in bits of larger weight.
-// Doubtful grids have enough errors that p_wrong is between 1e-3 and 1e-5. In this range, wrong
-// positions are frequent enough to show whether p_wrong is too small. Frames are rendered patterns
-// with flipped bits, read by `locate`. The exit status is 1 if more positions are wrong than
-// p_wrong predicts. After Ctrl-C, the tables contain the cases counted so far.
+// p_wrong, the errors are independent, and bits of larger weight have fewer errors. Doubtful grids
+// have so many errors that p_wrong is between 1e-3 and 1e-5. In this range, wrong positions are
+// frequent enough to show whether p_wrong is too small. Frames are images of patterns with flipped
+// bits, which `locate` reads. The exit status is 1 if significantly more positions are wrong than
+// p_wrong predicts. Ctrl-C ends the run early and prints the results so far.
 #include "integrity.hpp"
 
 #include <algorithm>
@@ -76,7 +75,8 @@ double poisson_at_least(std::uint64_t count, double mean) {
     return count == 0 || mean <= 0 ? 1 : 1 - poisson_at_most(count - 1, mean);
 }
 
-/// Returns the upper 95 % confidence limit of a Poisson mean for this count.
+/// Returns the upper 95 % confidence limit of the mean of a Poisson variable whose observed value
+/// is `count`.
 double upper_limit(std::uint64_t count) {
     double low = static_cast<double>(count);
     double high = 2 * low + 10;
@@ -88,17 +88,17 @@ double upper_limit(std::uint64_t count) {
 }
 
 /// Returns true if the number of wrong positions is consistent with p_wrong, at a significance
-/// level of one in a thousand.
+/// level of 0.001.
 bool holds(const Bin& bin) {
     return static_cast<double>(bin.wrong) <= bin.predicted ||
            poisson_at_least(bin.wrong, bin.predicted) > 1e-3;
 }
 
-/// Prints the counts of all readings in classes of p_wrong that are each a factor of 8 wide.
-/// Returns true if all classes are consistent with p_wrong.
+/// Prints the counts of all readings in classes of p_wrong, each a factor of 8 wide. Returns true
+/// if all classes are consistent with p_wrong.
 bool print(std::string_view title, const IntegrityTally& tally) {
     constexpr std::size_t kWidth_log2 = 3;
-    constexpr std::size_t kLast = 34;  // first bin of the last class, which is open-ended
+    constexpr std::size_t kLast = 34;  // first bin of the last class, which has no lower limit
     bool all_hold = true;
     fmt::print("\n{} ({} not read{})\n{:>17} {:>9} {:>7} {:>10} {:>10}\n", title, tally.unread,
                tally.skipped > 0 ? fmt::format(", {} skipped", tally.skipped) : "", "p_wrong",
@@ -122,7 +122,7 @@ bool print(std::string_view title, const IntegrityTally& tally) {
     return all_hold;
 }
 
-/// Prints the counts of readings with p_wrong near 1e-3, 1e-4 and 1e-5, and the upper confidence
+/// Prints the counts of the readings with p_wrong near 1e-3, 1e-4 and 1e-5, with upper confidence
 /// limits of the true rates. Each of the three classes is a factor of 8 wide. Returns true if all
 /// classes are consistent with p_wrong.
 bool print_doubtful(const IntegrityTally& tally) {

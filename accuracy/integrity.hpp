@@ -10,14 +10,14 @@
 
 namespace dotpose::tables {
 
-/// Options that accept every reading, however large its p_wrong is.
+/// Options that accept readings with any p_wrong.
 inline constexpr IntegrityOptions kAcceptAll{0, 256};
 
 /// Counts of the readings in a class of p_wrong.
 struct Bin {
     std::uint64_t frames = 0;
     std::uint64_t wrong = 0;
-    double predicted = 0;  ///< sum of p_wrong
+    double predicted = 0;  ///< expected number of wrong positions: the sum of p_wrong
 
     Bin& operator+=(const Bin& other) {
         frames += other.frames;
@@ -28,7 +28,8 @@ struct Bin {
 };
 
 struct IntegrityTally {
-    /// Bin n counts the readings with p_wrong = 2^-n. The last bin also counts all smaller values.
+    /// Bin n counts the readings with p_wrong near 2^-n. The last bin also counts all readings with
+    /// a smaller p_wrong.
     std::array<Bin, 64> bins;
     std::uint64_t unread = 0;
     std::uint64_t skipped = 0;  ///< number of grids skipped because they are not doubtful
@@ -39,7 +40,8 @@ struct IntegrityTally {
         bin.predicted += std::ldexp(1.0, p_wrong_log2);
         bin.wrong += is_wrong ? 1 : 0;
     }
-    /// Returns the sum of the bins `first` to `last`. Bins beyond the last one are empty.
+    /// Returns the sum of the bins `first` to `last`, inclusive. `last` may exceed the index of the
+    /// last bin.
     Bin sum(std::size_t first, std::size_t last) const {
         Bin sum;
         for (std::size_t n = first; n <= last && n < bins.size(); ++n)
@@ -57,10 +59,11 @@ struct IntegrityTally {
 
 enum class GridKind : std::uint8_t {
     any,
-    doubtful,  ///< grids with enough errors that p_wrong is between 1e-3 and 1e-5
+    doubtful,  ///< grids with so many errors that p_wrong is between 1e-3 and 1e-5
 };
 
-/// Decodes grid `index` of a run, which has random bit errors, and counts the result. Thread-safe.
+/// Decodes grid `index` of a run, which has random bit errors, and adds the result to `tally`.
+/// Thread-safe.
 void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally);
 
 }  // namespace dotpose::tables

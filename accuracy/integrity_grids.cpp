@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMaxSide = 16;
 
-/// Bits of a grid, as if read from a pattern, and their true position.
+/// A grid of bits, as if read from a pattern, and its true position.
 struct Reading {
     std::array<GridCell, kMaxSide * kMaxSide> cells;
     core::Grid grid;
@@ -26,7 +26,7 @@ struct Reading {
     Place place;  ///< true place of grid cell (0, 0)
 };
 
-/// Returns the grid cell for which `core::turned` returns the bits x and y.
+/// Returns the grid cell that `core::turned` converts to the bits `x` and `y`.
 GridCell cell_of(QuarterTurn turn, int x, int y) {
     const FixedVec grid = turn.quarters == 1   ? FixedVec{-y, x}
                           : turn.quarters == 3 ? FixedVec{y, -x}
@@ -50,13 +50,13 @@ struct Noise {
         const bool is_wrong = rng.uniform() < chance_of_error(weight);
         return (bit == 1) != is_wrong ? weight : -weight;
     }
-    /// Returns the information of a bit of this weight: 1 - H(probability of error), in bits.
+    /// Returns the information in a bit of this weight: 1 - H(probability of an error), in bits.
     double information(int weight) const {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// Returns the expected information of a cell's bit, averaged over all weights. Missing cells
-    /// contribute 0.
+    /// Returns the expected information in a cell's bit, in bits, averaged over all weights.
+    /// Missing cells count as cells without information.
     double information() const {
         double sum = 0;
         for (int weight = min_weight; weight <= 127; ++weight)
@@ -65,9 +65,9 @@ struct Noise {
     }
 };
 
-/// Draws the odds of a correct bit so that a reading with this number of cells is doubtful. Along
-/// one axis, there are 2^36.6 combinations of position, section and turn. The decoder needs 36.6
-/// bits to distinguish them, and 30 more bits make p_wrong about 2^-13.
+/// Draws the odds of a correct bit such that a reading with this number of cells is doubtful. Along
+/// one axis, there are 2^36.6 combinations of position, section and turn, so the decoder needs 36.6
+/// bits to distinguish them. With 30 more bits, p_wrong is about 2^-13.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;
@@ -101,7 +101,7 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     core::Grid& grid = reading.grid;
     Noise noise{rng.uniform(2.5, 9), rng.below(2) == 0 ? 0 : rng.uniform(0, 0.25),
                 rng.below(2) == 0 ? 127 : 8};
-    // In a third of the grids, the paper is blank beyond a random column.
+    // In a third of the grids, the paper is blank to the right of a random column.
     const int visible = rng.below(3) == 0 ? 6 + static_cast<int>(rng.below(3)) : grid.columns;
     if (kind == GridKind::doubtful) {
         const int cells = std::min(visible, grid.columns) * grid.rows;
@@ -122,8 +122,8 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     }
 }
 
-/// Returns true if the decoded orientation is correct, and all cells of the grid have the same
-/// symbols at the decoded place as at the true place.
+/// Returns true if the decoded orientation is correct and all symbols at the decoded place are
+/// equal to the symbols at the true place.
 bool is_right(const Reading& reading, const Decoding& decoding) {
     if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return false;
     const core::Grid& grid = reading.grid;
@@ -140,7 +140,7 @@ bool is_right(const Reading& reading, const Decoding& decoding) {
     return true;
 }
 
-/// Returns a fast estimate of -log2(p_wrong): the information of a reading's bits per axis, with
+/// Returns a quick estimate of -log2(p_wrong): the information in the bits of one axis, based on
 /// the odds per bit that `verify` estimates.
 double apparent_information(const core::Grid& grid, const Decoding& decoding,
                             const core::Nominal& nominal) {
@@ -160,9 +160,9 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Returns true if p_wrong is probably near 1e-5, because that class needs the most readings. The
-/// selected readings include enough with a p_wrong near 1e-4 and 1e-3. The others are skipped
-/// because `verify` takes 20 times as long as all previous steps.
+/// Returns true if p_wrong is probably near 1e-5. This class needs the most readings, and the
+/// selection includes enough readings with a p_wrong near 1e-4 and 1e-3. Other readings are
+/// skipped, because `verify` takes 20 times as long as all previous steps together.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);

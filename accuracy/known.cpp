@@ -1,5 +1,5 @@
-// Counts how many small views of known sheets are located, and how many views of unknown sheets are
-// wrongly located on known sheets. Prints tables in Markdown.
+// Measures how many small views of known sheets are located, and how many views of unknown sheets
+// are incorrectly located on known sheets. Prints tables in Markdown.
 //
 //   dotpose_tables known [--frames N] [--foreign N] [--sheets N] [--device] [--seed S]
 //
@@ -20,8 +20,8 @@
 namespace dotpose::tables {
 namespace {
 
-/// Columns and rows of an A4 page printed by `dotpose print`, and the gap between two pages, in
-/// cells.
+/// Columns and rows of an A4 page printed by `dotpose print`, and the gap between adjacent pages,
+/// in cells.
 constexpr std::uint32_t kColumns = 393;
 constexpr std::uint32_t kRows = 564;
 constexpr std::uint32_t kGap = 1024;
@@ -32,7 +32,7 @@ struct ViewSize {
     int height_px;
 };
 
-/// Views of one size in which `hide` hides some of the dots.
+/// Views of one size. `hide` hides some of their dots.
 struct HiddenView {
     ViewSize size;
     std::string what;
@@ -52,7 +52,7 @@ struct KnownTally {
     std::uint64_t frames = 0;
     std::uint64_t located = 0;
     std::uint64_t wrong = 0;
-    double claimed = 0;  ///< sum of p_wrong
+    double claimed = 0;  ///< expected number of wrong fixes: the sum of p_wrong
 
     void operator+=(const KnownTally& other) {
         frames += other.frames;
@@ -68,7 +68,7 @@ Setup setup_of(const ViewSize& size, std::uint64_t seed) {
     return setup;
 }
 
-/// Draws a view that is completely on a page.
+/// Draws a view that is completely inside a page.
 Shot draw_on_page(const ViewSize& size, std::uint64_t seed, std::uint64_t index,
                   std::span<const KnownRegion> sheets) {
     Shot shot = draw_shot(setup_of(size, seed), index);
@@ -82,22 +82,22 @@ Shot draw_on_page(const ViewSize& size, std::uint64_t seed, std::uint64_t index,
     return shot;
 }
 
-/// Removes all dots except those of a strip of `rows` rows or columns of the pattern. The strip
-/// crosses the whole width of the image at a random height, and is turned by up to 5 degrees.
+/// Removes all dots except a strip of `rows` rows or columns of the pattern. The strip crosses the
+/// whole width of the image at a random height and is tilted by up to 5 degrees.
 void leave_strip(Shot& shot, const ViewSize& size, int rows) {
     constexpr double kMaxTurn_rad = 5 * std::numbers::pi / 180;
     Rng rng(shot.seed, 3);
     const int quarter = static_cast<int>(rng.below(4));
     shot.pose.theta_rad = quarter * std::numbers::pi / 2 + rng.uniform(-kMaxTurn_rad, kMaxTurn_rad);
-    // The offset of the strip from the image centre is limited so that the strip is completely in
-    // view, even at the left and right borders of the image.
+    // Limits the offset of the strip from the image centre to keep the whole strip in view, even at
+    // the left and right borders of the image.
     const double tilted = size.width_px * std::tan(kMaxTurn_rad);
     const double room = (size.height_px - tilted) / size.spacing_px - rows - 1;
     const double offset = rng.uniform(-room / 2, room / 2);
     constexpr double kBeyondView = 1000;
     const bool is_along_x = quarter % 2 == 0;
     const CameraPose& pose = shot.pose;
-    // The edges of the strip are halfway between two intersections.
+    // Rounded so that the edges of the strip are halfway between two intersections.
     const double middle =
         std::round((is_along_x ? y_grid(pose) : x_grid(pose)) + offset) + (rows % 2 == 0 ? 0.5 : 0);
     const PageArea strip{is_along_x ? x_grid(pose) : middle, is_along_x ? middle : y_grid(pose),
@@ -106,8 +106,8 @@ void leave_strip(Shot& shot, const ViewSize& size, int rows) {
     shot.page.areas = {strip};
 }
 
-/// Returns the fraction of the dots that graphics touch. It is computed as the fraction of the
-/// pixels at which a dot would be touched.
+/// Returns the fraction of the dots that graphics touch, estimated as the fraction of pixel
+/// positions at which a dot would be touched.
 double fraction_hidden(const Shot& shot) {
     constexpr double kPaper = 255;
     constexpr int kDotRadius_px = 2;
@@ -135,7 +135,7 @@ double fraction_hidden(const Shot& shot) {
     return static_cast<double>(touched) / places;
 }
 
-/// Adds strokes and words that hide between 57.5 % and 62.5 % of the dots.
+/// Draws random strokes and words until they hide between 57.5 % and 62.5 % of the dots.
 void cover_with_graphics(Shot& shot) {
     for (std::uint64_t trial = 0;; ++trial) {
         shot.seed = Rng(shot.seed, trial).bits();

@@ -1,4 +1,4 @@
-// Measures which fraction of degraded frames is located. Prints the table of docs/limits.md in
+// Measures the fraction of degraded frames that is located. Prints the table of docs/limits.md in
 // Markdown.
 //
 //   dotpose_tables limits [--frames N] [--seed S] [--threads N]
@@ -24,8 +24,8 @@ namespace {
 /// Minimum number of frames of a condition, unless --frames is smaller.
 constexpr std::uint64_t kMinFrames = 4;
 
-/// Returns the number of frames that together have the same number of pixels as `frames` images of
-/// 320 x 240, clamped to [kMinFrames, `frames`].
+/// Returns the number of images whose total number of pixels equals that of `frames` images of 320
+/// x 240, clamped to [kMinFrames, `frames`].
 int frames_of(const CameraModel& camera, std::uint64_t frames) {
     constexpr std::uint64_t kFull_px = 320 * 240;
     const std::uint64_t area_px =
@@ -38,7 +38,7 @@ std::string micrometres(double value) {
     return std::isnan(value) ? "-" : fmt::format("{:.1f}", value);
 }
 
-/// Locates all frames with the first attempt only, and with both attempts. Throws Error if
+/// Locates all frames twice: with the first attempt only, and with both attempts. Throws Error if
 /// interrupted.
 std::array<Score, 2> score_once_and_twice(const std::string& what, FrameRun frames,
                                           const DeviceOptions& options, const TableRun& run) {

@@ -15,9 +15,9 @@ using calibrate::MapGrid;
 using calibrate::MapSolution;
 using Eigen::Vector2d;
 
-constexpr double kDotNoise_mm = 0.00137;  ///< standard deviation per axis, in a nominal frame
+constexpr double kDotNoise_mm = 0.00137;  ///< standard deviation of a measured dot, per axis
 
-/// Adds a frame with the dots in its view, and an approximate pose.
+/// Adds a frame: the measured positions of the dots in its view, and an approximate pose.
 void add_frame(const test::MappedPrint::Pose& pose, Vector2d half_view_mm, Rng& rng,
                SolverInput& input) {
     const MapGrid& grid = input.grid;
@@ -64,7 +64,7 @@ SolverInput simulated_input(const test::MappedPrint& print, std::uint64_t frames
         input.offsets_mm.emplace_back(wave.x + jitter_mm * rng.normal(),
                                       wave.y + jitter_mm * rng.normal());
     }
-    constexpr double kBorder_mm = 0.15;  // dots closer to the image border are not measured
+    constexpr double kBorder_mm = 0.15;  // minimum distance of a measured dot from the image border
     const Vector2d half_view_mm =
         CameraModel{}.mm_per_px / 2 *
             Vector2d(print.options().width_px, print.options().height_px) -

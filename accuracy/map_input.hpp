@@ -1,4 +1,5 @@
-/// Simulated dots in the frames of a page, for the solver of print maps. No images are rendered.
+/// Simulated input for the print map solver: the measured dots in many frames of a page. No images
+/// are rendered.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +12,22 @@
 
 namespace dotpose::tables {
 
-/// A page with known offsets, and the dots of its frames.
+/// A page with known offsets of its dots, and the dots measured in its frames.
 struct SolverInput {
     calibrate::MapGrid grid;
-    std::vector<Eigen::Vector2d> offsets_mm;  ///< the truth
+    std::vector<Eigen::Vector2d> offsets_mm;  ///< true offsets
     std::vector<calibrate::MapObservation> observations;
-    calibrate::MapSolution start;  ///< with approximate poses of the frames
+    calibrate::MapSolution start;  ///< initial state, with approximate poses of the frames
     double reach_mm = 0;
 };
 
-/// Simulates frames at random poses on a print. `seed` determines the poses, the jitter of the dots
-/// and the noise.
+/// Simulates frames at random poses on a print. `seed` determines the poses and the noise of the
+/// measured dots.
 SolverInput simulated_input(const test::MappedPrint& print, std::uint64_t frames,
                             std::uint64_t seed);
 
-/// Removes the mean place, turn and scale of the dots that were seen from the errors of a solution.
-/// Returns the errors of all dots, in mm.
+/// Returns the errors of a solution's offsets, in mm, for all dots. The mean shift, turn and scale
+/// of the dots in view of any frame are subtracted, because the frames do not determine them.
 std::vector<Eigen::Vector2d> offset_errors_mm(const SolverInput& input,
                                               const calibrate::MapSolution& solution);
 

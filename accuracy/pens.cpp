@@ -1,5 +1,5 @@
-// Measures the errors of the tip of a pen and of its recorded strokes (docs/pens.md) with simulated
-// frames. Prints tables in Markdown, and can replace them in the document.
+// Measures the errors of a pen's calibrated tip and of its recorded strokes in simulated frames
+// (docs/pens.md). Prints tables in Markdown, and --update also writes them to the document.
 //
 //   dotpose_tables pens [--pivots N] [--words N] [--seed S] [--threads N] [--draw FILE]
 //                       [--update DOCUMENT]
@@ -31,7 +31,7 @@ constexpr double kPenRate_hz = 200;
 constexpr int kStrokesPerWord = 4;
 constexpr int kDrawnStrokes = 12;
 
-/// Returns a shot of a pen. Each seed has its own printing errors.
+/// Returns a shot of a pen. The printing errors depend on the seed.
 Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
     Shot shot = test::pen_shot(seed, index);
     shot.page.seed = seed;
@@ -99,8 +99,8 @@ struct InkTally {
     Errors smoothed;
     std::uint64_t strokes = 0;
     std::uint64_t found = 0;      ///< number of strokes in the recorded ink
-    std::uint64_t late_ends = 0;  ///< number of stroke ends that are wrong by more than one frame
-    int largest_delay = 0;        ///< in frames
+    std::uint64_t late_ends = 0;  ///< number of stroke starts and ends off by more than one frame
+    int largest_delay = 0;        ///< largest error of a stroke start or end, in frames
 
     void operator+=(const InkTally& other) {
         frames += other.frames;
@@ -114,7 +114,7 @@ struct InkTally {
     }
 };
 
-/// First and last frame of a stroke.
+/// Indices of the first and the last frame of a stroke.
 using StrokeFrames = std::pair<std::int64_t, std::int64_t>;
 
 std::vector<StrokeFrames> true_strokes(const std::vector<PenSample>& path) {
@@ -152,7 +152,8 @@ void compare_strokes(const std::vector<PenSample>& path, const InkPage& page, In
     }
 }
 
-/// Writes with a pen whose tip was found by `calibrate_pivot`. Returns the ink.
+/// Simulates writing with a pen whose tip was calibrated by `calibrate_pivot`. Returns the recorded
+/// ink.
 InkPage measure_ink(std::uint64_t seed, int strokes, InkTally& tally) {
     FollowerOptions options;
     options.camera = calibrated(scramble(seed), 40).camera;

@@ -1,7 +1,7 @@
-// Measures how much a map of the print improves a drive (docs/print-map.md). The drive is that of
-// `dotpose_tables drive`, on a print with jitter, and on a print with jitter and a feed wave. The
-// map is made from other frames, which cover the whole rectangle around the path, because a map of
-// only the narrow band along the path would be bent.
+// Measures how much a map of the print improves the positions of a driving robot
+// (docs/print-map.md). The drive is the one of `dotpose_tables drive`, on a print with jitter and
+// on a print with jitter and a feed wave. The map is made from other frames, which cover the whole
+// rectangle around the path. A map of only the narrow band along the path would be distorted.
 //
 //   dotpose_tables print_map_drive [--frames N] [--update DOCUMENT]
 //
@@ -37,8 +37,8 @@ struct DrivePrint {
 constexpr std::array kDrivePrints = {DrivePrint{"jitter of 10 µm", 0},
                                      DrivePrint{"jitter of 10 µm, feed wave of 40 µm", 0.040}};
 
-/// Returns the displacement of a dot by the feed wave. The wave has a period of 50 mm along y. Its
-/// amplitude is `wave_mm` along y and a tenth of this along x.
+/// Returns the displacement of a dot by the feed wave, in mm. The wave has a period of 50 mm along
+/// y. Its amplitude is `wave_mm` along y and `wave_mm` / 10 along x.
 Vec2 feed_wave(double wave_mm, Vec2 place_grid) {
     const double phase = 2 * std::numbers::pi * place_grid.y * kDefaultSpacing_mm / 50;
     return {0.1 * wave_mm * std::cos(phase), wave_mm * std::sin(phase)};
@@ -66,11 +66,11 @@ PrintMapResult map_of_area(const test::DriveCamera& camera, std::uint64_t frames
     return mapping.solve();
 }
 
-/// Errors of the positions that are measured in the single frames of a drive, without the filter of
-/// the tracker.
+/// Errors of the positions measured in the individual frames of a drive, before the tracker filters
+/// them.
 struct RawErrors {
     test::DriveErrors all;
-    std::array<test::PlaceErrors, 2> pages;  ///< of the left and the right page
+    std::array<test::PlaceErrors, 2> pages;  ///< errors on the left and the right page
     double theta_variance = 0;               ///< sum of the variances of the headings
     int mapped = 0;                          ///< number of fixes that used the map
 
@@ -93,7 +93,7 @@ struct RawErrors {
         theta_variance += static_cast<double>(located.fix.covariance[2][2]);
     }
     std::size_t count() const { return pages[0].count() + pages[1].count(); }
-    /// Returns error^2 / variance of the absolute positions, and of the headings.
+    /// Returns the means of error^2 / variance for the absolute positions and for the headings.
     std::array<double, 2> normalised() const {
         double variance = 0;
         for (const test::PlaceErrors& page : pages)
@@ -103,7 +103,7 @@ struct RawErrors {
         return {fixes * absolute_um() * absolute_um() / variance,
                 fixes * heading_rad * heading_rad / theta_variance};
     }
-    /// Returns the rms of the absolute errors on both pages.
+    /// Returns the rms absolute error over both pages.
     double absolute_um() const {
         double squares = 0;
         double count = 0;
@@ -143,9 +143,9 @@ bool print_map_drive_table(TableRun& run) {
         const RawErrors without = drive_with(camera, {});
         const RawErrors with = drive_with(camera, map_of_area(camera, frames).map);
         for (const auto& [name, errors] : {std::pair{"without", &without}, {"with", &with}}) {
-            // With a wave, the error relative to the nominal page is not shown. A wave changes the
-            // mean place, scale and turn of the page by several µm, and a map cannot correct this,
-            // because the frames do not determine the mean place, scale and turn.
+            // For a print with a wave, the table omits the error relative to the nominal page. The
+            // wave shifts, scales and turns the page as a whole by several µm. A map cannot correct
+            // this, because the frames do not determine the mean shift, scale and turn.
             const std::string all =
                 print.wave_mm > 0 ? "-" : fmt::format("{:.3f}", errors->all.raw_um());
             const auto [place, heading] = errors->normalised();

@@ -1,6 +1,6 @@
-// Compares the errors of print maps with the covariances that the maps contain
-// (docs/print-map.md). A map is made of simulated dots, and its offsets are compared with the true
-// ones in views all over the page.
+// Compares the errors of print maps with the covariances that the maps contain (docs/print-map.md).
+// Each map is solved from simulated dots. Its offsets are compared with the true offsets in views
+// distributed over the page.
 //
 //   dotpose_tables print_map_errors [--maps N] [--update DOCUMENT]
 //
@@ -37,9 +37,9 @@ constexpr std::array kMapKinds{MapKind{60, 60, 320, 240, 500}, MapKind{120, 60, 
                                MapKind{210, 297, 640, 480, 2000}};
 constexpr std::array kRange{0.8, 1.25};
 
-/// Sums over views of maps.
+/// Sums over all views of all maps.
 struct MapErrorSums {
-    Vector3d squares = Vector3d::Zero();  ///< of errors
+    Vector3d squares = Vector3d::Zero();  ///< squared errors
     Vector3d variances = Vector3d::Zero();
     Vector3d ratios = Vector3d::Zero();
     int views = 0;
@@ -61,11 +61,11 @@ struct MapErrorSums {
     }
 };
 
-/// Error of a map in a view: shift, in mm, and turn.
+/// Error of a map in one view: the shift, in mm, and the turn, in radians.
 struct ViewError {
     Vector3d error;
-    /// Part of the variances that is due to the independent errors of the dots. It is in the
-    /// residuals of a fix, and therefore not in the map.
+    /// The part of the variances that is due to the independent errors of the dots. The map does
+    /// not contain this part, because a fix estimates it from its residuals.
     Vector3d of_dots;
 };
 
@@ -94,7 +94,7 @@ ViewError error_in_view(const SolverInput& input, const std::vector<Vector2d>& e
     return {(inverse * right).head<3>(), variance / dots * inverse.diagonal().head<3>()};
 }
 
-/// Returns the covariance at the node that is the nearest to a place.
+/// Returns the covariance at the node of the map nearest to `at_mm`.
 Matrix3d covariance_at(const SolverInput& input, const Vec2& at_mm) {
     const calibrate::MapErrorGrid& errors = input.start.errors;
     const Vector2d size =

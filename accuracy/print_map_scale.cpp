@@ -1,10 +1,10 @@
-// Measures the processor time and the memory for the map of an A4 page from many frames of 640 x
-// 480 px (docs/print-map.md).
+// Measures the processor time and the memory needed to make the map of an A4 page from many frames
+// of 640 x 480 px (docs/print-map.md).
 //
 //   dotpose_tables print_map_scale [--frames N] [--threads N]
 //
 // The processor time is the sum over all threads, so other programs on the machine hardly affect
-// it. The exit status is 1 if the map does not correct all of 50 other frames.
+// it. The exit status is 1 unless the map corrects all of 50 test frames.
 #include <algorithm>
 #include <ctime>
 #include <thread>
@@ -34,14 +34,14 @@ void add_time(double& sum, const Work& work) {
     sum += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// Maximum memory of the process so far, in MB.
+/// Returns the peak memory of the process, in MB.
 double peak_mb() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-/// Renders frames on all threads.
+/// Renders `count` frames, starting with frame `first`, on all threads.
 std::vector<GreyImage> rendered_batch(const test::MappedPrint& print, std::uint64_t first,
                                       std::size_t count, unsigned threads) {
     constexpr std::uint64_t kSeries = 100;

@@ -1,12 +1,12 @@
-// Measures processor time and memory of the solver of print maps (docs/print-map.md). The frames of
-// 640 x 480 px show an A4 page. Their dots are computed directly, because rendering images of all
-// frames would take hours.
+// Measures the processor time and the memory of the print map solver (docs/print-map.md) for frames
+// of 640 x 480 px on an A4 page. The dots are simulated directly, because rendering all frames
+// would take hours.
 //
 //   dotpose_tables print_map_solver [--frames N]
 //
 // The processor time is the sum over all threads, so other programs on the machine hardly affect
-// it. The exit status is 1 if the solver takes more than 10 minutes, which are 5 minutes on two
-// cores, or uses more than 2 GB of memory.
+// it. The exit status is 1 if the solver takes more than 10 minutes (5 minutes on two cores) or
+// uses more than 2 GB of memory.
 #include <cmath>
 #include <cstddef>
 #include <ctime>
@@ -22,7 +22,8 @@ namespace {
 
 using calibrate::MapSolution;
 
-/// Returns the rms error of the offsets per axis, in µm, without the mean place, turn and scale.
+/// Returns the rms error of the offsets per axis, in µm, after the mean shift, turn and scale are
+/// subtracted.
 double offset_error_um(const SolverInput& input, const MapSolution& solution) {
     const auto errors = offset_errors_mm(input, solution);
     double squares = 0;

@@ -1,10 +1,10 @@
-// Measures the errors of poses in space (docs/pose-in-space.md) against the truth and the
-// Cramer-Rao bound. Prints a table in Markdown, and can replace it in the document.
+// Measures the errors of poses in space and compares them with the Cramer-Rao bound
+// (docs/pose-in-space.md). Prints a table in Markdown, and --update also writes it to the document.
 //
 //   dotpose_tables space [--frames N] [--seed S] [--threads N] [--tilts D,...]
 //                        [--update DOCUMENT]
 //
-// The exit status is 1 if a pose that is not reported as ambiguous is wrong.
+// The exit status is 1 if a wrong pose is not reported as ambiguous.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,13 +22,13 @@
 namespace dotpose::tables {
 namespace {
 
-/// Standard deviation of the print jitter of the preset `nominal`, per axis.
+/// Standard deviation of the print jitter in the preset `nominal`, per axis.
 constexpr double kJitter_mm = 0.010;
-/// Errors of one method. The errors of the coordinates are divided by the Cramer-Rao bound of their
-/// standard deviations.
+/// Errors of one method. The error of each coordinate is divided by the Cramer-Rao bound of its
+/// standard deviation.
 struct SpaceErrors {
     std::array<Errors, 6> coordinates;
-    Errors all;  ///< sum of the normalised squared errors of the six coordinates
+    Errors all;  ///< errors of all six coordinates, normalised by the reported covariance
 
     SpaceErrors& operator+=(const SpaceErrors& other) {
         for (std::size_t i = 0; i < coordinates.size(); ++i)
@@ -43,7 +43,7 @@ struct SpaceTally {
     std::uint64_t located = 0;
     std::uint64_t wrong = 0;
     std::uint64_t ambiguous = 0;
-    std::uint64_t second = 0;  ///< frames with a second solution, even if it is excluded
+    std::uint64_t second = 0;  ///< frames with a second solution, even if it was excluded
     SpaceErrors ours;
     SpaceErrors opencv;
 
@@ -89,7 +89,7 @@ void measure(const Shot& shot, SpaceTally& tally) {
 #endif
 }
 
-/// Returns two table cells: the rms errors of the position and of the rotation, divided by the
+/// Returns two table cells: the rms errors of the position and of the rotation, relative to the
 /// bound.
 std::string ratios_text(const SpaceErrors& errors) {
     const auto& e = errors.coordinates;

@@ -23,14 +23,15 @@ struct DestroyTags {
     void operator()(apriltag_family_t* family) const { tag36h11_destroy(family); }
     void operator()(apriltag_detector_t* detector) const { apriltag_detector_destroy(detector); }
     void operator()(zarray_t* detections) const { apriltag_detections_destroy(detections); }
-    // libapriltag allocates a matrix with calloc, and does not export `matd_destroy`.
+    // `free`, because libapriltag allocates matrices with calloc and does not export
+    // `matd_destroy`.
     void operator()(matd_t* matrix) const { std::free(matrix); }
 };
 template <typename Value>
 using Tags = std::unique_ptr<Value, DestroyTags>;
 
-/// Returns the side of the largest square on the paper, centred at the pose point, that is
-/// completely in view.
+/// Returns the side of the largest square on the paper that is centred at the pose point and
+/// completely in view, in mm.
 double side_in_view_mm(const Shot& shot) {
     const Projection projection(shot.camera, shot.pose);
     const auto is_in_view = [&](double half_mm) {
@@ -55,7 +56,7 @@ double side_in_view_mm(const Shot& shot) {
 /// Returns the pose of the camera relative to the centre of the tag, with the axes of the pattern.
 TrueSpacePose pose_of(apriltag_detection_t& tag, const CameraModel& camera, double border_mm) {
     const double focal_px = camera.working_distance_mm / camera.mm_per_px;
-    // In libapriltag, the corner of the first pixel is the origin.
+    // The origin of libapriltag is the corner of the first pixel.
     apriltag_detection_info_t info = {
         &tag, border_mm, focal_px, focal_px, camera.width_px / 2.0, camera.height_px / 2.0};
     apriltag_pose_t found = {};

@@ -3,7 +3,7 @@
 
     accuracy/space_aruco.py build/release/bin/dotpose [FRAMES]
 
-Both cameras have 640 x 480 px, a focal length of 1,000 px, a distance of 400 mm, a blur of 0.55 px and
+Both cameras have 640 x 480 px, a focal length of 1,000 px, a distance of 400 mm, a blur of 0.55 px, and
 noise of 3 grey levels. The sheet has dots every 5 mm. The board has 6 x 4 markers of 40 mm, every
 48 mm. Prints the table of docs/pose-in-space.md. Needs Debian's python3-opencv.
 """
@@ -44,7 +44,7 @@ def turn_z(angle):
 
 
 def true_pose(x_mm, y_mm, theta_rad, tilt_rad):
-    """Returns rotation from camera to paper and position of a camera that looks at a place."""
+    """Returns the rotation from camera to paper, and the position, of a camera aimed at a place."""
     rotation = turn_z(theta_rad) @ turn_x(tilt_rad).T
     return rotation, numpy.array([x_mm, y_mm, 0]) - DISTANCE_MM * rotation[:, 2]
 
@@ -93,7 +93,7 @@ def dotpose_errors(tool, frames, tilt_deg):
 
 
 class Board:
-    """A board of ArUco markers, as a picture with a known scale."""
+    """A picture of a board of ArUco markers, with a known scale."""
 
     PX_PER_MM = 8
 

@@ -5,8 +5,8 @@
 
 namespace dotpose::tables {
 
-/// Computes a pose from the dots and the displacement of a fit. Returns the better of the two poses
-/// of cv::solvePnPGeneric with SOLVEPNP_IPPE, refined by cv::solvePnPRefineLM.
+/// Returns the pose that OpenCV computes from the dots and the displacement of a fit: the better of
+/// the two poses of cv::solvePnPGeneric with SOLVEPNP_IPPE, refined by cv::solvePnPRefineLM.
 calibrate::SpaceState opencv_pose(const calibrate::SpaceFit& fit, double focal_px);
 
 }  // namespace dotpose::tables

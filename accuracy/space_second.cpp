@@ -1,9 +1,9 @@
-// Counts second poses in space that are taken for the first (docs/pose-in-space.md). Prints a table
-// in Markdown, and can replace it in the document.
+// Counts the frames in which the second solution for the pose in space is mistaken for the first
+// (docs/pose-in-space.md). Prints a table in Markdown, and --update also writes it to the document.
 //
 //   dotpose_tables space_second [--frames N] [--seed S] [--threads N] [--update DOCUMENT]
 //
-// The exit status is 1 if a pose that is not reported as ambiguous is wrong.
+// The exit status is 1 if a wrong pose is not reported as ambiguous.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -17,13 +17,13 @@
 namespace dotpose::tables {
 namespace {
 
-/// The lenses of the table `space`, and lenses with a narrow field of view, in which perspective
-/// hardly distinguishes the two poses of a view.
+/// The lenses of the table `space`, and lenses with a narrow field of view, for which perspective
+/// hardly distinguishes the two possible poses of a view.
 constexpr std::array kSecondLenses = {kSpaceLenses[0], kSpaceLenses[1],
                                       SpaceLens{"10 degrees", 167, -0.03e-6},
                                       SpaceLens{"2 degrees", 838, 0}};
 
-/// A range of tilts. Tilts are drawn uniformly.
+/// A range of tilts, from which tilts are drawn uniformly.
 struct TiltRange {
     double from_deg;
     double to_deg;
@@ -33,12 +33,11 @@ constexpr std::array kTiltRanges = {TiltRange{0, 15}, TiltRange{15, 30}, TiltRan
 struct SecondTally {
     std::uint64_t frames = 0;
     std::uint64_t located = 0;
-    std::uint64_t second = 0;  ///< frames with a second pose, even if it is excluded
+    std::uint64_t second = 0;  ///< frames with a second pose, even if it was excluded
     std::uint64_t ambiguous = 0;
-    std::uint64_t swapped =
-        0;                ///< ambiguous frames in which the second pose is closer to the true pose
-    double expected = 0;  ///< expected number of swapped frames, computed from the odds
-    std::uint64_t wrong = 0;  ///< frames with a wrong pose that is not reported as ambiguous
+    std::uint64_t swapped = 0;  ///< ambiguous frames whose second pose is closer to the truth
+    double expected = 0;        ///< expected number of swapped frames, according to the odds
+    std::uint64_t wrong = 0;    ///< frames with a wrong pose that is not reported as ambiguous
 
     void operator+=(const SecondTally& other) {
         frames += other.frames;

@@ -1,9 +1,10 @@
-// Compares poses in space from a sheet with the pose of an AprilTag that fills the same view
-// (docs/pose-in-space.md). Prints a table in Markdown, and can replace it in the document.
+// Compares poses in space computed from a sheet with poses computed from an AprilTag that fills the
+// same view (docs/pose-in-space.md). Prints a table in Markdown, and --update also writes it to the
+// document.
 //
 //   dotpose_tables space_tag [--frames N] [--seed S] [--threads N] [--update DOCUMENT]
 //
-// Needs libapriltag and the calibration module of OpenCV.
+// Requires libapriltag and the calibration module of OpenCV.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,7 +57,7 @@ struct TagErrors {
     }
 };
 
-/// Errors of dotpose, of OpenCV with the dots of dotpose, and of libapriltag.
+/// Errors of dotpose, of OpenCV given the dots found by dotpose, and of libapriltag.
 struct TagTally {
     std::array<TagErrors, 3> methods;
 

@@ -1,5 +1,6 @@
-// Measures the errors of a camera that is tracked in space (docs/pose-in-space.md): rendered frames
-// of a moving and tilting camera. Prints a table in Markdown, and can replace it in the document.
+// Measures the errors of tracking a camera in space (docs/pose-in-space.md), with rendered frames
+// of a camera that moves and tilts. Prints a table in Markdown, and --update also writes it to the
+// document.
 //
 //   dotpose_tables space_track [--frames N] [--seed S] [--threads N] [--update DOCUMENT]
 #include "dotpose/tools/space_track.hpp"
@@ -19,10 +20,10 @@
 namespace dotpose::tables {
 namespace {
 
-constexpr int kStart = 30;  ///< first frames, not counted while the tracker adapts
+constexpr int kStart = 30;  ///< number of initial frames that are not counted
 
-/// Returns the view of a camera that moves like a writing hand, over a width of 20 mm and with
-/// tilts of up to 30 degrees.
+/// Returns the view of a camera at time `t_s`. The camera moves like a writing hand, over a width
+/// of 20 mm and with tilts of up to 30 degrees.
 Shot hand_shot(const Shot& first, double t_s, std::uint64_t seed) {
     Shot shot = first;
     CameraPose& pose = shot.pose;
@@ -42,9 +43,9 @@ Shot hand_shot(const Shot& first, double t_s, std::uint64_t seed) {
 
 struct TrackErrors {
     std::uint64_t count = 0;
-    double position = 0;    ///< sum of squares, mm^2
-    double rotation = 0;    ///< sum of squares, rad^2
-    double normalised = 0;  ///< sum of the normalised squares of the six coordinates
+    double position = 0;    ///< sum of the squared errors, mm^2
+    double rotation = 0;    ///< sum of the squared errors, rad^2
+    double normalised = 0;  ///< sum of the normalised squared errors of all six coordinates
 
     void add(const CameraInSpace& camera, const SpaceCovariance& covariance,
              const TrueSpacePose& truth) {
@@ -61,7 +62,7 @@ struct TrackErrors {
     }
 };
 
-/// Tracks a sequence of sightings, and returns the row of the table with the errors.
+/// Tracks a sequence of sightings. Returns a table row with the errors.
 std::string row_text(double fps, const std::vector<Shot>& shots,
                      const std::vector<std::optional<SpaceSighting>>& sightings) {
     SpaceTracker tracker;

@@ -28,22 +28,22 @@ bool is_in_view(const Shot& shot, const Vec2& pixel) {
            pixel.y <= camera.height_px - 1 - radius_px;
 }
 
-/// Returns the length that a spacing at a place on the paper has in the image, in the direction in
-/// which it is shortest.
+/// Returns the minimum length of a spacing in the image, in px, over all directions at a place on
+/// the paper.
 double shortest_spacing_px(const Projection& projection, const Vec2& place_mm, double spacing_mm) {
     const auto step = [&](double x_mm, double y_mm) {
         const Vec2 to = projection.pixel_from_offset({place_mm.x + x_mm, place_mm.y + y_mm});
         const Vec2 from = projection.pixel_from_offset({place_mm.x - x_mm, place_mm.y - y_mm});
         return Vector2d((to.x - from.x) / 2, (to.y - from.y) / 2);
     };
-    // Approximates the derivatives by difference quotients over a tenth of a spacing.
+    // Difference quotients over a tenth of a spacing approximate the derivatives.
     Matrix2d by_spacing;
     by_spacing << 10 * step(spacing_mm / 10, 0), 10 * step(0, spacing_mm / 10);
     return by_spacing.jacobiSvd().singularValues()[1];
 }
 
-/// Returns the derivatives of the pixel of a dot with respect to the pose. The dot is at `place_mm`
-/// relative to the camera, along the axes of the pattern.
+/// Returns the derivatives of a dot's pixel position with respect to the pose. `place_mm` is the
+/// position of the dot relative to the camera, along the axes of the pattern.
 Eigen::Matrix<double, 2, 6> by_pose(const Matrix3d& rotation, const Vector3d& place_mm,
                                     double focal_px) {
     const Vector3d seen = rotation.transpose() * place_mm;
@@ -78,7 +78,7 @@ Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
     return variance / (peak * peak * std::numbers::pi / 2 * root) * shape;
 }
 
-/// Returns the options of a locator whose trace `space_pose` uses.
+/// Returns the options of a locator that records the trace that `space_pose` needs.
 DeviceOptions options_of(const Camera& camera) {
     DeviceOptions options;
     use_camera(camera, camera.width_px, camera.height_px, options);
@@ -109,13 +109,13 @@ Shot space_shot(const SpaceLens& lens, double tilt_deg, std::uint64_t seed, std:
 TrueSpacePose true_space_pose(const Shot& shot) {
     const CameraPose& pose = shot.pose;
     const double spacing_mm = shot.page.pattern.spacing_mm;
-    // The paper is tilted about the image y axis, and then about the image x axis. Theta is the
-    // angle on the paper of the image x axis at the image centre. The tilts change this angle, so
-    // the rotation about the normal of the paper is theta minus the change.
+    // The paper is tilted about the image y axis and then about the image x axis. Theta is the
+    // angle on the paper of the image x axis, measured at the image centre. The tilts change this
+    // angle, so the rotation about the normal of the paper is theta minus that change.
     const Matrix3d tilt = (Eigen::AngleAxisd(pose.tilt_x_rad, Vector3d::UnitX()) *
                            Eigen::AngleAxisd(pose.tilt_y_rad, Vector3d::UnitY()))
                               .toRotationMatrix();
-    // Point on the tilted paper that appears one unit to the right of the image centre.
+    // The point on the tilted paper that appears one unit to the right of the image centre.
     const Vector3d normal = tilt.col(2);
     const Vector3d right(1, 0, -normal.x() / normal.z());
     const Vector3d on_paper = tilt.transpose() * right;
@@ -190,8 +190,8 @@ SpaceMatrix space_bound(const Shot& shot, double jitter_mm) {
     const double mm = pattern.spacing_mm;
     const Vector3d from_camera =
         Vector3d(x_grid(shot.pose) * mm, y_grid(shot.pose) * mm, 0) - truth.position_mm;
-    // A tilted camera also sees dots outside the area that it would see without tilt, so the search
-    // extends to three times the width of that area.
+    // A tilted camera also sees dots outside the area that is visible without tilt, so the search
+    // covers three times the width of that area.
     const auto reach = static_cast<int>(3 * shot.camera.width_px * shot.camera.mm_per_px / mm);
     SpaceMatrix information = SpaceMatrix::Zero();
     for (int j = -reach; j <= reach; ++j) {

@@ -1,4 +1,5 @@
-// Views of a tilted camera: frames, true poses in space, and the Cramer-Rao bound of these poses.
+// Views of a tilted camera: the frames, their true poses in space, and the Cramer-Rao bounds of the
+// poses.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@
 
 namespace dotpose::tables {
 
-/// A camera with 640 x 480 px.
+/// Distance and lens of a camera with 640 x 480 px.
 struct SpaceLens {
     const char* title;
     double distance_mm;  ///< distance from the camera to the pose point
@@ -25,7 +26,7 @@ inline constexpr std::array kSpaceLenses = {SpaceLens{"52 degrees", 30, -0.7e-6}
 /// Returns frame `index` of a camera that is tilted by `tilt_deg` in a random direction.
 Shot space_shot(const SpaceLens& lens, double tilt_deg, std::uint64_t seed, std::uint64_t index);
 
-/// Position in mm in the pattern frame, and rotation from the camera to the pattern.
+/// Position in the pattern frame, and rotation from the camera frame to the pattern frame.
 struct TrueSpacePose {
     Eigen::Vector3d position_mm;
     Eigen::Matrix3d rotation;
@@ -34,7 +35,7 @@ struct TrueSpacePose {
 /// Returns the true pose of a shot, from the definitions in simulate.hpp.
 TrueSpacePose true_space_pose(const Shot& shot);
 
-/// Returns the camera file of a simulated camera, with its true lens and focal length.
+/// Returns the camera file of a simulated camera, with the true lens distortion and focal length.
 Camera space_camera(const CameraModel& model);
 
 using SpaceVector = Eigen::Matrix<double, 6, 1>;
@@ -49,8 +50,8 @@ SpaceMatrix matrix_of(const SpaceCovariance& covariance);
 /// covariance^-1 error.
 double normalised_square(const SpaceVector& error, const SpaceMatrix& covariance);
 
-/// Maximum normalised squared error of the six coordinates of a correct pose. A correct pose
-/// exceeds it by chance once in 10^19.
+/// Upper limit of the normalised squared error of a correct pose, over all six coordinates. By
+/// chance, a correct pose exceeds the limit once in 10^19.
 inline constexpr double kMaxNormalisedSquare = 100;
 
 /// A rendered frame, and the pose in space that dotpose finds in it.
@@ -74,14 +75,13 @@ class SpaceReading {
     std::optional<SpacePose> pose_;
 };
 
-/// Minimum spacing in the image, in px, in the direction in which it is shortest. Below this
-/// spacing, the images of adjacent dots overlap.
+/// Minimum spacing at which the images of adjacent dots are separate, in px, in the direction in
+/// which the spacing is shortest.
 inline constexpr double kResolvedSpacing_px = 4;
 
-/// Returns the Cramer-Rao bound of the covariance of a pose, from all dots that are completely in
+/// Returns the Cramer-Rao bound of the covariance of a pose. Uses all dots that are completely in
 /// view and whose images do not overlap. `jitter_mm` is the standard deviation of the printing
-/// error along each axis. The bound includes the noise of the image, but not the motion during the
-/// exposure.
+/// errors along each axis. The bound includes image noise but not motion blur.
 SpaceMatrix space_bound(const Shot& shot, double jitter_mm);
 
 }  // namespace dotpose::tables

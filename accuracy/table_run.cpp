@@ -42,7 +42,7 @@ void TableRun::add_update() {
 
 bool TableRun::parse() {
     if (!command.parse(argc_, argv_)) return false;
-    // An unreadable document is an error before the measurement starts, because the measurement may
+    // Reports an unreadable document before the measurement starts, because the measurement may
     // take an hour.
     if (!document_.empty()) read_document(document_);
     return true;

@@ -1,5 +1,5 @@
-/// Runs one table of dotpose_tables: parses the command line, distributes the work over all cores,
-/// and prints the results.
+/// The run of a table of dotpose_tables: parses the command line, distributes the work over all
+/// cores, and prints the results.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,14 @@
 
 namespace dotpose::tables {
 
-/// Progress of the work on a number of items.
+/// Number of completed items and elapsed time.
 struct Done {
     std::uint64_t wanted = 0;  ///< number of items
-    std::uint64_t done = 0;    ///< number of completed items; less than `wanted` if interrupted
+    std::uint64_t done = 0;    ///< number of completed items, less than `wanted` if interrupted
     double seconds = 0;
 
     bool is_complete() const { return done == wanted; }
-    /// Returns text such as "12000 frames in 60 s, 200 frames/s", with a note if the work was
+    /// Returns text such as "12000 frames in 60 s, 200 frames/s", with a note if the run was
     /// interrupted.
     std::string speed_text(const std::string& items) const;
 };
@@ -36,8 +36,8 @@ struct Count : Done {
     Tally tally;
 };
 
-/// The run of one table. The function of the table adds its options to `command`, calls `parse`,
-/// measures, and prints its results.
+/// The run of one table. The function that implements the table adds its options to `command`,
+/// calls `parse`, performs the measurements, and prints the results.
 class TableRun {
   public:
     /// `what` is the first line of the help. `argv[0]` is ignored.
@@ -48,19 +48,20 @@ class TableRun {
     std::uint64_t seed = 1;
     unsigned threads = std::max(std::thread::hardware_concurrency(), 1u);
 
-    /// Adds an option whose value is a number of items, from 0 to 2e9.
+    /// Adds an option whose value is a number of items in the range [0, 2e9].
     void add_count(const std::string& flag, std::uint64_t& count, const std::string& what);
     void add_seed();
     void add_threads();
-    /// Adds the option for the document whose generated parts `update_document` replaces.
+    /// Adds the option --update, which names the document whose generated blocks `update_document`
+    /// replaces.
     void add_update();
     /// Parses the command line. Returns false if the help was requested and has been printed.
     /// Throws cli::UsageError, or Error if the document cannot be read.
     bool parse();
 
-    /// Runs `work(i, tally)` for i from 0 to count - 1 with one Tally for each thread, and adds the
-    /// tallies with +=. The result does not depend on the number of threads. `what` is shown as
-    /// progress. Ctrl-C ends the work early.
+    /// Runs `work(i, tally)` for i from 0 to count - 1, with one Tally per thread, and adds up the
+    /// tallies with +=. The result does not depend on the number of threads. `what` is the label of
+    /// the progress line. Ctrl-C ends the work early.
     template <typename Tally, typename Work>
     Count<Tally> count(const std::string& what, std::uint64_t count, Work work) const {
         std::vector<Tally> tallies(threads);
@@ -71,15 +72,16 @@ class TableRun {
         return result;
     }
 
-    /// Returns outcomes[k][i], the outcome of frame i of the run with options[k]. `what` is shown
-    /// as progress. Throws Error if interrupted.
+    /// Returns outcomes[k][i], the outcome of frame i with options[k]. `what` is the label of the
+    /// progress line. Throws Error if interrupted.
     std::vector<std::vector<Outcome>> evaluate(const std::string& what, FrameRun frames) const;
 
-    /// Prints a generated part of the document, and keeps it for `update_document`.
+    /// Prints a generated block of the document, and stores it for `update_document`.
     void print_block(const std::string& name, const std::string& text);
     const Blocks& blocks() const { return blocks_; }
-    /// If a document was named, replaces its generated parts with the printed parts. After an
-    /// interruption, the printed parts may be incomplete, so the document is kept.
+    /// Replaces the generated blocks of the document with the printed blocks, if a document was
+    /// named. After an interruption, leaves the document unchanged, because the printed blocks may
+    /// be incomplete.
     void update_document() const;
     const std::string& document() const { return document_; }
 
@@ -90,20 +92,20 @@ class TableRun {
 
     int argc_;
     const char* const* argv_;
-    std::string document_;  ///< path, or empty if no document was named
+    std::string document_;  ///< path of the document, or empty if none was named
     Blocks blocks_;
 };
 
-/// Returns a callback that shows the progress on `line` and stops the work on Ctrl-C.
+/// Returns a callback that shows the progress on `line` and stops the work after Ctrl-C.
 Progress shown_on(cli::ProgressLine& line);
 
-/// Returns the memory for the locators of this thread.
+/// Returns the memory for the locators of the calling thread.
 LargeMemory& thread_memory();
 
 /// Returns the frame and the true pose of a shot. The code variant of the frame is not set.
 KnownFrame known_frame(const Shot& shot);
 
-/// Returns a setup with the preset `nominal` and images of this size.
+/// Returns a setup with the preset `nominal` and the given image size.
 Setup setup_of(std::uint64_t seed, int width_px, int height_px);
 
 }  // namespace dotpose::tables

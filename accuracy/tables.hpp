@@ -1,5 +1,6 @@
 /// The tables of dotpose_tables. Each function adds its options to the run, calls `run.parse()`,
-/// measures, and prints its table. It returns false if a fix is wrong or the run was interrupted.
+/// performs the measurements, and prints its table. It returns false if a fix is wrong or the run
+/// was interrupted.
 #pragma once
 
 #include "table_run.hpp"

@@ -1,5 +1,5 @@
-// Counts the frames after which a moving camera is located if the bits of its frames are joined.
-// Each view alone is too small for a certain fix. Prints a table in Markdown.
+// Measures how many frames are needed to locate a moving camera if a single view is too small for a
+// fix. The bits of successive frames are joined. Prints a table in Markdown.
 //
 //   dotpose_tables together [--series N] [--seed S]
 //
@@ -16,13 +16,14 @@
 namespace dotpose::tables {
 namespace {
 
-/// Number of frames of a series.
+/// Number of frames in a series.
 constexpr std::size_t kLength = 8;
 /// A page of A4 size.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 1024}, 393, 564};
 constexpr std::uint32_t kMargin = 60;
 
-/// Size of the views of a series, and standard deviation of the measured motion between them.
+/// Size of the views in a series, and standard deviation of the measured motion between consecutive
+/// views.
 struct SeriesKind {
     double spacing_px;
     int side_px;
@@ -40,7 +41,7 @@ constexpr std::array kKinds{
 
 struct SeriesTally {
     std::uint64_t series = 0;
-    /// located[k] is the number of series with a fix in their first k + 1 frames.
+    /// located[k] is the number of series with at least one fix in the first k + 1 frames.
     std::array<std::uint64_t, kLength> located{};
     std::uint64_t fixes = 0;
     std::uint64_t wrong = 0;
@@ -67,8 +68,8 @@ Shot draw_first(const SeriesKind& kind, std::uint64_t seed, std::uint64_t index)
     return shot;
 }
 
-/// Moves the camera by half a view in any direction and turns it. Returns the motion with simulated
-/// measurement errors.
+/// Moves the camera by half the side of a view in a random direction and turns it. Returns the
+/// motion with simulated measurement errors.
 MeasuredMotion move(const SeriesKind& kind, Shot& shot, Rng& rng) {
     CameraPose& pose = shot.pose;
     const double distance_mm = kind.side_px * shot.camera.mm_per_px / 2;

@@ -1,11 +1,11 @@
-// Counts the results of `locate` for correct and wrong predictions.
+// Counts the results of `locate` with correct and with wrong predictions.
 //
 //   dotpose_tables tracked [--part NAME] [--frames N] [--predictions N] [--seed S]
 //                          [--update docs/tracking.md]
 //
 // Prints four tables: tracked drives, predictions with errors, changes between two frames, and
-// classes of wrong predictions. The exit status is 1 if any fix is wrong. After Ctrl-C, the tables
-// contain the frames located so far.
+// classes of wrong predictions. The exit status is 1 if any fix is wrong. Ctrl-C ends the run early
+// and prints the results so far.
 #include "tracked.hpp"
 
 #include <string>

@@ -1,4 +1,4 @@
-/// Functions that measure the tables of `tracked`, and counters for their results.
+/// Functions that measure the tables of the command `tracked`, and counters for the results.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct TrueView {
     }
 };
 
-/// Returns the quantile of the values for the probability `share`, or 0 if there are no values.
+/// Returns the quantile of the values for the probability `share`, or 0 if `values` is empty.
 inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
@@ -47,14 +47,14 @@ inline double quantile(std::vector<double> values, double share) {
 
 /// Results for one kind of prediction.
 struct TrackedTally {
-    std::uint64_t tracked = 0;        ///< number of correct fixes that use the prediction
-    std::uint64_t afresh = 0;         ///< number of correct fixes after the prediction was refused
+    std::uint64_t tracked = 0;        ///< number of correct fixes based on the prediction
+    std::uint64_t afresh = 0;         ///< number of correct fixes after the prediction was rejected
     std::uint64_t none = 0;           ///< number of frames without a fix
-    std::uint64_t tracked_wrong = 0;  ///< number of wrong fixes that use the prediction
-    std::uint64_t afresh_wrong = 0;   ///< number of wrong fixes after the prediction was refused
-    std::vector<double> errors_um;    ///< position errors of correct fixes that use the prediction
+    std::uint64_t tracked_wrong = 0;  ///< number of wrong fixes based on the prediction
+    std::uint64_t afresh_wrong = 0;   ///< number of wrong fixes after the prediction was rejected
+    std::vector<double> errors_um;    ///< position errors of the fixes in `tracked`
 
-    /// Counts a fix. If there is no true pose, every fix is wrong.
+    /// Counts a fix. Without a true pose, every fix counts as wrong.
     void count(const Fix& fix, const std::optional<TrueView>& truth) {
         if (fix.status != Status::ok) {
             ++none;
@@ -69,8 +69,8 @@ struct TrackedTally {
         }
     }
 
-    /// Returns two cells of a table, with the median and the 95 % quantile of the errors. The cells
-    /// are empty if no frame was tracked.
+    /// Returns two table cells, with the median and the 95 % quantile of the errors. The cells are
+    /// empty if no frame was tracked.
     std::string errors() const {
         if (errors_um.empty()) return " | ";
         return fmt::format("{:.2f} | {:.2f}", quantile(errors_um, 0.5), quantile(errors_um, 0.95));
@@ -119,24 +119,25 @@ struct TrackedTable {
     bool is_complete = true;  ///< false if the measurement was interrupted
 };
 
-/// Returns the table of drives at several speeds and frame rates.
+/// Returns the table of drives with several speeds and frame rates.
 TrackedTable drives_table(const TableRun& run);
 
 /// Returns the table of nominal frames with predictions of increasing error.
 TrackedTable offsets_table(const TableRun& run, std::uint64_t frames);
 
-/// Returns the table of changes between two frames, such as other light, a lifted camera, another
-/// sheet or covered dots. The prediction is based on the fix of the first frame, before the change.
+/// Returns the table of changes between two frames, such as different light, a lifted camera,
+/// another sheet or covered dots. The fix of the frame before the change is the prediction for the
+/// frame after the change.
 TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
 
-/// Returns the table of predictions of wrong positions. Each class of predictions is tested equally
-/// often.
+/// Returns the table of predictions of wrong positions. All classes of predictions are tested
+/// equally often.
 TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
 
-/// Returns the wrong position that has the maximum number of lines in common with `place`. The
-/// lines are the `lines` columns that begin at `place`, or rows if not `is_along_x`. Along this
-/// axis, the wrong position differs from `place` in one secondary sequence and in its section. All
-/// lines of the other axis are equal.
+/// Returns the wrong position that shares the maximum number of lines with `place`, among `lines`
+/// consecutive columns that begin at `place`, or rows if `is_along_x` is false. Along this axis,
+/// the wrong position differs from `place` in one secondary sequence and in its section. All lines
+/// of the other axis are equal.
 Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose::tables

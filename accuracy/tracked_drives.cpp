@@ -9,7 +9,8 @@
 namespace dotpose::tables {
 namespace {
 
-/// A drive at a constant speed with 200 frames per second. Every `every`-th frame is processed.
+/// A drive at a constant speed with 200 frames per second, of which every `every`-th frame is
+/// processed.
 struct DriveRate {
     double speed_mm_s;
     int every;
@@ -20,7 +21,7 @@ constexpr std::array kDrives{DriveRate{0, 1},   DriveRate{30, 1},  DriveRate{100
 
 struct DriveTally {
     TrackedTally seen;
-    TrackedTally settled;  ///< frames after the robot was put down, without the first two
+    TrackedTally settled;  ///< frames from the third one after the robot was put down
 };
 
 struct DriveTallies {
@@ -35,7 +36,8 @@ struct DriveTallies {
     }
 };
 
-/// Counts a frame as TrackedTally::count does, but compares the poses in the world.
+/// Counts a frame like `TrackedTally::count`, but compares world poses instead of poses on the
+/// sheet.
 void count(const Located& located, const test::DriveState& truth, TrackedTally& tally) {
     const Fix& fix = located.fix;
     if (fix.status != Status::ok) {
@@ -67,7 +69,7 @@ void follow(const DriveRate& rate, DriveTally& tally) {
     const auto take = [&](int, const test::DriveState& truth, const Followed& now) {
         if (truth.is_lifted) {
             since_put_down = 0;
-            // A fix of a lifted robot is wrong. Lifted frames without a fix are not counted.
+            // Every fix of a lifted robot is wrong. Lifted frames without a fix are not counted.
             if (now.located.fix.status == Status::ok) count(now.located, truth, tally.seen);
             return;
         }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kBam_per_degree = 4294967296.0 / 360;
 
-/// The error of a prediction.
+/// The error of a prediction: a distance and an angle.
 struct Offset {
     double spacings;
     double degrees;
@@ -25,7 +25,7 @@ constexpr std::array kOffsets{Offset{0, 0},   Offset{0.1, 0}, Offset{0.2, 0}, Of
                               Offset{0, 4},   Offset{0, 5},   Offset{0, 6},   Offset{0.3, 2},
                               Offset{0.5, 3}, Offset{0.6, 4}, Offset{0.9, 6}};
 
-/// Returns the prediction from a fix, displaced by the offset in a random direction.
+/// Returns the prediction based on a fix, displaced by the offset in a random direction.
 Prediction displaced(const Fix& fix, const Offset& offset, Rng& rng) {
     const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double sign = rng.below(2) == 0 ? 1 : -1;
@@ -43,8 +43,8 @@ Setup nominal(std::uint64_t seed) {
     return setup;
 }
 
-/// Locates a frame with predictions of increasing error. The first tally counts the fix without a
-/// prediction, and tally i + 1 the results for kOffsets[i].
+/// Locates a frame with predictions of increasing error. The first tally counts fixes without a
+/// prediction, and tally i + 1 counts the results with kOffsets[i].
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
     const Fix fresh = Locator(thread_memory(), DeviceOptions{}).locate(image.view());
@@ -89,11 +89,11 @@ void turn(Shot& shot, const Shot&, Rng& rng) {
         rng.uniform(std::numbers::pi / 18, std::numbers::pi) * (rng.below(2) == 0 ? 1 : -1);
 }
 
-/// The change between the first and the second frame.
+/// A change between the first and the second frame.
 struct Change {
     const char* text;
-    /// Turns the first shot into the second shot. `other` is a shot of another sheet. Null if the
-    /// camera is lifted.
+    /// Changes the first shot into the second shot. `other` is a shot of another sheet. The
+    /// function is null if the camera is lifted.
     void (*apply)(Shot& shot, const Shot& other, Rng& rng);
 };
 constexpr std::array kChanges{
@@ -121,7 +121,7 @@ void try_changes(const Setup& setup, std::uint64_t index, TrackedTallies& tallie
     Rng rng(first.seed, 78);
     for (std::size_t i = 0; i < kChanges.size(); ++i) {
         const bool is_lifted = kChanges[i].apply == nullptr;
-        // The second frame has different noise, but the same printing errors of the dots.
+        // The second frame has different noise but the same printing errors.
         Shot shot = first;
         shot.seed = rng.bits();
         if (!is_lifted) kChanges[i].apply(shot, other, rng);

@@ -21,8 +21,8 @@ std::int32_t between(std::uint32_t from, std::uint32_t to) {
     return static_cast<std::int32_t>(static_cast<std::int64_t>(to) - from);
 }
 
-/// Returns a prediction of the wrong position that has the most lines in common with the true
-/// position, among the 10 to 16 lines in the middle of the view. The view shows 11 to 18 lines.
+/// Returns a prediction of the wrong position that shares the most lines with the true position.
+/// Compares the 10 to 16 lines in the middle of the view, which shows 11 to 18 lines.
 template <bool is_along_x>
 Prediction worst(const LocatedPair& views, Rng& rng) {
     const Fix& fix = views.fix;
@@ -38,7 +38,8 @@ Prediction worst(const LocatedPair& views, Rng& rng) {
     return prediction;
 }
 
-/// Returns a prediction that is displaced by `dx` and `dy` cells, each in a random direction.
+/// Returns a prediction that is displaced by `dx` cells to the left or right and by `dy` cells up
+/// or down, at random.
 Prediction displaced(const Fix& fix, int dx, int dy, Rng& rng) {
     Prediction prediction = Prediction::like(fix);
     const auto either = [&rng](int step) { return rng.below(2) == 0 ? step : -step; };
@@ -97,8 +98,8 @@ GreyImage scattered_dots(const Shot& shot, Rng& rng) {
 struct WrongClass {
     const char* name;
     Prediction (*predict)(const LocatedPair& views, Rng& rng);
-    /// Draws an image of the same camera that shows no valid code, so every prediction is wrong.
-    /// Null if the class uses the image of the shot.
+    /// Draws an image of the same camera without a valid code, so every prediction is wrong. The
+    /// function is null if the class uses the image of the shot.
     GreyImage (*draw)(const Shot& shot, Rng& rng) = nullptr;
 };
 constexpr Prediction (*kRight)(const LocatedPair&, Rng&) = displaced<0, 0>;

@@ -1,11 +1,11 @@
-// Compares the errors of fixes with their covariances on sheets that are not planar. Prints tables
-// of docs/integrity.md in Markdown, with N frames for each condition.
+// Compares the errors of fixes with the reported covariances on sheets that are not planar. Prints
+// tables of docs/integrity.md in Markdown, with N frames for each condition.
 //
 //   dotpose_tables slips [--frames N] [--seed S] [--threads N]
 //   dotpose_tables seams [--frames N] [--seed S] [--threads N]
 //
-// `slips`: halves of a sheet that are displaced relative to each other, and wrinkled paper.
-// `seams`: two sheets side by side, drawn by a renderer that is independent of the simulator.
+// `slips`: sheets whose halves are displaced relative to each other, and wrinkled paper.
+// `seams`: two adjacent sheets, drawn by a renderer that is independent of the simulator.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,10 +41,10 @@ struct SheetFrames {
     Effort effort = Effort::twice;
 };
 
-/// Maximum error, in standard deviations, that is consistent with the covariance of a fix.
+/// Maximum error, in standard deviations, that is still consistent with the covariance of a fix.
 constexpr double kMaxSigmas = 4;
 
-/// Returns the largest error of x, y and theta in units of their standard deviations.
+/// Returns the largest of the errors of x, y and theta, each in units of its standard deviation.
 double max_error_sigmas(const Outcome& outcome) {
     const Deviation off = deviation_of(outcome.fix, outcome.truth);
     const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};
@@ -70,8 +70,8 @@ void print_uneven_head() {
         "| wrong |\n|---|---|--:|--:|---|--:|---|---|---|--:|\n");
 }
 
-/// Locates `frames` frames and prints their row. Returns the number of wrong fixes. Throws Error if
-/// interrupted.
+/// Locates `frames` frames and prints a table row. Returns the number of wrong fixes. Throws Error
+/// if interrupted.
 int print_uneven_row(const SheetFrames& sheet, std::uint64_t frames, const TableRun& run) {
     FrameRun frame_run;
     frame_run.frames = static_cast<int>(frames);

@@ -1,12 +1,12 @@
-// Counts the located views of sheets that were not printed by dotpose. The views are at random
-// places and angles on images of pages. They are located with the code given and with the code
-// detected. Prints the rows of a table of docs/integrity.md in Markdown.
+// Counts how many views of sheets that were not printed by dotpose are located. The views are cut
+// from page images at random positions and angles. Each view is located with the given code and
+// with code detection. Prints the rows of a table of docs/integrity.md in Markdown.
 //
 //   dotpose_tables views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
 //
 // PAGE is an image of a page at D dots per inch, or a text file with one symbol (u, d, l or r) for
-// each dot, row by row. The true pose of a view is located in a larger part of the page, with the
-// code given. Locates N views of each size, distributed over all pages. The exit status is 1 if any
+// each dot, row by row. The true pose of a view is determined from a larger part of the page, with
+// the given code. N views of each size are distributed over all pages. The exit status is 1 if any
 // fix is wrong.
 #include <algorithm>
 #include <array>
@@ -32,10 +32,10 @@ namespace dotpose::tables {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
-/// Side length, in spacings, of the part of a page from which the true pose of a view is read. The
+/// Side of the part of the page from which the true pose of a view is determined, in spacings. The
 /// part contains about 1500 dots.
 constexpr double kSurroundings_grid = 40;
-/// Number of views after which the evidence collected from them is expected to identify the code.
+/// Number of views whose combined evidence is expected to identify the code.
 constexpr int kFirstViews = 50;
 
 struct ScannedPage {
@@ -43,7 +43,7 @@ struct ScannedPage {
     double mm_per_px = 0;
 };
 
-/// Draws a page with one solid disc for each symbol of a text.
+/// Draws a page with one solid disc for each symbol of a text file.
 GreyImage drawn(const std::vector<std::string>& rows, double dpi) {
     constexpr double kDisplacement_grid = 1.0 / 6;
     constexpr double kRadius_grid = 1.0 / 6;
@@ -96,7 +96,7 @@ struct View {
     Truth truth;
 };
 
-/// Returns the pose at a point of the page, or none if the part of the page around it cannot be
+/// Returns the pose at a point of the page, or none if the surrounding part of the page cannot be
 /// read.
 std::optional<Fix> pose_on_page(const ScannedPage& page, double x_px, double y_px,
                                 Locator& locator) {
@@ -145,14 +145,15 @@ std::optional<View> draw_view(const ScannedPage& page, int width_px, int height_
 /// Counts of the views of one size.
 struct ViewCounts {
     int views = 0;
-    int given = 0;  ///< number of views located with the code given
-    // The next counts include only views of `given`, located again with detection of the code.
-    int alone = 0;        ///< number located without evidence from other views
-    int ambiguous = 0;    ///< number refused with ambiguous_code, without evidence from other views
+    int given = 0;  ///< number of views located with the given code
+    // The next counts include only the views counted in `given`, which are located again with code
+    // detection.
+    int alone = 0;        ///< number of views located without evidence from other views
+    int ambiguous = 0;    ///< number of views refused as `ambiguous_code` when read alone
     int later_given = 0;  ///< number of views after the first kFirstViews
-    int later = 0;        ///< number of `later_given` located with the evidence of earlier views
+    int later = 0;        ///< number of `later_given` located using earlier views
     int wrong = 0;
-    double max_against_log2 = 0;  ///< maximum evidence of a single view against the given code
+    double max_against_log2 = 0;  ///< maximum log2 evidence of a view against the given code
 };
 
 class ViewReader {

@@ -1,4 +1,4 @@
-// Finds the wrong position that has the most lines in common with a true position.
+// Finds the wrong position that shares the most lines with a given true position.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// Position and section along one axis and, as `cross` and `cross_section`, along the perpendicular
+/// Position and section along one axis, and `cross` and `cross_section` along the perpendicular
 /// axis.
 struct Along {
     std::uint32_t position;
@@ -23,9 +23,8 @@ struct Along {
 
 using Places = std::array<std::uint32_t, 4>;
 
-/// Returns the number of lines whose rolls are equal at two places of a secondary sequence. A
-/// constant difference between the rolls is ignored, because a change of section has the same
-/// effect.
+/// Returns the number of lines whose rolls are equal at two places of a secondary sequence, up to a
+/// constant difference. A constant difference between the rolls is equivalent to another section.
 int shared_lines(const code::Secondary& sequence, std::uint32_t place, std::uint32_t other,
                  int lines) {
     std::array<int, kSections> counts{};
@@ -57,7 +56,8 @@ std::uint8_t section_of(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
-/// Returns the section in which the most lines, starting at `position`, have the rolls `rolls`.
+/// Returns the section for which the lines starting at `position` match the largest number of the
+/// given rolls.
 std::uint8_t likest_section(CodeVariant code, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {
     std::vector<std::uint8_t> there(rolls.size());
@@ -80,8 +80,8 @@ Along worst(CodeVariant code, const Along& true_place, int lines) {
     Along alternative = true_place;
     alternative.position = code::position_at(basis, worst_places(basis, places, lines));
     alternative.section = likest_section(code, alternative.position, alternative.cross, rolls);
-    // The rolls of the perpendicular lines depend on the position and on the section of their axis.
-    // The new section compensates for the new position.
+    // The rolls of the perpendicular lines depend on both the position and the section of their
+    // axis. A new section compensates for the new position.
     const auto residue = [](std::uint32_t position) {
         return static_cast<int>(position % static_cast<std::uint32_t>(kSections));
     };

@@ -73,7 +73,7 @@ bool TagDetector::is_right(TagFrame& frame) {
     if (zarray_size(found.get()) != 1) return false;
     apriltag_detection_t* tag = nullptr;
     zarray_get(found.get(), 0, &tag);
-    // The origin of libapriltag is the corner of the first pixel, so the image centre is at half
+    // In libapriltag, the origin is the corner of the first pixel, so the image centre is at half
     // the image size.
     const double u_error_px = tag->c[0] - frame.image.width_px / 2.0;
     const double v_error_px = tag->c[1] - frame.image.height_px / 2.0;

@@ -1,4 +1,4 @@
-/// Detection of AprilTags with Debian's libapriltag, for comparison.
+/// Detection of AprilTags with Debian's libapriltag, for comparison with dotpose.
 #pragma once
 
 #include <memory>
@@ -10,27 +10,27 @@
 
 namespace dotpose::bench {
 
-/// A frame with a tag of the family tag36h11 in its centre.
+/// A frame with a tag of the family tag36h11 at its centre.
 struct TagFrame {
     GreyImage image;
     int id = 0;
 };
 
-/// Renders frames with a tag at a random angle. The tag and its white border cover two thirds of
-/// the shorter side of the frame. Illumination, blur and noise are those of nominal frames of the
+/// Renders frames with a tag at a random angle. The tag and its white border span two thirds of the
+/// shorter side of the frame. Illumination, blur and noise are those of nominal frames from the
 /// same camera.
 std::vector<TagFrame> render_tags(const CameraModel& camera, int count);
 
-/// A single-threaded detector with the library's default options.
+/// A single-threaded detector with the default options of libapriltag.
 class TagDetector {
   public:
-    /// `decimate` is the factor by which the library reduces the image before it searches for tags.
+    /// `decimate` is the factor by which libapriltag reduces the image before it searches for tags.
     explicit TagDetector(int decimate);
 
     const apriltag_family_t& family() const { return *family_; }
     int detect(GreyImage& image);
-    /// Returns true if the detector finds only the tag of the frame, in the correct position and
-    /// with all bits correct.
+    /// Returns true if the tag of the frame is the only detection, its position is correct and none
+    /// of its bits are wrong.
     bool is_right(TagFrame& frame);
 
   private:

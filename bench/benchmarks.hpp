@@ -1,4 +1,5 @@
-/// Declares the measurements of dotpose_bench, by source file, and the tables of their results.
+/// Declares the measurements of dotpose_bench and the tables of their results, grouped by source
+/// file.
 #pragma once
 
 #include <array>
@@ -26,32 +27,32 @@ struct FrameTimes {
     double tracked_us = 0;
     double device_us = 0;  ///< `Effort::device`
     double floor_us = 0;
-    double tag_us[2] = {};  ///< libapriltag with `decimate` 1 and 2
+    double tag_us[2] = {};  ///< libapriltag with `decimate` = 1 and 2
 
     double megapixels() const { return 1e-6 * camera.width_px * camera.height_px; }
 };
 /// Returns the times for frames of several sizes, ordered by size.
 std::vector<FrameTimes> times_by_size(const Results& results);
-/// Returns the times for frames of one size, ordered by their number of dots.
+/// Returns the times for frames of one size, ordered by the number of dots.
 std::vector<FrameTimes> times_by_dots(const Results& results);
 std::string size_table(const std::vector<FrameTimes>& times);
 std::string dots_table(const std::vector<FrameTimes>& times);
 
 // ---- Figures of docs/speed.md: plots.cpp ----
 
-/// Plots the times over the number of pixels.
+/// Plots the times against the number of pixels.
 void draw_pixels(std::ostream& out, const std::vector<FrameTimes>& times);
-/// Plots the times over the number of dots, in frames of one size.
+/// Plots the times against the number of dots in frames of one size.
 void draw_dots(std::ostream& out, const std::vector<FrameTimes>& times);
 
 // ---- Individual frames: varied.cpp ----
 
-/// Methods of processing a frame, in the order of the table.
+/// Methods of processing a frame, in the order of the table rows.
 enum class Way : std::uint8_t {
     twice,
     once,
-    narrow,   ///< the first attempt with 16-byte vectors, as on a processor without AVX2
-    tracked,  ///< with predictions whose errors are up to a third of a spacing and 2 degrees
+    narrow,   ///< first attempt with 16-byte vectors, as on a processor without AVX2
+    tracked,  ///< with predictions that are off by up to a third of a spacing and 2 degrees
     device,
     floor,
     apriltag_1,
@@ -59,7 +60,8 @@ enum class Way : std::uint8_t {
 };
 inline constexpr std::size_t kWays = 8;
 
-/// Time statistics of one method, in µs. The time of a frame is that of its fastest pass.
+/// Time statistics of one method over all frames, in µs. The time of a frame is its shortest time
+/// over all passes.
 struct FrameSpread {
     int frames = 0;
     int found = 0;
@@ -76,9 +78,9 @@ struct Varied {
     const FrameSpread& of(Way way) const { return spreads[static_cast<std::size_t>(way)]; }
 };
 
-/// Measures the time in which `locate` processes each of `frames` nominal frames of 188 x 120 px,
-/// and libapriltag each of `frames` / 10 frames with tags. Each frame is measured `passes` times.
-/// Throws Error if a fix is wrong.
+/// Measures the time that `locate` needs for each of `frames` nominal frames of 188 x 120 px, and
+/// the time that libapriltag needs for each of `frames` / 10 frames with tags. Each frame is
+/// measured `passes` times. Throws Error if a fix is wrong.
 Varied time_varied_frames(int frames, int passes);
 std::string varied_table(const Varied& varied);
 
@@ -92,13 +94,13 @@ struct TiltTimes {
     int by_first_attempt = 0;  ///< number of frames located by the first attempt
     double median_us = 0;
 };
-/// Measures the times to locate frames of tilted cameras. Throws Error if a fix is wrong.
+/// Measures how long `locate` takes for frames of tilted cameras. Throws Error if a fix is wrong.
 std::vector<TiltTimes> time_tilted_frames(bool is_quick);
 std::string tilt_table(const std::vector<TiltTimes>& times);
 
 // ---- Small frames: small.cpp ----
 
-/// Results for square nominal frames of one size with one spacing.
+/// Results for square nominal frames of one size and one spacing.
 struct SmallTimes {
     int side_px = 0;
     double spacing_px = 0;
@@ -108,13 +110,13 @@ struct SmallTimes {
     double median_us = 0;
     double longest_us = 0;
 };
-/// Measures the times to locate small frames. Throws Error if a fix is wrong.
+/// Measures how long `locate` takes for small frames. Throws Error if a fix is wrong.
 std::vector<SmallTimes> time_small_frames(bool is_quick);
 std::string small_table(const std::vector<SmallTimes>& times);
 
 // ---- Hard frames: hard.cpp ----
 
-/// Results for hard frames of 188 x 120 px. The time of a frame is that of its faster pass.
+/// Results for hard frames of 188 x 120 px. The time of a frame is the shorter of its two times.
 struct HardTimes {
     int frames = 0;
     int located = 0;
@@ -123,7 +125,8 @@ struct HardTimes {
     double p99_ms = 0;
     double longest_ms = 0;
 };
-/// Measures the times of frames of the preset `hard`. Throws Error if a fix is wrong.
+/// Measures how long `locate` takes for frames of the preset `hard`. Throws Error if a fix is
+/// wrong.
 HardTimes time_hard_frames(int frames);
 std::string hard_table(const HardTimes& times);
 
@@ -139,10 +142,10 @@ std::string code_table(const Results& results);
 
 // ---- The machine: machine.cpp ----
 
-/// Returns the load averages of the last 1, 5 and 15 minutes.
+/// Returns the load averages over the last 1, 5 and 15 minutes.
 std::string load_average();
 
-/// Returns a Markdown list with the processor, its caches, the compiler and the library.
+/// Returns a Markdown list that describes the processor, its caches, the compiler and the library.
 std::string machine_list();
 
 }  // namespace dotpose::bench

@@ -1,4 +1,4 @@
-// Benchmarks of encoding and decoding positions, without images.
+// Benchmarks the encoding and decoding of positions, without images.
 #include <fmt/core.h>
 
 #include <dotpose/code.hpp>

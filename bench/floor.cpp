@@ -6,10 +6,10 @@
 namespace dotpose::bench {
 namespace {
 
-/// Number of pixels that are counted in parallel. Each lane counts in 8 bits, so that the compiler
-/// can use the widest vectors of the processor.
+/// Number of lanes that count pixels in parallel. Each lane is an 8-bit counter, which allows the
+/// compiler to use the widest vectors of the processor.
 constexpr std::size_t kLanes = 64;
-/// Number of steps that a lane can count without overflow.
+/// Maximum number of steps before an 8-bit lane may overflow.
 constexpr std::size_t kMaxSteps = 255;
 
 std::uint32_t count_steps(std::span<const std::uint8_t> pixels, std::uint8_t level) {

@@ -1,4 +1,4 @@
-/// Counts dark pixels, as a lower bound of the time of any method that reads all pixels.
+/// Counts dark pixels. Any method that reads all pixels takes at least as long.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace dotpose::bench {
 
-/// Returns the number of pixels that are darker than `level`.
+/// Returns the number of pixels darker than `level`.
 std::uint32_t count_dark(std::span<const std::uint8_t> pixels, std::uint8_t level);
 
 }  // namespace dotpose::bench

@@ -15,16 +15,16 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the number of frames to render. There must be enough frames that branch prediction and
-/// caches do not adapt to individual frames, but few enough to render quickly.
+/// Returns the number of frames to render. It is large enough that caches and branch prediction do
+/// not adapt to individual frames, and small enough that rendering is quick.
 int count_of(const CameraModel& camera) {
     constexpr int kMaxFrames = 20;
     constexpr int kPixels = 4'000'000;
     return std::clamp(kPixels / (camera.width_px * camera.height_px), 1, kMaxFrames);
 }
 
-/// Returns true if the first attempt and the attempt of DeviceLocator both find a pose. Other
-/// frames are excluded, because an attempt that fails early on them would appear fast.
+/// Returns true if both the first attempt and the attempt of DeviceLocator find a pose. Other
+/// frames are excluded, because an attempt that fails early would appear fast.
 bool is_located_by_first_attempt(const KnownFrame& frame) {
     const auto memory = std::make_unique<LargeMemory>();
     const auto locates = [&](Effort effort) {

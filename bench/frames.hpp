@@ -1,4 +1,4 @@
-/// Frames of the benchmarks, which are rendered before the measurement begins.
+/// Frames for the benchmarks. They are rendered before the measurement begins.
 #pragma once
 
 #include <functional>
@@ -9,30 +9,31 @@
 
 namespace dotpose::bench {
 
-/// Seed of the frames, which is not used by any test or for tuning.
+/// Seed of the frames. No test uses this seed, and no parameter was tuned with it.
 inline constexpr std::uint64_t kSeed = 606;
 
-/// Returns nominal frames that the first attempt and the attempt of DeviceLocator both locate.
-/// There are more frames if they are small. The first call for a camera renders the frames.
+/// Returns nominal frames that both the first attempt and the attempt of DeviceLocator locate. The
+/// smaller the frames, the more frames are returned (at most 20). The first call for a camera
+/// renders its frames.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
-/// Returns true if the fix has a pose and the pose is correct.
+/// Returns true if the fix has a pose and that pose is correct.
 bool is_right(const Fix& fix, const Truth& truth);
 
-/// Returns the quantile of sorted values for the probability `share`, by the nearest rank.
+/// Returns the quantile of sorted values for the probability `share`, by the nearest-rank method.
 double quantile(const std::vector<double>& sorted, double share);
 
 /// Calls `work(i)` for i from 0 to count - 1, on all cores.
 void on_all_cores(int count, const std::function<void(int)>& work);
 
-/// Returns the frames frame_at(0) to frame_at(count - 1), which are rendered on all cores.
+/// Renders the frames frame_at(0) to frame_at(count - 1) on all cores.
 std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at);
 
-/// Results for frames that were timed individually.
+/// Results of timing each frame individually.
 struct TimedFrames {
     int located = 0;
     int by_first_attempt = 0;        ///< number of frames located by the first attempt
-    std::vector<double> fastest_us;  ///< minimum time of each frame over all passes
+    std::vector<double> fastest_us;  ///< shortest time of each frame over all passes
 };
 /// Locates all frames `passes` times with `locate`. Throws Error if a fix is wrong.
 TimedFrames time_frames(const std::vector<KnownFrame>& frames, int passes,

@@ -1,5 +1,5 @@
-// Times hard frames individually. Most hard frames need the second attempt, whose time varies
-// greatly.
+// Measures the time of each hard frame. Most hard frames need the second attempt, whose time varies
+// widely.
 #include <algorithm>
 #include <memory>
 
@@ -13,7 +13,7 @@
 namespace dotpose::bench {
 
 HardTimes time_hard_frames(int frames) {
-    // The frames are rendered in batches, to limit the memory.
+    // Renders the frames in batches to limit memory use.
     constexpr int kMaxRendered = 500;
     constexpr int kPasses = 2;
     Setup setup;

@@ -1,6 +1,6 @@
-// Locates nominal frames of 188 x 120 px. bench/instructions counts the instructions of the calls.
-// Prints the number of frames, and the number of frames that the first attempt locates without a
-// given code. With a side and a spacing in px as arguments, locates small square frames instead,
+// Locates nominal frames of 188 x 120 px in functions whose instructions bench/instructions counts.
+// Prints the number of frames, and the number of frames that the first attempt locates if the code
+// is not given. Given a side and a spacing in px as arguments, locates small square frames instead
 // and prints 1 for each located frame and 0 for each other frame.
 #include <cstdio>
 #include <cstdlib>
@@ -20,7 +20,7 @@ constexpr std::uint64_t kSeed = 606;
 
 }  // namespace
 
-/// The counted functions have C linkage, so that callgrind can select them by name.
+/// The counted functions have C linkage to let callgrind select them by name.
 extern "C" [[gnu::noinline]] void count_fresh_frame(const ImageView& image, Locator& locator) {
     locator.locate(image);
 }
@@ -32,8 +32,8 @@ extern "C" [[gnu::noinline]] void count_tracked_frame(const ImageView& image,
 extern "C" [[gnu::noinline]] void count_small_frame(const ImageView& image, Locator& locator) {
     locator.locate(image);
 }
-/// Locates a frame whose code is not given. count_frame_in_code locates the same frame with its
-/// code given, so the difference between the counts is due to the detection of the code.
+/// Locates a frame whose code is not given. count_frame_in_code locates the same frame with the
+/// code given. The difference between their counts is the cost of detecting the code.
 extern "C" [[gnu::noinline]] CodeReading count_frame_in_any_code(const ImageView& image,
                                                                  Locator& locator) {
     return locator.locate_in_any_code(image, {});
@@ -44,8 +44,8 @@ extern "C" [[gnu::noinline]] void count_frame_in_code(const ImageView& image, Lo
 
 namespace {
 
-/// Locates the frame without and with its code given, and returns true. If the first attempt does
-/// not locate the frame in the first code that it tries, returns false without counting the frame.
+/// Locates the frame without and with the given code and returns true. If the first attempt with
+/// the first code does not locate the frame, counts nothing and returns false.
 bool compare_codes(const ImageView& image, Locator& locator) {
     const auto is_settled = [](const CodeReading& reading) {
         return reading.fix.status == Status::ok && reading.fix.attempt == Attempt::first &&
@@ -63,7 +63,7 @@ bool compare_codes(const ImageView& image, Locator& locator) {
 }
 
 int count_small_frames(int side_px, double spacing_px) {
-    constexpr double kSpacing_mm = 0.508;  // spacing of the simulated sheet
+    constexpr double kSpacing_mm = 0.508;  // spacing of the dots on the simulated sheet
     Setup setup;
     setup.seed = kSeed;
     setup.camera.width_px = setup.camera.height_px = side_px;
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
         count_fresh_frame(image.view(), locator);
         const Fix fix = locator.trace().fix;
         if (fix.status != Status::ok) return 1;
-        // The prediction is displaced by a fifth of a spacing and a degree, as if the robot had
+        // The prediction is off by a fifth of a spacing and by one degree, as if the robot had
         // moved.
         constexpr std::int32_t kDegree_bam = 11930465;
         const Prediction prediction =

@@ -1,4 +1,4 @@
-// Benchmarks of whole frames for dotpose, for libapriltag, and for one pass over the pixels.
+// Benchmarks whole frames: dotpose, libapriltag, and a single pass over the pixels.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -15,7 +15,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the camera of the paper with another image size.
+/// Returns the camera of the paper with the given image size.
 CameraModel camera_of(int width_px, int height_px) {
     CameraModel camera;
     camera.width_px = width_px;
@@ -23,14 +23,14 @@ CameraModel camera_of(int width_px, int height_px) {
     return camera;
 }
 
-/// Returns a 12-megapixel phone camera whose image shows a whole page.
+/// Returns a 12-megapixel phone camera that photographs a whole page.
 CameraModel phone_camera() {
     CameraModel camera = camera_of(4000, 3000);
     camera.mm_per_px = kDefaultSpacing_mm / 6;
     return camera;
 }
 
-/// Maximum size of the frames that are measured with libapriltag, which is the slowest method.
+/// Maximum number of pixels of the frames for which libapriltag, the slowest method, is measured.
 constexpr int kMaxTagPixels = 1280 * 800;
 
 const std::vector<CameraModel>& sizes() {
@@ -40,8 +40,8 @@ const std::vector<CameraModel>& sizes() {
     return all;
 }
 
-/// Returns cameras with the same image size and decreasing spacings, whose frames contain more and
-/// more dots.
+/// Returns cameras with the same image size and decreasing spacings, whose frames therefore contain
+/// increasing numbers of dots.
 const std::vector<CameraModel>& spacings() {
     static const std::vector<CameraModel> all = [] {
         std::vector<CameraModel> cameras;
@@ -59,7 +59,7 @@ std::string name_of(const char* what, const CameraModel& camera) {
                        kDefaultSpacing_mm / camera.mm_per_px);
 }
 
-/// Returns the locator with the smallest memory that is sufficient for the frames of the camera.
+/// Returns the locator with the smallest memory that suffices for the frames of the camera.
 Locator& locator_for(const CameraModel& camera, Effort effort) {
     static const auto small = std::make_unique<SmallMemory>();
     static const auto large = std::make_unique<LargeMemory>();
@@ -92,7 +92,7 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
     state.counters["dots"] = dots / static_cast<double>(frames.size());
 }
 
-/// Tracks each frame with a prediction from its own fix.
+/// Benchmarks tracking. The prediction for each frame is its own fix.
 void track_frames(benchmark::State& state, const CameraModel& camera) {
     Locator& locator = locator_for(camera, DeviceOptions{}.effort);
     const std::vector<KnownFrame>& frames = nominal_frames(camera);

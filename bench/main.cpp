@@ -1,12 +1,12 @@
-// Regenerates all numbers and figures in docs/speed.md. Run by `make bench`.
+// Regenerates all numbers and figures in docs/speed.md. `make bench` runs this program.
 //
 //   dotpose_bench [--quick] [--update docs/speed.md] [FOLDER]
 //   dotpose_bench --benchmark_filter=stage [--benchmark_...]
 //
 // Writes tables.md, pixels.svg and dots.svg to FOLDER (bench-out). --update also replaces the
-// generated parts of the document and its figures. --quick tests the program in a short time, and
-// its numbers are inaccurate. If options of Google Benchmark are given, runs and prints only the
-// selected benchmarks.
+// generated blocks of the document and its figures. --quick is a short run to test the program, and
+// its numbers are inaccurate. With options of Google Benchmark, runs and prints only the selected
+// benchmarks.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -33,13 +33,13 @@ struct Arguments {
     fs::path document;
     bool is_quick = false;
     bool is_partial = false;
-    std::vector<std::string> library = {"dotpose_bench"};  ///< arguments for Google Benchmark
+    std::vector<std::string> library = {"dotpose_bench"};  ///< command line of Google Benchmark
 };
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    // The repetitions of all benchmarks are interleaved, so that a temporary load on the machine
-    // affects some repetitions of several benchmarks, and not all repetitions of one.
+    // Interleaves the repetitions of all benchmarks. Temporary load on the machine then slows some
+    // repetitions of several benchmarks, rather than all repetitions of one benchmark.
     for (const char* option : {"--benchmark_enable_random_interleaving=true",
                                "--benchmark_repetitions=9", "--benchmark_min_time=0.05"})
         arguments.library.emplace_back(option);
@@ -96,8 +96,8 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
                               [](const FrameTimes& t) { return t.camera.width_px; });
 }
 
-/// Returns the minimum percentage of frames located by the first attempt at any tilt, and the
-/// maximum ratio of the time to the time at 0 degrees.
+/// Returns the minimum percentage of frames that the first attempt locates at any tilt, and the
+/// maximum ratio of the time at a tilt to the time at 0 degrees.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     double share = 100;
     double ratio = 1;
@@ -148,8 +148,8 @@ std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varie
 void run(const Arguments& arguments) {
     Results results;
     if (arguments.is_partial) return run_benchmarks(arguments.library, results);
-    // An unreadable document is an error before the measurement starts, because the measurement
-    // takes minutes.
+    // Reports an unreadable document before the measurement starts, because the measurement takes
+    // minutes.
     if (!arguments.document.empty()) read_document(arguments.document);
     fs::create_directories(arguments.out);
 

@@ -21,7 +21,7 @@ constexpr const char* kFloor = draw::colour::kQuiet;
 
 using Value = double (*)(const FrameTimes&);
 
-/// Functions that return one of the times of FrameTimes, in µs. A time is 0 if it was not measured.
+/// Accessors for the times of FrameTimes, in µs. A time is 0 if it was not measured.
 constexpr Value kLocate_us = [](const FrameTimes& t) { return t.locate_us; };
 constexpr Value kOnce_us = [](const FrameTimes& t) { return t.once_us; };
 constexpr Value kDevice_us = [](const FrameTimes& t) { return t.device_us; };
@@ -94,8 +94,8 @@ void draw_pixels(std::ostream& out, const std::vector<FrameTimes>& times) {
 }
 
 void draw_dots(std::ostream& out, const std::vector<FrameTimes>& times) {
-    // The curve of the default effort is wide so that it remains visible under the curve of effort
-    // `once`, which covers it wherever no frame needs a second attempt.
+    // The curve of the default effort is drawn wide to remain visible beneath the curve of
+    // `Effort::once`. The two curves coincide where no frame needs a second attempt.
     draw(out, times,
          {"Time against dots",
           "one thread; nominal frames of 640 x 480 px, 40 to 7 px per spacing",

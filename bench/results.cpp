@@ -9,7 +9,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the CPU time of one call in µs. CPU time depends less on other processes than elapsed
+/// Returns the CPU time per call, in µs. CPU time depends less on other processes than wall-clock
 /// time.
 double us_of(const benchmark::BenchmarkReporter::Run& run) {
     return 1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
@@ -26,11 +26,11 @@ const Result& Results::of(const std::string& name) const {
 }
 
 void Results::ReportRuns(const std::vector<Run>& repetitions) {
-    if (repetitions.front().run_type != Run::RT_Iteration) return;  // skip aggregate statistics
+    if (repetitions.front().run_type != Run::RT_Iteration) return;  // ignore aggregate statistics
     Run fastest = *std::ranges::min_element(repetitions, {}, us_of);
     fastest.run_name.repetitions.clear();
     ConsoleReporter::ReportRuns({fastest});
-    // A benchmark whose result is wrong stops before its first iteration.
+    // A benchmark with a wrong result stops before its first iteration.
     if (std::ranges::any_of(repetitions, [](const Run& run) { return run.iterations == 0; })) {
         has_failed_ = true;
         return;

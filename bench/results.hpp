@@ -1,4 +1,4 @@
-/// Times of the benchmarks of one run.
+/// Collects the times of all benchmarks in a run.
 #pragma once
 
 #include <map>
@@ -14,8 +14,8 @@ struct Result {
     double dots = 0;  ///< mean number of dots in the frames, or 0 for benchmarks without frames
 };
 
-/// Prints and stores the fastest repetition of each benchmark, because other load on the machine
-/// can only make a repetition slower.
+/// Prints and stores only the fastest repetition of each benchmark, because other load on the
+/// machine can only slow a repetition down.
 class Results : public benchmark::ConsoleReporter {
   public:
     Results();

@@ -1,4 +1,5 @@
-// Measures the time per frame of small cameras, whose frames contain barely enough cells for a fix.
+// Measures the time per frame for small cameras, whose frames contain barely enough cells for a
+// fix.
 #include <algorithm>
 #include <memory>
 
@@ -12,7 +13,7 @@
 namespace dotpose::bench {
 namespace {
 
-constexpr double kSpacing_mm = 0.508;  ///< spacing of the simulated sheet
+constexpr double kSpacing_mm = 0.508;  ///< spacing of the dots on the simulated sheet
 
 SmallTimes time_small(int side_px, double spacing_px, int count, int passes) {
     Setup setup;

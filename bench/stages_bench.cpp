@@ -1,5 +1,5 @@
-// Benchmarks the stages of the pipeline for a nominal frame of 188 x 120 px. The input of each
-// stage is the result of the earlier stages. docs/pipeline.md describes the stages.
+// Benchmarks the individual stages of the pipeline on a nominal frame of 188 x 120 px. Each stage
+// starts from the results of the previous stages. docs/pipeline.md describes the stages.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -32,7 +32,7 @@ namespace {
 constexpr DeviceOptions kOptions;
 constexpr CodeVariant kCode = kOptions.code;
 
-/// A located frame with the results of all stages.
+/// A located frame with the intermediate results of all stages.
 struct Located {
     const GreyImage* image = nullptr;
     std::vector<DetectedDot> blobs;  ///< dots before the size filter
@@ -49,7 +49,7 @@ struct Located {
     static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 };
 
-/// A function that runs a stage and returns true if the result equals that of the pipeline.
+/// A function that runs a stage and returns true if the result is the same as in the pipeline.
 using Stage = bool (*)(Located&);
 
 bool measure_light(Located& l) {
@@ -174,7 +174,7 @@ bool fit_affine_pose(Located& l) {
 struct NamedStage {
     const char* name;
     Stage run;
-    bool is_part = false;  ///< true if the stage is a part of the stage `position`
+    bool is_part = false;  ///< true if the stage is part of the stage `position`
 };
 constexpr std::array kStages = {
     NamedStage{"light", measure_light},
@@ -199,7 +199,7 @@ std::string name_of(const NamedStage& stage) {
     return fmt::format("stage/{}", stage.name);
 }
 
-/// Locates the frame again and copies the results that later stages modify. Returns false on
+/// Locates the frame again and copies the results that later stages overwrite. Returns false on
 /// failure.
 bool prepare(const KnownFrame& frame, Located& l) {
     l.image = &frame.image;
@@ -240,9 +240,9 @@ std::string stage_table(const Results& results) {
     double all_us = 0;
     for (const NamedStage& stage : kStages) {
         double us = results.of(name_of(stage)).us;
-        // The detection of blobs and the update of the adaptive threshold alternate from band to
-        // band. The benchmark of the blobs therefore includes both, and the time of the threshold
-        // is subtracted.
+        // The pipeline alternates between blob detection and the update of the adaptive threshold,
+        // band by band. The benchmark of blob detection therefore includes both, and the time of
+        // the threshold is subtracted.
         if (stage.run == find_blobs) us -= results.of(name_of(kStages.front())).us;
         table +=
             fmt::format("| {} | {}{:.2f} |\n", stage.name, stage.is_part ? "of which " : "", us);

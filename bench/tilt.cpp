@@ -1,5 +1,5 @@
-// Measures the number of frames located by the first attempt and the time per frame, at several
-// tilts of the camera.
+// Measures the fraction of frames that the first attempt locates, and the time per frame, for
+// several tilts of the camera.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -15,7 +15,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns a frame of a tilted camera. Each frame has a different tilt axis.
+/// Returns a frame of a tilted camera. The tilt axis is different for each frame.
 KnownFrame tilted_frame(const Setup& setup, int tilt_deg, int index) {
     Shot shot = draw_shot(setup, static_cast<std::uint64_t>(index));
     const double axis_rad = index * std::numbers::phi * 2 * std::numbers::pi;

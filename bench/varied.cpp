@@ -1,5 +1,4 @@
-// Measures the times of many different frames individually, to show how the time varies between
-// frames.
+// Measures the time of each of many different frames to show how much the time varies.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -25,7 +24,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// A method of locating frames, its frames, and its results.
+/// A method of locating frames, the frames that it processes, and its results.
 struct Subject {
     std::vector<const GreyImage*> frames;
     int found = 0;
@@ -59,7 +58,7 @@ Subject locating(const std::vector<KnownFrame>& frames, Effort effort, SmallMemo
     return subject;
 }
 
-/// Returns the method that uses only the first attempt, without AVX2.
+/// Returns the method that uses only the first attempt, and no AVX2 instructions.
 Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {
@@ -75,7 +74,7 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     return subject;
 }
 
-/// Returns a prediction for a frame, which is its own fix with a random error.
+/// Returns a prediction for a frame: its own fix, displaced by a random error.
 Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory) {
     const Fix fix = Locator(memory, DeviceOptions{}).locate(frame.image.view());
     const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);
@@ -123,8 +122,8 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
     return subject;
 }
 
-/// Measures the time of every frame once. Each frame is copied to the same memory, as with a
-/// camera. Because all other frames are located between two measurements of a frame, caches and
+/// Measures the time of every frame once. Each frame is first copied to the same memory, as with a
+/// real camera. All other frames are located between two measurements of a frame, so caches and
 /// branch prediction do not adapt to it.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;

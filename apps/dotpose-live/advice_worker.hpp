@@ -1,5 +1,5 @@
-/// Finds the reason why a frame was refused. Runs in a separate thread, because the search takes up
-/// to a second.
+/// Determines why a frame was refused. The search runs in a separate thread, because it takes up to
+/// a second.
 #pragma once
 
 #include <condition_variable>
@@ -25,16 +25,16 @@ class AdviceWorker {
         Record record;
     };
 
-    /// `take` is called in the worker thread after each search, with the reason why the frame was
-    /// refused and the advice (see `reason` in locate_record.hpp).
+    /// `take` is called in the worker thread after each search. Its argument contains the reason
+    /// why the frame was refused (see `reason` in locate_record.hpp) and the advice.
     explicit AdviceWorker(std::function<void(const std::string&)> take);
-    /// Waits for the end of the current search.
+    /// Waits until the running search has finished.
     ~AdviceWorker();
     AdviceWorker(const AdviceWorker&) = delete;
     AdviceWorker& operator=(const AdviceWorker&) = delete;
 
-    /// Queues a search. Replaces a queued search that has not started, so at most one frame is
-    /// waiting.
+    /// Queues a search. If a search is already queued but has not started, replaces it, so at most
+    /// one frame is waiting.
     void ask(Job job);
 
   private:

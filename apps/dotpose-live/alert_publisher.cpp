@@ -11,8 +11,8 @@ namespace dotpose::cli {
 namespace {
 
 publish::MqttOptions with_queue(publish::MqttOptions options) {
-    // The queue can contain one alert of each robot, because all conditions may change at the same
-    // time, for example when the network fails.
+    // The queue has room for one alert per robot, because the conditions of all robots may change
+    // at the same time, for example when the network fails.
     options.queue = FleetState::kMaxRobots;
     options.qos = 1;
     return options;

@@ -1,4 +1,4 @@
-/// Publishes alerts about the robots of a fleet through the broker.
+/// Publishes alerts about the robots of a fleet through the MQTT broker.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@ namespace dotpose::cli {
 
 class AlertPublisher {
   public:
-    /// Throws Error if the broker refuses the connection.
+    /// Throws Error if the broker rejects the connection.
     explicit AlertPublisher(publish::MqttOptions options);
 
-    /// Publishes an alert for each change of a condition since the previous call.
+    /// Publishes an alert for each condition that has changed since the previous call.
     void check(const FleetRobots& robots, const Now& now);
 
-    /// Waits up to 2 s for all alerts to be sent, and reports the number of sent alerts.
+    /// Waits up to 2 s until all alerts are sent, and reports the number of sent alerts.
     void finish();
 
   private:

@@ -17,11 +17,11 @@ namespace {
 using namespace std::chrono_literals;
 using TextLines = std::vector<std::string>;
 
-/// Number of characters per line on the panel of the window.
+/// Maximum number of characters per line on the panel of the window.
 constexpr std::size_t kPanelColumns = 44;
 constexpr std::size_t kCaptions = 7;
 
-/// Appends `text`, wrapped at spaces into lines of at most `columns` characters.
+/// Appends `text`, wrapped at spaces into lines with at most `columns` characters.
 void append_wrapped(std::string_view text, std::size_t columns, TextLines& lines) {
     while (text.size() > columns) {
         const std::size_t space = text.rfind(' ', columns);
@@ -37,13 +37,13 @@ TextLines captions_of(const CalibrationStatus& status) {
     append_wrapped(taken_text(status) + "; " + status.now, kPanelColumns, lines);
     append_wrapped("next: " + next_text(status), kPanelColumns, lines);
     if (!status.remark.empty()) append_wrapped(status.remark, kPanelColumns, lines);
-    // A constant number of lines keeps the drawings below the captions in place.
+    // The number of lines is constant, which keeps the drawings below the captions in place.
     lines.resize(kCaptions - 1);
     lines.emplace_back("q ends");
     return lines;
 }
 
-/// Returns a character map of the covered image blocks, with the gauges beside it.
+/// Returns a character map of the covered image blocks, with the gauges next to it.
 TextLines terminal_lines(const CalibrationStatus& status) {
     using Image = ImageCoverage;
     TextLines lines;
@@ -113,8 +113,8 @@ void CalibrationDisplay::show_in_terminal(const CalibrationStatus& status) {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_ && !status.is_taken) return;
     next_ = now + 100ms;
-    // The control sequence moves the cursor to the first line of the previous output, and erases
-    // everything from there on.
+    // This control sequence moves the cursor to the first line of the previous output and erases
+    // everything from there to the end of the screen.
     const int shown_lines = shown_lines_;
     std::string text = shown_lines > 0 ? fmt::format("\033[{}A\r\033[J", shown_lines) : "";
     const std::size_t columns = terminal_columns();

@@ -1,5 +1,6 @@
-/// Display of `dotpose calibrate --live` while frames are taken: a window, or the terminal if there
-/// is no window. If standard error is not a terminal, each change is printed as a line.
+/// Display for `dotpose calibrate --live` while frames are being captured: a window or, if no
+/// window can be opened, the terminal. If standard error is not a terminal, each change is printed
+/// as a line.
 #pragma once
 
 #include <atomic>
@@ -16,15 +17,14 @@ namespace dotpose::cli {
 class CalibrationDisplay {
   public:
     explicit CalibrationDisplay(bool has_window);
-    /// Shows the newest frame, the trace of its stages, and the status. Returns false if the user
-    /// closed the window or pressed q or Escape in the window.
+    /// Displays a frame, the trace of its stages, and the status. Returns false if the user closed
+    /// the window or pressed q or Escape in it.
     bool show(const CalibrationStatus& status, ImageView image, const Trace& trace);
 
-    /// Handles the events of the window. Returns false if the user closed the window.
+    /// Processes window events. Returns false if the user closed the window.
     bool is_wanted() { return screen_.is_wanted(); }
 
-    /// Writes a message to standard error. The next status does not overwrite the message.
-    /// Thread-safe.
+    /// Writes a message to standard error. The next status does not overwrite it. Thread-safe.
     void say(const std::string& message);
 
   private:
@@ -33,7 +33,7 @@ class CalibrationDisplay {
     bool has_window_;
     bool on_terminal_;
     video::Screen screen_;
-    /// Number of terminal lines of the previous status. The next status overwrites them.
+    /// Number of terminal lines of the last status, which the next status overwrites.
     std::atomic<int> shown_lines_ = 0;
     std::chrono::steady_clock::time_point next_;
     std::string last_line_;

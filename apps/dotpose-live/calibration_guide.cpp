@@ -16,20 +16,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Minimum time between two frames that are copied for the thread that calibrates the lens.
+/// Minimum time between two frames that are copied for the calibration thread.
 constexpr std::chrono::milliseconds kOfferPeriod = 50ms;
-/// Maximum number of waiting jobs. Further commands of a page are ignored while this number of jobs
-/// is waiting.
+/// Maximum number of queued jobs. While the queue is full, commands from the page are ignored.
 constexpr std::size_t kMaxJobs = 8;
-/// Number of consecutive frames without a fix after which the user is advised to keep the camera
-/// over the dots.
+/// Number of consecutive frames without a fix after which the page advises the user to keep the
+/// camera over the dots.
 constexpr int kManyLost = 10;
 
 constexpr std::array<const char*, 5> kSteps = {"lens", "spin", "drive", "readout", "pivot"};
 constexpr std::array<const char*, 6> kPhases = {"idle",   "collecting", "solving",
                                                 "solved", "failed",     "saved"};
 
-/// Returns the reason why a step cannot start with this camera, or an empty string if it can start.
+/// Returns the reason why a step cannot start with this camera, or an empty string if it can.
 std::string problem_before(GuideStep step, const std::optional<Camera>& camera) {
     if (step == GuideStep::readout && !(camera && camera->paper)) {
         return "the camera file has no view of the paper: first calibrate the lens of the mounted "
@@ -175,7 +174,7 @@ void CalibrationGuide::begin(GuideStep step) {
     });
 }
 
-/// Ends the step without a result.
+/// Ends the step and discards its frames and result.
 void CalibrationGuide::reset() {
     collector_.reset();
     update([this](GuideState& state) {
@@ -225,8 +224,8 @@ void CalibrationGuide::take(const capture::Frame& frame, const Reading& reading,
     show_guided();
 }
 
-/// Shows the progress of a step with a moving robot, and ends the step if it is complete. `mutex_`
-/// must be locked.
+/// Shows the progress of a step in which the robot moves, and ends the step when it is complete.
+/// `mutex_` must be locked.
 void CalibrationGuide::show_guided() {
     show(*guided_, state_);
     if (lost_ >= kManyLost)
@@ -239,8 +238,8 @@ void CalibrationGuide::show_guided() {
     changed_.notify_one();
 }
 
-/// Queues a copy of a frame for the thread, unless the thread is busy or a frame was queued less
-/// than `kOfferPeriod` ago. `mutex_` must be locked.
+/// Queues a copy of a frame for the calibration thread, unless the thread is busy or the last frame
+/// was queued less than `kOfferPeriod` ago. `mutex_` must be locked.
 void CalibrationGuide::offer(const capture::Frame& frame, ImageView image, double bits_per_px) {
     const Clock::time_point now = Clock::now();
     if (is_busy_ || !jobs_.empty() || now < next_offer_) return;
@@ -312,11 +311,11 @@ GuideResult CalibrationGuide::lens_result() {
     return result;
 }
 
-/// Solves a step. Throws Error if its frames do not determine the result.
+/// Computes the result of a step. Throws Error if its frames do not determine a result.
 GuideResult CalibrationGuide::result_of(GuideStep step) {
     if (step == GuideStep::lens) return lens_result();
-    // `guided_` can be read without the mutex, because the main thread takes no frames while the
-    // phase is `solving`.
+    // `guided_` can be read without locking the mutex, because the main thread adds no frames while
+    // the phase is `solving`.
     const std::optional<Camera> camera = state().camera;
     const GuidedFrames::Images& images = guided_->images();
     const int count = static_cast<int>(images.size());
@@ -359,8 +358,8 @@ void CalibrationGuide::write() {
         update([&error](GuideState& state) { state.problem = error.what(); });
         return;
     }
-    // The camera in the file contains the flip, because later runs need it. The camera of this run
-    // must not contain it, because the source of this run already flips the frames.
+    // The saved camera file records the flip, because later runs need it. The camera of this run
+    // must not record it, because the source already flips the frames.
     camera.flip = false;
     update([&](GuideState& state) {
         state.phase = GuidePhase::saved;

@@ -1,10 +1,10 @@
-/// Calibrates the camera of a running `dotpose watch` in five steps: the lens, the mount of the
-/// camera from a turn on the spot, the forward direction from a straight drive, the readout time
-/// from a fast drive, and the tip of a pen from pivoting.
+/// Calibrates the camera of a running `dotpose watch` in five steps: the lens; the mount of the
+/// camera, from a turn on the spot; the forward direction, from a straight drive; the readout time,
+/// from a fast drive; and the tip of a pen, from pivoting.
 ///
 /// The main thread passes frames and commands to the guide. These calls return immediately and copy
-/// only the frames that the guide needs. A thread with a lower priority selects the frames for the
-/// lens, computes the calibration, and writes the file.
+/// only the frames that are needed. A low-priority thread selects the frames for the lens, computes
+/// the calibration, and writes the file.
 #pragma once
 
 #include <atomic>
@@ -30,96 +30,95 @@
 namespace dotpose::cli {
 
 enum class GuideStep { lens, spin, drive, readout, pivot };
-/// Returns the identifier, such as "spin".
+/// Returns the identifier of a step, such as "spin".
 const char* name(GuideStep step);
-/// Returns the step with the identifier `name`, or an empty optional if there is no such step.
+/// Returns the step whose identifier is `name`, or none if there is no such step.
 std::optional<GuideStep> guide_step(const std::string& name);
 
-/// State of the current step.
+/// Phase of the current step.
 enum class GuidePhase {
-    idle,        ///< no step was started
-    collecting,  ///< frames are taken
-    solving,     ///< the calibration is computed
-    solved,      ///< the result can be saved
-    failed,      ///< there is no result; `GuideState::problem` is the reason
-    saved        ///< the result is in the camera file
+    idle,        ///< no step has been started
+    collecting,  ///< frames are being collected
+    solving,     ///< the calibration is being computed
+    solved,      ///< the result is ready to be saved
+    failed,      ///< there is no result, and `GuideState::problem` is the reason
+    saved        ///< the result has been saved in the camera file
 };
 const char* name(GuidePhase phase);
 
 struct GuideOptions {
-    std::string file;  ///< camera file; no other file is written
+    std::string file;  ///< camera file, the only file that may be written
     CalibrateOptions calibrate;
     SpacingSource spacing = SpacingSource::assumed;
     /// Camera of the run. Each step changes only the values that it calibrates.
     std::optional<Camera> camera;
-    bool needs_focal_length = false;  ///< true if the run fits poses in space
-    bool flip = false;  ///< true if the source flips the frames; written to the camera file
+    bool needs_focal_length = false;  ///< whether the run fits poses in space
+    bool flip = false;  ///< whether the source flips the frames, which is saved in the camera file
 };
 
 struct GuideResult {
     Camera camera;
-    std::string report;                           ///< lines of `dotpose calibrate`
+    std::string report;                           ///< lines in the format of `dotpose calibrate`
     bool is_good = true;                          ///< false if the verdict is a warning
-    std::optional<ResidualField> residuals = {};  ///< only for the step `lens`
-    std::vector<SpinStation> stations = {};       ///< only for the step `spin`
-    std::vector<std::string> improvements = {};   ///< what could be improved with more frames
+    std::optional<ResidualField> residuals = {};  ///< for the step `lens` only
+    std::vector<SpinStation> stations = {};       ///< for the step `spin` only
+    std::vector<std::string> improvements = {};   ///< ways to improve the result with more frames
 };
 
 struct GuideState {
     GuideStep step = GuideStep::lens;
     GuidePhase phase = GuidePhase::idle;
-    int frames = 0;  ///< number of frames that were taken
+    int frames = 0;  ///< number of collected frames
     std::vector<video::Gauge> gauges;
-    std::string advice;                     ///< what to do now
-    std::optional<CalibrationStatus> lens;  ///< coverage; only for the step `lens`
-    /// One element for each direction of a turning robot, or of the tilt of a pen. True if there
-    /// are enough frames with this direction.
+    std::string advice;                     ///< what the user should do now
+    std::optional<CalibrationStatus> lens;  ///< coverage, for the step `lens` only
+    /// Whether there are enough frames with each direction of a turning robot, or with each
+    /// direction in which a pen is tilted.
     std::vector<bool> directions;
-    std::vector<PenLean> leans;      ///< tilts of a pen
-    std::vector<std::string> needs;  ///< unmet requirements of a step with a moving robot
-    std::string problem;             ///< failure of the step, or of writing the file
+    std::vector<PenLean> leans;      ///< tilts of the pen
+    std::vector<std::string> needs;  ///< unmet requirements of a step in which the robot moves
+    std::string problem;             ///< reason why the step or the writing of the file failed
     std::optional<GuideResult> result;
-    std::optional<Camera> camera;  ///< given camera, or the last saved one
+    std::optional<Camera> camera;  ///< the given camera, or the camera that was saved last
 };
 
 class CalibrationGuide {
   public:
     explicit CalibrationGuide(GuideOptions options);
-    /// Cancels the running step.
+    /// Cancels the current step.
     ~CalibrationGuide();
     CalibrationGuide(const CalibrationGuide&) = delete;
     CalibrationGuide& operator=(const CalibrationGuide&) = delete;
 
-    /// Cancels the running step, if there is one, and starts `step`.
+    /// Starts `step`. Cancels the current step if there is one.
     void start(GuideStep step);
-    /// Computes the result of the step from the frames taken so far. The step fails if these frames
-    /// do not determine the result.
+    /// Computes the result of the step from the frames collected so far. The step fails if they do
+    /// not determine a result.
     void finish();
     void cancel();
-    /// Writes the result of the current step into the file. Does nothing if there is no result.
+    /// Saves the result of the current step in the camera file. Does nothing if there is no result.
     void save();
 
-    /// Uses these sheets in all calculations that start from now on.
+    /// Uses these sheets in all calculations that are started later.
     void set_sheets(std::vector<SheetEntry> sheets);
 
-    /// Takes a frame if the current step needs it. `image` is the image that was located.
+    /// Collects a frame if the current step needs it. `image` is the image that was located.
     /// `bits_per_px` is the bit rate of the source (capture/frame_source.hpp).
     void take(const capture::Frame& frame, const Reading& reading, ImageView image,
               double bits_per_px);
 
-    /// Returns the camera that was saved since the previous call, or an empty optional if none was
-    /// saved.
+    /// Returns the camera that was saved since the previous call, or none if no camera was saved.
     std::optional<Camera> take_camera();
 
     const std::string& file() const { return options_.file; }
     GuideState state() const;
-    /// Returns a number that increases with each change of the state.
+    /// Returns a number that increases with every change of the state.
     std::uint64_t version() const;
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    // These functions run in the thread.
+    // The following functions run in the calibration thread.
     void run();
     void begin(GuideStep step);
     void reset();
@@ -136,22 +135,22 @@ class CalibrationGuide {
     void offer(const capture::Frame& frame, ImageView image, double bits_per_px);
 
     GuideOptions options_;
-    std::unique_ptr<LensCollector> collector_;  ///< used by the thread only
-    std::atomic<bool> cancels_ = false;         ///< true to end the running calculation
+    std::unique_ptr<LensCollector> collector_;  ///< used only by the calibration thread
+    std::atomic<bool> cancels_ = false;         ///< true to abort the running calculation
 
-    mutable std::mutex mutex_;  ///< guards the following members
+    mutable std::mutex mutex_;  ///< protects the following members
     std::condition_variable changed_;
     std::deque<std::function<void()>> jobs_;
-    bool is_busy_ = false;  ///< true while a job runs
+    bool is_busy_ = false;  ///< whether a job is running
     bool stops_ = false;
     GuideState state_;
     std::uint64_t version_ = 0;
-    std::unique_ptr<GuidedFrames> guided_;  ///< none during the step `lens`
-    int lost_ = 0;                          ///< number of frames since the last one with a fix
+    std::unique_ptr<GuidedFrames> guided_;  ///< null during the step `lens`
+    int lost_ = 0;                          ///< number of consecutive frames without a fix
     std::optional<Camera> saved_camera_;
     Clock::time_point next_offer_{};
 
-    std::thread thread_;  // last member, because the thread uses the other members
+    std::thread thread_;  // declared last, because the thread uses the other members
 };
 
 }  // namespace dotpose::cli

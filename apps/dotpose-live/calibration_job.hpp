@@ -1,5 +1,5 @@
-/// Calibrates a lens in a second thread, so new frames of the camera can be shown during the
-/// calibration.
+/// Calibrates a lens in a background thread, so the display of camera frames can continue
+/// meanwhile.
 #pragma once
 
 #include <atomic>
@@ -20,28 +20,27 @@ class CalibrationJob {
     using Frames = std::vector<std::shared_ptr<const GreyImage>>;
 
     explicit CalibrationJob(const CalibrateOptions& options);
-    /// Waits for a running calibration to stop. The calibration stops after its current frame or
-    /// fit.
+    /// Stops a running calibration after its current frame or fit, and waits for it.
     ~CalibrationJob();
     CalibrationJob(const CalibrationJob&) = delete;
     CalibrationJob& operator=(const CalibrationJob&) = delete;
 
     bool is_running() const { return job_.valid(); }
 
-    /// Starts a calibration with these frames. No other calibration may be running.
+    /// Starts a calibration with these frames. No calibration may be running.
     void start(Frames frames);
 
-    /// Waits at most `patience` for the end of the running calibration. Returns true if the
-    /// calibration has ended. A calibration must be running.
+    /// Waits up to `patience` for the running calibration. Returns true if it has finished. A
+    /// calibration must be running.
     bool wait(std::chrono::milliseconds patience);
 
-    /// Returns the result of the newest finished calibration, or none if it failed or if no
-    /// calibration has finished.
+    /// Returns the result of the last finished calibration, or none if that calibration failed or
+    /// none has finished.
     const std::optional<LensCalibration>& newest() const { return newest_; }
-    /// Returns the reason why the newest finished calibration failed, or an empty string if it
+    /// Returns the reason why the last finished calibration failed, or an empty string if it
     /// succeeded.
     const std::string& problem() const { return problem_; }
-    /// Returns the number of frames of the newest finished calibration, or 0.
+    /// Returns the number of frames in the last finished calibration, or 0 if none has finished.
     std::size_t frames() const { return frames_; }
 
   private:
@@ -51,7 +50,7 @@ class CalibrationJob {
     std::size_t frames_ = 0;
     std::optional<LensCalibration> newest_;
     std::string problem_;
-    std::future<LensCalibration> job_;  // last member, because the job uses the other members
+    std::future<LensCalibration> job_;  // declared last, because the job uses the other members
 };
 
 }  // namespace dotpose::cli

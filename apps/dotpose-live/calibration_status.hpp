@@ -1,4 +1,4 @@
-/// Progress of the calibration of a lens, for the window, the terminal and the page.
+/// Progress of a lens calibration, for the window, the terminal and the page.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,8 @@
 
 namespace dotpose::cli {
 
-/// Tilt of the camera in one frame, along the u and v axes of the image. Each value is the relative
-/// change of the image scale over a distance along the axis. The distance is half the image
-/// diagonal.
+/// Tilt of the camera in one frame, along the u and v axes of the image. Each component is the
+/// relative change of the image scale over half the image diagonal along that axis.
 struct FrameTilt {
     double u = 0;
     double v = 0;
@@ -23,23 +22,23 @@ struct CalibrationStatus {
 
     CalibrationCoverage coverage;
     std::vector<CalibrationNeed> needs;  ///< unmet requirements, most urgent first
-    /// Standard deviation of the undistorted position of the farthest image corner, from the newest
-    /// finished calibration. Empty if no calibration has finished or if the newest one failed.
+    /// Standard deviation of the undistorted position of the farthest image corner, according to
+    /// the last finished calibration. None if no calibration has finished or the last one failed.
     std::optional<double> corner_sigma_px;
-    std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
-    std::vector<FrameTilt> tilts;     ///< tilts of the frames that were taken
-    std::string now;                  ///< result of the newest frame
-    std::string remark;               ///< advice after the newest calibration; may be empty
-    bool is_taken = false;            ///< true if the newest frame was accepted for calibration
+    std::optional<double> theta_rad;  ///< camera angle in the newest frame, if it was located
+    std::vector<FrameTilt> tilts;     ///< tilts of the collected frames
+    std::string now;                  ///< text about the newest frame
+    std::string remark;               ///< advice after the last calibration, or empty
+    bool is_taken = false;            ///< whether the newest frame was accepted for calibration
 };
 
 /// Returns the progress towards each goal of the calibration.
 std::vector<video::Gauge> gauges_of(const CalibrationStatus& status);
 
-/// Returns the number of frames that were taken, as text.
+/// Returns the number of collected frames as text.
 std::string taken_text(const CalibrationStatus& status);
 
-/// Returns the most urgent advice as text for the user.
+/// Returns the most urgent advice for the user.
 std::string next_text(const CalibrationStatus& status);
 
 }  // namespace dotpose::cli

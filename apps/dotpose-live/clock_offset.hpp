@@ -1,5 +1,5 @@
-/// Offset between the clock of a robot and the monotonic clock of the receiver, estimated from
-/// messages with time stamps.
+/// Offset between the clock of a robot and the monotonic clock of the receiver, estimated from the
+/// time stamps of messages.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 
 namespace dotpose::cli {
 
-/// Estimates the offset as the minimum of (received - sent) over the newest messages. The network
-/// and queues delay messages, but no message arrives before it was sent, so the minimum is the best
-/// estimate. Older messages are not used, because clocks drift.
+/// Estimates the offset as the minimum of (received - sent) over recent messages. Network and
+/// queues can delay a message, but no message arrives before it is sent, so the minimum is the best
+/// estimate. Only recent messages are used, because clocks drift.
 class ClockOffset {
   public:
     void take(std::int64_t received_us, std::int64_t sent_us) {
@@ -23,10 +23,10 @@ class ClockOffset {
         current_us_ = std::min(current_us_, offset_us);
     }
 
-    /// Discards all messages so far. Must be called if the clock of the robot was set back.
+    /// Discards all messages so far. Must be called after the clock of the robot was set back.
     void reset() { *this = {}; }
 
-    /// Returns the offset in us. Requires at least one message.
+    /// Returns the offset in us. At least one message must have been added.
     std::int64_t us() const { return std::min(earlier_us_, current_us_); }
 
   private:

@@ -1,5 +1,5 @@
-/// Subcommands that need a camera or a network. They belong to dotpose-live, which `dotpose`
-/// starts.
+/// Subcommands that require a camera or a network. dotpose-live implements them, and `dotpose`
+/// starts dotpose-live.
 #pragma once
 
 #include "command_line.hpp"

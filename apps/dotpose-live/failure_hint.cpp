@@ -13,11 +13,11 @@ namespace dotpose::cli {
 namespace {
 
 constexpr std::int64_t kWindow_us = 1'000'000;
-/// Minimum number of failed frames within a second for which a hint is given. The number is small,
-/// because slow cameras deliver only a few frames per second.
+/// Minimum number of failed frames within a second for a hint. It is small because slow cameras
+/// deliver only a few frames per second.
 constexpr std::size_t kMinFrames = 3;
-/// Maximum number of remembered frames. Without this limit, the memory would grow if the timestamps
-/// of a source do not advance.
+/// Maximum number of stored frames. Without this limit, memory use would grow if the time stamps of
+/// a source did not advance.
 constexpr std::size_t kMaxFrames = 2000;
 
 std::string reason_with_advice(Record record, ImageView image, const DeviceOptions& options,
@@ -30,10 +30,10 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 
 }  // namespace
 
-/// Counts the frames that failed with each status, and keeps a copy of one frame of each status for
-/// the report at the end of the run. Copies the first, second, fourth, eighth (and so on) frame of
-/// each status, and replaces the previous copy. Few frames are therefore copied, but the copy is
-/// always from the second half of the frames of its status.
+/// Counts the failed frames of each status and keeps a copy of one of them for the report at the
+/// end of the run. Copies frames 1, 2, 4, 8 and so on of each status, each replacing the previous
+/// copy. Few frames are therefore copied, and the copy is always from the more recent half of the
+/// frames with its status.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;
@@ -64,8 +64,8 @@ std::string FailureHint::after(const Reading& reading, ImageView image,
     const Record& record = reading.record;
     remember(record, image, options, bits_per_px);
     last_second_.push_back({reading.time_us, record.fix.status != Status::ok});
-    // A hint requires frames of a full second. The oldest frame is therefore kept until the
-    // second-oldest frame is a second old.
+    // A hint requires a full second of frames, so the oldest frame is kept until the second-oldest
+    // frame is one second old.
     while (last_second_.size() > kMaxFrames ||
            (last_second_.size() > 1 && reading.time_us - last_second_[1].time_us >= kWindow_us)) {
         last_second_.pop_front();

@@ -1,4 +1,4 @@
-/// Explains why most frames of a camera or video cannot be located.
+/// Explains why most frames from a camera or video cannot be located.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ namespace dotpose::cli {
 
 class FailureHint {
   public:
-    /// Takes the result of the attempt to locate a frame with `options`. Returns a sentence for the
-    /// user if this frame failed, and more than half and at least three of the frames of the last
-    /// second failed. Otherwise returns an empty string. The sentence is returned again only after
-    /// the fraction of failed frames in a second has dropped to a half or less. `bits_per_px` is
-    /// the bit rate of the source (capture/frame_source.hpp).
+    /// Takes the result of locating a frame with `options`. Returns a hint for the user if this
+    /// frame failed and, in the last second, at least three frames and more than half of the frames
+    /// failed. Returns an empty string otherwise. The hint is not repeated until the fraction of
+    /// failed frames per second has dropped to one half or less. `bits_per_px` is the bit rate of
+    /// the source (capture/frame_source.hpp).
     std::string after(const Reading& reading, ImageView image, const DeviceOptions& options,
                       double bits_per_px);
 
-    /// Returns a sentence if more than half of the frames of the run failed, otherwise an empty
-    /// string.
+    /// Returns a sentence if more than half of the frames in the run failed, and an empty string
+    /// otherwise.
     std::string at_end() const;
 
   private:
@@ -31,7 +31,7 @@ class FailureHint {
         std::int64_t time_us = 0;
         bool has_failed = false;
     };
-    /// The frames that failed with one status: their number, and a copy of one frame.
+    /// The frames that failed with a certain status: their number, and a copy of one of them.
     struct Failures {
         std::int64_t count = 0;
         Record record;
@@ -46,7 +46,7 @@ class FailureHint {
     std::int64_t frames_ = 0;
     std::int64_t failed_ = 0;
     std::map<Status, Failures> failures_;
-    DeviceOptions options_;  ///< options of the newest frame that failed
+    DeviceOptions options_;  ///< options with which the newest failed frame was located
     double bits_per_px_ = 0;
 };
 

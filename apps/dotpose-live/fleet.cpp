@@ -50,7 +50,7 @@ struct FleetArguments {
     std::string metrics;
     StoreArguments store;
     WebArguments web;
-    double seconds = 0;  ///< run time; 0 means until interrupted
+    double seconds = 0;  ///< run time, or 0 to run until interrupted
     double every_s = 1;
     double silent_after_s = 5;
     double gone_after_s = 60;
@@ -78,7 +78,7 @@ void register_files(const FleetArguments& arguments) {
     }
 }
 
-/// Limits the rate of calls to one per period.
+/// Limits an action to one call per period.
 class Periodically {
   public:
     explicit Periodically(double period_s) : period_s_(period_s), last_(steady_clock::now()) {}
@@ -100,7 +100,7 @@ std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& 
     return store ? std::optional(store->status()) : std::nullopt;
 }
 
-/// Returns the options of the page, or an empty optional without --web. The caller must set `now`
+/// Returns the options of the web page, or none if --web is not given. The caller must set `now`
 /// and `services`.
 std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
                                            const publish::MqttOptions& mqtt) {

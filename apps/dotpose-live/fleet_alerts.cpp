@@ -3,13 +3,13 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns true if a change from condition `a` to condition `b` needs no alert.
+/// Returns true if a change between two conditions does not require an alert.
 bool are_alike(Condition a, Condition b) {
     return a == b || (is_fine(a) && is_fine(b));
 }
 
-/// Returns true if the robot lost its pose less than a second ago. No alert is needed yet, because
-/// the robot may find its pose again, for example between two sheets.
+/// Returns true if the robot lost its pose less than a second ago. An alert would be premature,
+/// because the robot may find its pose again, for example between two sheets.
 bool is_briefly_lost(const FleetRobot& robot, const Now& now) {
     constexpr std::int64_t kBriefly_us = 1'000'000;
     return robot.condition == Condition::lost && now.watched_us - robot.lost_since_us < kBriefly_us;

@@ -1,4 +1,4 @@
-/// Detects the changes of robots that operators are alerted to.
+/// Detects the changes in the conditions of robots that require an alert.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ class AlertWatch {
     /// Returns an alert for each robot whose condition has changed since the previous call: the
     /// robot has been lost for a second, has become silent or gone, is fine again, or was removed.
     /// A new robot causes an alert only if it is silent or has been lost for a second. The caller
-    /// must set the times and numbers of the alerts.
+    /// must fill in the times and sequence numbers of the alerts.
     std::vector<RobotAlert> changes(const FleetRobots& robots, const Now& now);
 
   private:

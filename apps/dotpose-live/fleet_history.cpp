@@ -1,4 +1,4 @@
-// `dotpose fleet history`: reads the states that `dotpose fleet --store` wrote.
+// `dotpose fleet history`: reads the states that `dotpose fleet --store` has stored.
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -44,7 +44,7 @@ struct HistoryArguments {
     LineArguments lines;
 };
 
-/// Parses a time in UTC, such as "2026-11-28", "2026-11-28T08:00" or "2026-11-28T08:00:00.5Z", into
+/// Converts a UTC time, such as "2026-11-28", "2026-11-28T08:00" or "2026-11-28T08:00:00.5Z", to
 /// microseconds since 1970. Throws ValidationError for any other text.
 std::int64_t parse_time(const std::string& flag, std::string text) {
     const std::string given = text;
@@ -59,7 +59,7 @@ std::int64_t parse_time(const std::string& flag, std::string text) {
     return *time_us;
 }
 
-/// Returns the fields of a state. They have the names and units of `dotpose fleet --log`.
+/// Returns the fields of a state, with the names and units of `dotpose fleet --log`.
 std::vector<Field> fields(const store::State& state) {
     const bool is_localized = state.motion != store::Motion::lost;
     const auto shown = [is_localized](double value, double factor, int decimals) {

@@ -1,4 +1,4 @@
-/// Receives the messages of a fleet from the broker.
+/// Receives the messages of a fleet from the MQTT broker.
 #pragma once
 
 #include <atomic>
@@ -15,51 +15,51 @@
 
 namespace dotpose::cli {
 
-/// Provides the times of Now. One thread calls `observe`, and any thread may call `now`.
+/// Source of the times in Now. A single thread must call `observe`, but any thread may call `now`.
 class WatchedClock {
   public:
     WatchedClock();
 
-    /// Must be called regularly. If there is no connection to the broker, the time since the
-    /// previous call does not count in Now::watched_us.
+    /// Must be called regularly. While there is no connection to the broker, Now::watched_us does
+    /// not advance.
     void observe(bool is_connected);
 
     Now now() const;
 
   private:
     std::int64_t observed_us_;
-    std::atomic<std::int64_t> blind_us_ = 0;  ///< total time without a connection
+    std::atomic<std::int64_t> blind_us_ = 0;  ///< total time without a connection to the broker
 };
 
 struct FleetInputOptions {
     publish::MqttOptions mqtt;
     ShareArguments share;
     ConditionLimits limits;
-    std::string log;  ///< CSV file of all states; none if empty
+    std::string log;  ///< CSV file for all states, or empty for none
 };
 
-/// The subscriber calls `take` in its own thread.
+/// Maintains the state of the fleet. The subscriber calls `take` in its own thread.
 class FleetInput {
   public:
-    /// `store` is null if the states are not stored, and must otherwise outlive this object. Throws
-    /// Error if the broker refuses the connection or the log cannot be created.
+    /// `store` must outlive this object, or is null if the states are not stored. Throws Error if
+    /// the broker rejects the connection or the log cannot be created.
     FleetInput(const FleetInputOptions& options, FleetStore* store);
 
     const FleetState& fleet() const { return fleet_; }
     Now now() const { return clock_.now(); }
 
-    /// Must be called regularly, because it calls WatchedClock::observe.
+    /// Must be called regularly, see WatchedClock::observe.
     void observe() { clock_.observe(is_connected()); }
 
     bool is_connected() const { return subscriber_->is_connected(); }
 
-    /// Writes the buffered lines of the log. Throws Error.
+    /// Writes the buffered log lines. Throws Error on failure.
     void flush();
 
-    /// Disconnects and completes the log. Throws Error if the log cannot be written.
+    /// Disconnects and finishes the log. Throws Error if the log cannot be written.
     void finish();
 
-    /// Throws Error if no connection to the broker was established.
+    /// Throws Error if a connection to the broker has never been established.
     void require_reached() const { subscriber_->require_reached(); }
 
   private:
@@ -68,7 +68,7 @@ class FleetInput {
 
     Shard shard_;
     WatchedClock clock_;
-    std::int64_t received_us_ = 0;  ///< arrival time of the current message, system clock
+    std::int64_t received_us_ = 0;  ///< arrival time of the current message on the system clock
     std::optional<FleetLog> log_;
     FleetStore* store_;
     FleetState fleet_;

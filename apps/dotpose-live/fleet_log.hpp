@@ -1,4 +1,4 @@
-/// Writes the states of all robots to a CSV file, one state per line.
+/// Writes the states of all robots to a CSV file with one line per state.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class FleetLog {
     /// Throws Error if the file cannot be created.
     explicit FleetLog(const std::string& path);
 
-    /// Adds a state to the buffer. May run concurrently with `flush`.
+    /// Adds a state to the buffer. May be called concurrently with `flush`.
     void add(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
     /// Writes the buffer to the file. Throws Error if this write or an earlier one failed.

@@ -29,8 +29,8 @@ void append(std::string& bytes, const draw::Point& at, const draw::Point& origin
     append(bytes, static_cast<float>(at.y - origin.y));
 }
 
-/// Returns the beginning of a message: the size of `head` as JSON in bytes (32 bits), followed by
-/// this JSON.
+/// Returns the first part of a message: the size in bytes of `head` as JSON (32 bits), followed by
+/// the JSON text.
 std::string message_with(const nlohmann::json& head) {
     const std::string text = head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     std::string bytes;
@@ -47,7 +47,7 @@ draw::Point place_mm(const FleetRobot& robot) {
     return {robot.newest.x_m * kMm_per_m, robot.newest.y_m * kMm_per_m};
 }
 
-/// The part of a map that a client shows.
+/// The part of a map that a client displays.
 class Window {
   public:
     Window(const FleetRobots& robots, const FleetMap& map, const serve::Command& request)
@@ -60,9 +60,9 @@ class Window {
         for (const FleetEntry& entry : robots) {
             if (is_inside(entry.second)) visible_.push_back(&entry);
         }
-        // Positions are sent in single precision, relative to an origin in the window. If they were
-        // relative to the origin of the pattern, which extends over 200 km, their resolution would
-        // be only about a centimetre.
+        // Positions are sent in single precision, relative to an origin in the window. Relative to
+        // the origin of the pattern, which is up to 200 km away, their resolution would only be
+        // about a centimetre.
         const draw::Point middle{(x_min_ + x_max_) / 2, (y_min_ + y_max_) / 2};
         const bool is_finite = std::isfinite(middle.x) && std::isfinite(middle.y);
         if (is_finite) {
@@ -107,7 +107,7 @@ std::uint16_t heading_of(const RobotState& state) {
 
 std::string positions_value(const FleetSnapshot& snapshot, const FleetMap& map,
                             const serve::Command& request) {
-    constexpr std::size_t kMaxNames = 80;  // more names would cover each other
+    constexpr std::size_t kMaxNames = 80;  // more names would overlap on the map
     constexpr std::uint8_t kHasHeading = 1;
     constexpr std::uint8_t kIsUnknown = 2;
     const Window window(snapshot.robots, map, request);

@@ -1,6 +1,6 @@
-/// Values of the topics of the map on the page of `dotpose fleet --web`: positions and trails of
-/// the robots in the part of the map that a client shows. The values are binary, because clients
-/// receive positions up to 30 times a second. docs/fleet.md describes them.
+/// Values of the map topics for the page of `dotpose fleet --web`: positions and trails of the
+/// robots in the part of the map that a client displays. The values are binary, because clients
+/// receive positions up to 30 times per second. docs/fleet.md describes the format.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace dotpose::cli {
 
-/// Maximum number of points of all trails in a message.
+/// Maximum number of trail points in a message, over all robots.
 inline constexpr std::size_t kMaxTrailPoints = 20'000;
 
-/// Returns the robots in a part of a map. Arguments of the request: `map`, by default the map of
-/// the sheet file or of the first robot; `x_min`, `x_max`, `y_min` and `y_max` in mm, by default
-/// the whole map.
+/// Returns the robots in the requested part of a map. The request has the arguments `map` (default:
+/// the map of the sheet file, or the map of the first robot), and `x_min`, `x_max`, `y_min` and
+/// `y_max` in mm (default: the whole map).
 std::string positions_value(const FleetSnapshot& snapshot, const FleetMap& map,
                             const serve::Command& request);
 
-/// Returns the trails of the same robots: the newest part of each path.
+/// Returns the trails of the same robots. A trail is the newest part of a path.
 std::string trails_value(const FleetSnapshot& snapshot, const FleetState& fleet,
                          const FleetMap& map, const serve::Command& request);
 

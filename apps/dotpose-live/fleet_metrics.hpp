@@ -1,4 +1,4 @@
-/// Metrics of a fleet in the text format of Prometheus, version 0.0.4. docs/fleet.md lists them.
+/// Metrics of a fleet in version 0.0.4 of the Prometheus text format. docs/fleet.md lists them.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,15 @@
 
 namespace dotpose::cli {
 
-/// Connections of `dotpose fleet`.
+/// State of the connections of `dotpose fleet`.
 struct FleetServices {
-    std::optional<bool> is_broker_connected;  ///< none without a broker
+    std::optional<bool> is_broker_connected;  ///< none if there is no broker
     Delivery delivery = Delivery::all;
-    std::optional<store::QueueStatus> store;  ///< none without a database
+    std::optional<store::QueueStatus> store;  ///< none if there is no database
 };
 
-/// Returns the metrics as text. `robots` is the result of `fleet.robots`. In the names of robots,
-/// characters that the format reserves are escaped.
+/// Returns the metrics as text. `robots` is the result of `fleet.robots`. Characters that the
+/// format reserves are escaped in robot names.
 std::string metrics_text(const FleetState& fleet, const FleetRobots& robots, const FleetMap& map,
                          const FleetServices& services);
 

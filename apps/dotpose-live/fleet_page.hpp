@@ -1,4 +1,4 @@
-/// The part of the table of `dotpose fleet` that fits on a terminal.
+/// The part of the `dotpose fleet` table that fits on the terminal.
 #pragma once
 
 #include <cstddef>
@@ -18,19 +18,18 @@ struct ScreenSize {
 
 class FleetPage {
   public:
-    /// Scrolls, or changes the order of the robots. Ignores Key::quit.
+    /// Scrolls, or changes the sort order. Ignores Key::quit.
     void take(Key key);
 
-    /// Returns exactly `size.rows` lines: a header, the robots from the first visible one, the
-    /// summary, and the position with the keys. Initially, the robots that need attention are
-    /// first.
+    /// Returns exactly `size.rows` lines: a header, the visible robots, the summary, and the scroll
+    /// position with the available keys. By default, the robots that need attention come first.
     std::vector<std::string> lines(const FleetState& fleet, FleetRobots robots, const FleetMap& map,
                                    Delivery delivery, ScreenSize size);
 
   private:
     bool is_by_attention_ = true;
     std::ptrdiff_t first_ = 0;  ///< index of the first visible robot
-    std::ptrdiff_t rows_ = 1;   ///< number of visible robots
+    std::ptrdiff_t rows_ = 1;   ///< maximum number of visible robots
 };
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-// `dotpose fleet remove`: removes robots from the broker and from all running fleets.
+// `dotpose fleet remove`: removes robots from the broker, and thus from all running fleets.
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -37,8 +37,8 @@ std::string check_level(const std::string& name) {
                   : std::string();
 }
 
-/// Returns those of the given robots for which the broker retains a connection message. Waits up to
-/// kPatience. Throws Error if no connection to the broker was established.
+/// Returns those of the robots whose connection messages the broker retains. Waits up to kPatience.
+/// Throws Error if no connection to the broker was established.
 std::set<std::string, std::less<>> retained_robots(const publish::MqttOptions& options,
                                                    const std::vector<std::string>& robots) {
     constexpr auto kPatience = std::chrono::seconds(3);
@@ -54,8 +54,8 @@ std::set<std::string, std::less<>> retained_robots(const publish::MqttOptions& o
                                            if (sender && !payload.empty())
                                                found.emplace(sender->robot);
                                        });
-    // The broker sends retained messages immediately after the subscription, but it does not report
-    // that there are none. Therefore the search ends after kPatience.
+    // The broker sends retained messages immediately after the subscription, but does not report
+    // when there are none, so the search ends after kPatience.
     const auto end = std::chrono::steady_clock::now() + kPatience;
     const std::set<std::string> wanted(robots.begin(), robots.end());
     const auto has_all = [&] {

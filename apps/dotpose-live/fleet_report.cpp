@@ -12,8 +12,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the map and the sheet of the newest known place. Appends a question mark if the map or
-/// the sheet is not in the sheet file.
+/// Returns the map and the sheet of the last known place, with a question mark if the map or the
+/// sheet is not in the sheet file.
 std::string place_text(const FleetRobot& robot, const FleetMap& map) {
     if (!robot.has_place) return "-";
     const RobotState& state = robot.newest;
@@ -21,12 +21,12 @@ std::string place_text(const FleetRobot& robot, const FleetMap& map) {
            (map.has_place_of(robot) ? "" : "?");
 }
 
-/// Returns the text of a coordinate of the newest pose, or "-" if the robot is lost.
+/// Formats a coordinate of the newest pose. Returns "-" if the robot is lost.
 std::string located(const RobotState& state, double value, int decimals) {
     return state.is_localized ? fmt::format("{:.{}f}", value, decimals) : std::string("-");
 }
 
-/// Returns the text of the speed in mm/s, or "-" if the robot is lost, silent or gone.
+/// Formats the speed in mm/s. Returns "-" if the robot is lost, silent or gone.
 std::string speed_text(const FleetRobot& robot, int decimals) {
     if (!is_fine(robot.condition)) return "-";
     const RobotState& state = robot.newest;
@@ -166,8 +166,8 @@ draw::Map drawing_of(const FleetState& fleet, const std::string& map_id, const F
             if (elsewhere++ < kMaxNotes) drawing.notes.push_back(note_of(name, robot, map));
             continue;
         }
-        // Copies one path at a time and releases the lock between copies, because messages cannot
-        // be received while the lock is held.
+        // Copies one path at a time and releases the lock in between, because no messages can be
+        // received while the lock is held.
         std::vector<draw::Point> path_mm = fleet.path_mm(name);
         if (!path_mm.empty()) {
             drawing.robots.push_back(drawn_robot(name, robot, std::move(path_mm)));

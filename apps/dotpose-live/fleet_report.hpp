@@ -1,4 +1,4 @@
-/// Reports of `dotpose fleet`: a table of the robots and a map.
+/// Reports of `dotpose fleet`: a table and a map of the robots.
 #pragma once
 
 #include <cstddef>
@@ -12,57 +12,57 @@
 
 namespace dotpose::cli {
 
-/// Recipients of the states: this instance of `dotpose fleet` receives all states of its robots, or
-/// several instances share the states. If the states are shared, another instance may have received
-/// the states that are missing in the sequence numbers, so missing states are not reported.
+/// Whether this instance of `dotpose fleet` receives all states of its robots, or shares the states
+/// with other instances. If the states are shared, states that appear to be missing may have been
+/// delivered to another instance, so missing states are not reported.
 enum class Delivery { all, shared };
 
-/// The sheet file of a fleet.
+/// The contents of the sheet file of a fleet.
 struct FleetMap {
-    std::string id;               ///< name of the map in the states; empty without a file
+    std::string id;               ///< name of the map in the states, or empty without a sheet file
     std::set<std::string> names;  ///< names of all sheets
-    std::vector<draw::MapSheet>
-        outlines;  ///< outlines of the sheets that have a place in the world
+    std::vector<draw::MapSheet> outlines;  ///< outlines of the sheets that have a world pose
 
-    /// Returns false if the newest known place of the robot is on a map or sheet that is not in the
-    /// file. Returns true if there is no file, or if the place is not known.
+    /// Returns false if the last known place of the robot is on a map or sheet that is not in the
+    /// file. Returns true if there is no file, or if the place is unknown.
     bool has_place_of(const FleetRobot& robot) const;
 };
 
 using FleetEntry = std::pair<std::string, FleetRobot>;
 using FleetRobots = std::vector<FleetEntry>;
 
-/// Returns the name of the map to show: the world frame of the sheet file or, without a sheet file,
-/// the map of the first robot that has one. Returns an empty string if there is none.
+/// Returns the name of the map to display: the world frame of the sheet file or, without a sheet
+/// file, the map of the first robot that has one. Returns an empty string if there is no map.
 std::string shown_map(const FleetMap& map, const FleetRobots& robots);
 
-/// Returns the rank of a robot by the attention that it needs, from 0 to 4: silent, lost, moving or
-/// still on an unknown map or sheet, moving or still on a known one, gone.
+/// Returns a rank that orders the robots by the attention that they need, most urgent first: 0 for
+/// silent, 1 for lost, 2 for moving or still on an unknown map or sheet, 3 for moving or still on a
+/// known map and sheet, and 4 for gone.
 int attention_rank(const FleetRobot& robot, const FleetMap& map);
 
-/// Sorts the robots by `attention_rank`. Robots of equal rank keep their order.
+/// Sorts the robots by `attention_rank`. The sort is stable.
 void sort_by_attention(FleetRobots& robots, const FleetMap& map);
 
-/// Columns of the table. `narrow` fits 80 characters and omits the counts of messages.
+/// Columns of the table. `narrow` fits in 80 characters and omits the message counts.
 enum class Layout { wide, narrow };
 
-/// Return the header and a row of the table, without a line break. The width is not limited,
-/// because the place and the reason of the condition are not cut off.
+/// Return the header and a row of the table, without a line break. Their width is not limited,
+/// because the place and the reason are not truncated.
 std::string table_header(Layout layout);
 std::string table_row(const std::string& name, const FleetRobot& robot, const FleetMap& map,
                       Layout layout, Delivery delivery);
 
-/// Returns the number of robots in each condition and the counts of messages, as two lines, each
-/// with a line break.
+/// Returns two lines, each with a line break: the number of robots in each condition, and the
+/// message counts.
 std::string summary_of(const FleetState& fleet, const FleetRobots& robots, const FleetMap& map,
                        Delivery delivery);
 
-/// Returns the wide table of all robots by name, with a header line and the summary.
+/// Returns the wide table of all robots, sorted by name, with a header line and the summary.
 std::string table_of(const FleetState& fleet, const FleetMap& map, Delivery delivery,
                      const Now& now);
 
-/// Returns the drawing of `map_id` with the robots on it and the sheets that they visited, or all
-/// sheets if no sheet was visited. Robots on other maps are listed as notes.
+/// Returns a drawing of `map_id` with the robots on it and the sheets that they have visited, or
+/// all sheets if none has been visited. Robots on other maps are listed as notes.
 draw::Map drawing_of(const FleetState& fleet, const std::string& map_id, const FleetMap& map,
                      const Now& now);
 

@@ -8,7 +8,7 @@ namespace dotpose::cli {
 namespace {
 
 std::uint64_t hash_of(std::string_view text) {
-    // The 64-bit hash FNV-1a. The lowest bits alone would distribute similar names unevenly among
+    // The 64-bit FNV-1a hash. Its lowest bits alone would distribute similar names unevenly over
     // the instances, so the upper half is combined with the lower half.
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char byte : text)

@@ -1,4 +1,4 @@
-/// Divides the robots of a broker among several instances of `dotpose fleet`.
+/// Distributes the robots of a broker over several instances of `dotpose fleet`.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace dotpose::cli {
 
-/// A subset of the robots, selected by the hash of the robot's name. The hash is the same on all
-/// computers, so the instances of `dotpose fleet` do not need to communicate.
+/// A subset of the robots, selected by a hash of the robot name. The hash is the same on all
+/// computers, so the instances of `dotpose fleet` need no communication.
 struct Shard {
     std::uint64_t index = 1;  ///< from 1 to `count`
     std::uint64_t count = 1;
@@ -24,7 +24,7 @@ class ShareArguments {
     /// Adds --share and --shard.
     void add_to(Command& command);
 
-    /// Returns the topics to subscribe to: those of the states and of the connections. If the
+    /// Returns the topics to subscribe to: the topics of the states and of the connections. If the
     /// instances form a group, the broker sends each state to only one of them.
     std::vector<std::string> topics() const;
     bool is_shared() const { return !group_.empty(); }

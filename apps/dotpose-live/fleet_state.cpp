@@ -37,7 +37,7 @@ void FleetState::take_connection(std::string_view name, const RobotConnection& c
     FleetRobot& shown = touch(name).shown;
     shown.presence = connection.presence;
     // The age of the message is computed from its time stamp, because a retained message may be
-    // days old when it is received.
+    // days old when it arrives.
     const std::int64_t age_us = std::max<std::int64_t>(now.system_us - connection.sent_us, 0);
     shown.alive_us = std::max(shown.alive_us, now.watched_us - age_us);
 }
@@ -50,7 +50,7 @@ void FleetState::take_state(std::string_view name, RobotState state, const Now& 
     if (arrival == StateNumbers::Arrival::repeated) return;
     const bool is_late = arrival == StateNumbers::Arrival::late;
     if (!is_late) note_sign_of_life(robot, state, now);
-    // A lost robot remains at its last place.
+    // A lost robot keeps its last known place.
     if (!state.is_localized) {
         state.map_id = shown.newest.map_id;
         state.x_m = shown.newest.x_m;
@@ -63,7 +63,7 @@ void FleetState::take_state(std::string_view name, RobotState state, const Now& 
         count_frames(*state.camera, shown.camera);
         shown.camera = state.camera;
     }
-    // Coordinates on different maps are not comparable, so a new path begins.
+    // Starts a new path, because coordinates on different maps are not comparable.
     if (state.is_localized && state.map_id != shown.newest.map_id) robot.path_mm.clear();
     if (!state.is_localized && (shown.newest.is_localized || shown.newest.sent_us == 0)) {
         shown.lost_since_us = now.watched_us;
@@ -105,7 +105,7 @@ void FleetState::remove(std::string_view name) {
 }
 
 void FleetState::extend_path(Robot& robot) const {
-    constexpr double kStep_mm = 0.1;  // minimum step, so a resting robot adds no points to its path
+    constexpr double kStep_mm = 0.1;  // keeps a stationary robot from adding points
     const std::size_t max_points = std::min(kPath, kAllPaths / robots_.size());
     const RobotState& newest = robot.shown.newest;
     const draw::Point place{newest.x_m * 1000, newest.y_m * 1000};
@@ -128,9 +128,9 @@ void LatencyHistogram::add(double latency_s) {
 }
 
 /// Adds the frames between two consecutive reports of a robot to the totals. Adds nothing if there
-/// is no previous report, or if the robot was restarted. A restart is assumed if the number of
-/// frames has decreased or has increased by more than a million. Each call compares with the
-/// previous report, so counting continues after a restart.
+/// is no previous report or the robot was restarted. A decrease of the number of frames, or an
+/// increase by more than a million, is considered a restart. Each report is compared only with the
+/// previous report, so counting resumes after a restart.
 void FleetState::count_frames(const CameraReport& report,
                               const std::optional<CameraReport>& previous) {
     constexpr std::uint64_t kMaxFrames = 1'000'000;

@@ -1,4 +1,4 @@
-/// State of all robots of a broker, computed from their state messages.
+/// State of all robots that are connected to a broker, based on their messages.
 #pragma once
 
 #include <array>
@@ -24,57 +24,57 @@
 
 namespace dotpose::cli {
 
-/// A time on the clocks of the computer that receives the messages.
+/// The current time on two clocks of the computer that receives the messages.
 struct Now {
     std::int64_t system_us = 0;  ///< microseconds since 1970
-    /// Microseconds on a monotonic clock that stops while there is no connection to the broker, so
-    /// that robots do not count as silent during this time.
+    /// Time in microseconds on a monotonic clock. The clock stops while there is no connection to
+    /// the broker, so robots do not become silent during that time.
     std::int64_t watched_us = 0;
 };
 
 struct FleetRobot {
-    /// Number that identifies the robot in this run of the program. A robot that was removed and
-    /// then appears again gets a new number.
+    /// Identifies the robot during this run of the program. A robot that reappears after its
+    /// removal gets a new id.
     std::uint32_t id = 0;
-    /// Newest state. If the robot is lost, place and sheet are the last known ones.
+    /// Newest state. If the robot is lost, the place and the sheet are the last known ones.
     RobotState newest;
-    bool has_place = false;  ///< true if `newest` contains a place, which may be an old one
+    bool has_place = false;  ///< whether `newest` contains a place, current or earlier
     publish::Presence presence = publish::Presence::online;
     /// Time at which the robot sent its newest message, on the clock of Now::watched_us. It is
-    /// computed from the time stamp of the message, because a message may have waited in a queue.
+    /// based on the time stamp of the message, because the message may have waited in a queue.
     std::int64_t alive_us = std::numeric_limits<std::int64_t>::min();
-    /// Time at which the pose was lost, on the clock of Now::watched_us; valid while the robot is
-    /// lost.
+    /// Time at which the pose was lost, on the clock of Now::watched_us. Valid only while the robot
+    /// is lost.
     std::int64_t lost_since_us = 0;
     StateCounts counts;
     std::optional<CameraReport> camera;  ///< newest report
-    // Set by FleetState::robots.
+    // The following members are set by FleetState::robots.
     Condition condition = Condition::lost;
     std::int64_t silence_us = 0;  ///< time since `alive_us`
-    std::string reason;           ///< reason of the condition in a few words; may be empty
+    std::string reason;           ///< short reason for the condition, or empty
 };
 
-/// Latency statistics of the messages, measured with the clocks of the sender and of the receiver.
+/// Latency statistics of the messages, based on the clocks of the sender and the receiver.
 struct Latency {
     double median_ms = 0;
     double p99_ms = 0;
 };
 
-/// Numbers of messages by latency.
+/// Histogram of the latencies of messages.
 struct LatencyHistogram {
-    /// Upper limits of the classes, in seconds. The last class has no limit.
+    /// Upper limits of the classes in seconds. The last class has no upper limit.
     static constexpr std::array kLimits_s = {0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,
                                              0.25,  0.5,    1.0,   2.5,  5.0,   10.0};
 
     std::array<std::int64_t, kLimits_s.size() + 1> counts{};
     double sum_s = 0;
 
-    /// Adds a latency. A negative latency, which occurs if the clocks of sender and receiver
-    /// differ, counts as 0.
+    /// Adds a latency. A negative latency, caused by a difference between the clocks of sender and
+    /// receiver, counts as 0.
     void add(double latency_s);
 };
 
-/// Frames of the cameras of all robots since this program started.
+/// Number of camera frames of all robots since this program was started.
 struct CameraTotals {
     std::uint64_t frames = 0;
     RefusedFrames refused{};
@@ -82,33 +82,32 @@ struct CameraTotals {
 
 class FleetState {
   public:
-    /// Maximum number of robots. If there are more robots, the robot with the oldest message is
-    /// removed.
+    /// Maximum number of robots. If it is exceeded, the robot with the oldest message is removed.
     static constexpr std::size_t kMaxRobots = 10'000;
 
     using Listener = std::function<void(std::string_view robot, const RobotState& state)>;
 
-    /// `listener` is called with each state that was not received before, in the thread that calls
-    /// `take`.
+    /// `listener` is called with each state that was not received before. The call is made in the
+    /// thread that calls `take`.
     explicit FleetState(
         Listener listener = [](std::string_view, const RobotState&) {}, ConditionLimits limits = {})
         : listener_(std::move(listener)), limits_(limits) {}
 
-    /// Takes a message. A state older than the newest state of its robot is counted as late and
-    /// otherwise ignored. However, if several older states follow each other in ascending order of
+    /// Processes a message. A state that is older than the newest state of its robot is counted as
+    /// late and otherwise ignored. However, if several such states arrive in ascending order of
     /// time, the clock of the sender was set back, and the states are accepted. An empty message on
-    /// the topic of the connection removes the robot. Other invalid messages are counted as bad.
+    /// the connection topic removes the robot. Other invalid messages are counted as bad.
     /// Thread-safe.
     void take(std::string_view topic, std::string_view payload, const Now& now);
 
-    /// Returns the robots and their conditions, in natural order of their names.
+    /// Returns the robots and their conditions, sorted by name in natural order.
     std::vector<std::pair<std::string, FleetRobot>> robots(const Now& now) const;
     /// Returns the path of a robot in mm, or an empty path if the robot was removed.
     std::vector<draw::Point> path_mm(std::string_view robot) const;
-    /// Returns every `step`-th of the newest `points` points of the path, oldest first.
+    /// Returns every `step`-th of the newest `points` points of a path, oldest first.
     std::vector<draw::Point> trail_mm(std::string_view robot, std::size_t points,
                                       std::size_t step) const;
-    /// Returns the sum of the counts of all robots, including removed robots.
+    /// Returns the total counts of all robots, including removed robots.
     StateCounts counts() const;
     std::int64_t bad() const;
     /// Returns the statistics of the newest 131,072 messages, or of all messages if there are
@@ -120,7 +119,7 @@ class FleetState {
   private:
     static constexpr std::size_t kLatencies = 1 << 17;
     static constexpr std::size_t kPath = 2000;
-    /// Maximum total number of points of all paths. The maximum for one path is this number divided
+    /// Maximum number of points of all paths together. Each path is limited to this number divided
     /// by the number of robots.
     static constexpr std::size_t kAllPaths = 1 << 21;
 
@@ -134,7 +133,7 @@ class FleetState {
 
     void take_state(std::string_view name, RobotState state, const Now& now);
     void take_connection(std::string_view name, const RobotConnection& connection, const Now& now);
-    /// Updates `alive_us` and the presence of a robot from a state that is not late.
+    /// Updates `alive_us` and the presence of a robot after a state that is not late.
     static void note_sign_of_life(Robot& robot, const RobotState& state, const Now& now);
     Robot& touch(std::string_view name);
     void remove(std::string_view name);

@@ -15,7 +15,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the value times `factor`, rounded to an integer and clamped to the range of 32 bits.
+/// Returns `value` * `factor`, rounded to an integer and clamped to the range of a 32-bit integer.
 std::int32_t narrow(double value, double factor) {
     constexpr double kMax = std::numeric_limits<std::int32_t>::max();
     return static_cast<std::int32_t>(std::lround(std::clamp(value * factor, -kMax, kMax)));
@@ -61,7 +61,7 @@ std::string stored_name(std::string_view name) {
 
 store::State StoredStates::of(std::string_view robot, const RobotState& state,
                               std::int64_t received_us) {
-    constexpr std::int64_t kMaxDelay_us = 1'800'000'000;  // fits 32 bits
+    constexpr std::int64_t kMaxDelay_us = 1'800'000'000;  // fits in 32 bits
     store::State stored;
     if (robots_.size() > kMaxNames) robots_.clear();
     if (places_.size() > kMaxNames) places_.clear();

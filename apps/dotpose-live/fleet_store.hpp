@@ -1,4 +1,4 @@
-/// Writes the states of all robots to a database.
+/// Stores the states of all robots in a database.
 #pragma once
 
 #include <cstdint>
@@ -15,28 +15,28 @@
 namespace dotpose::cli {
 
 struct StoreArguments {
-    std::string where;  ///< URL of PostgreSQL, or file of SQLite; none if empty
+    std::string where;  ///< URL of PostgreSQL or path of an SQLite file, or empty for none
     std::int64_t max_states = 1'000'000;
-    int keep_days = 0;  ///< 0: all
+    int keep_days = 0;  ///< number of days to keep states, or 0 to keep all
 
     /// Adds --store, --store-buffer and --store-days.
     void add_to(Command& command);
 };
 
-/// Returns the name of a robot, map or sheet in the form in which it is stored: with printable
-/// characters only, so that every program can show it.
+/// Returns the form in which the name of a robot, map or sheet is stored. It contains only
+/// printable characters, which makes it safe to display in any program.
 std::string stored_name(std::string_view name);
 
-/// Converts received states to stored states. Equal names share memory.
+/// Converts received states to states of the database. Equal names share memory.
 class StoredStates {
   public:
-    /// Converts a state. The time of the stored state is the time stamp of the robot or, if this
-    /// differs by more than half an hour from the time of arrival, the time of arrival.
+    /// Converts a state. The time of the result is the time stamp of the robot, unless it differs
+    /// from the arrival time by more than half an hour. In this case, the time is the arrival time.
     store::State of(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
   private:
-    /// Maximum number of remembered names. Limits the memory, because any client of the broker can
-    /// send states with arbitrary names.
+    /// Maximum number of cached names. It limits the memory use, because any client of the broker
+    /// can send states with arbitrary names.
     static constexpr std::size_t kMaxNames = 20'000;
 
     std::map<std::string, std::shared_ptr<const std::string>, std::less<>> robots_;
@@ -45,8 +45,8 @@ class StoredStates {
 
 class FleetStore {
   public:
-    /// Throws Error if the database is a file that cannot be opened, or if the library for the
-    /// database is missing. `tell` receives messages for the user, possibly in another thread.
+    /// Throws Error if a database file cannot be opened, or if the library for the database is
+    /// missing. `tell` receives messages for the user and may be called in another thread.
     FleetStore(const StoreArguments& arguments, std::function<void(const std::string&)> tell);
 
     void add(std::string_view robot, const RobotState& state, std::int64_t received_us) {
@@ -54,8 +54,8 @@ class FleetStore {
     }
     store::QueueStatus status() const { return queue_.status(); }
 
-    /// Stores the states in the queue, and reports their number. Throws Error if states were not
-    /// stored, for example because the database was not available for 10 s.
+    /// Stores the queued states and reports their number. Throws Error if some states were not
+    /// stored, for example because the database was unavailable for 10 s.
     void finish();
 
   private:

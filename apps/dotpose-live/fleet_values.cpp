@@ -21,14 +21,14 @@ double rounded(double value, double steps_per_unit) {
     return std::round(value * steps_per_unit) / steps_per_unit;
 }
 
-/// Returns a text argument of a request, or an empty string.
+/// Returns a text argument of a request, or an empty string if it is missing.
 std::string text_in(const serve::Command& request, std::string_view key) {
     const auto* text = request.argument<std::string>(key);
     return text == nullptr ? std::string() : *text;
 }
 
-/// Returns a numeric argument of a request, truncated to a whole number. A number above `max`
-/// becomes `max`. Returns 0 if the argument is missing, negative or NaN.
+/// Returns a numeric argument of a request, truncated to an integer and clamped to [0, `max`].
+/// Returns 0 if the argument is missing or NaN.
 std::size_t count_in(const serve::Command& request, std::string_view key, std::size_t max) {
     const auto* number = request.argument<double>(key);
     if (number == nullptr || !(*number > 0)) return 0;
@@ -39,13 +39,13 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Returns true if `text` contains `part`, which is in lower case. Ignores the case of ASCII
-/// letters.
+/// Returns true if `text` contains `part`, ignoring the case of ASCII letters. `part` must be in
+/// lower case.
 bool contains(std::string_view text, std::string_view part) {
     return std::ranges::search(text, part, {}, lower).begin() != text.end() || part.empty();
 }
 
-/// Selects and orders the rows of a table.
+/// Selects and sorts the rows of a table.
 class RowChoice {
   public:
     RowChoice(const serve::Command& request, const FleetMap& map)
@@ -79,7 +79,7 @@ class RowChoice {
 
   private:
     bool is_shown(const FleetRobot& robot) const {
-        constexpr int kNeedsNone = 3;  // rank of robots that need no attention
+        constexpr int kNeedsNone = 3;  // rank of robots that do not need attention
         if (show_ == "attention") return attention_rank(robot, map_) < kNeedsNone;
         if (show_ == "unknown") return !map_.has_place_of(robot);
         return show_.empty() || show_ == "all" || show_ == name_of(robot.condition);
@@ -134,8 +134,8 @@ nlohmann::json camera_json(const CameraReport& camera) {
     return {{"rate_hz", camera.rate_hz}, {"frames", camera.frames}, {"refused", refused}};
 }
 
-/// Returns the height and tilt of a camera. In a world, z points out of the paper, and the optical
-/// axis points into the paper. Without a world, z points into the paper.
+/// Returns the height and the tilt of a camera. The optical axis points into the paper. The z axis
+/// points out of the paper in a world frame, and into the paper otherwise.
 nlohmann::json space_json(const CameraInWorld& camera) {
     const double tilt_rad = lean_of(camera.rotation).tilt_rad;
     return {{"height_mm", rounded(std::abs(camera.z_m) * kMm_per_m, 1000)},
@@ -154,7 +154,8 @@ nlohmann::json alert_json(const RobotAlert& alert) {
     return shown;
 }
 
-/// Returns the maps with the bounds of the robots on them. The maps with the most robots are first.
+/// Returns the maps, each with the bounding box of its robots. The maps with the most robots come
+/// first.
 nlohmann::json maps_json(const FleetRobots& robots) {
     constexpr std::size_t kMaxMaps = 50;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -266,8 +267,7 @@ std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Deli
                         const serve::Command& request) {
     const std::vector<const FleetEntry*> chosen = RowChoice(request, map).rows_of(snapshot.robots);
     const std::size_t count = count_in(request, "rows", kMaxTableRows);
-    // If the requested range extends beyond the end of the table, the last `count` rows are
-    // returned.
+    // If the requested range extends past the end of the table, returns the last `count` rows.
     const std::size_t last = chosen.size() - std::min(chosen.size(), count);
     const std::size_t first = count_in(request, "first", last);
     nlohmann::json rows = nlohmann::json::array();

@@ -1,6 +1,5 @@
-/// Values of the topics of the page of `dotpose fleet --web`, except those of the map.
-/// docs/fleet.md describes them. All names are printable (printable.hpp), and requests refer to
-/// robots by number.
+/// Values of the topics for the page of `dotpose fleet --web`, except the map topics. docs/fleet.md
+/// describes them. All names are printable (printable.hpp), and requests identify robots by number.
 #pragma once
 
 #include <chrono>
@@ -15,43 +14,43 @@
 
 namespace dotpose::cli {
 
-/// The robots at one time, shared by the values of all clients.
+/// The robots at a certain time, shared by the values for all clients.
 struct FleetSnapshot {
     FleetRobots robots;  ///< in natural order
     Now now;
 };
 
-/// Maximum number of rows that a client receives, whatever it requests.
+/// Maximum number of rows that a client receives, regardless of its request.
 inline constexpr std::size_t kMaxTableRows = 200;
 
 /// Maximum number of alerts that a client receives.
 inline constexpr std::size_t kMaxAlerts = 200;
 
 /// Returns the map, the sheets of the sheet file, and the limits of the conditions. `device` is the
-/// name of the robot of `dotpose listen`, or empty for a fleet. `has_history` is true if the page
-/// can read stored states.
+/// name of the robot for `dotpose listen`, and is empty for a fleet. `has_history` is true if the
+/// page can read stored states.
 std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
                         const std::string& device, bool has_history);
 
-/// Returns the number of robots by state and map, the counts of messages, and the alerts. `alerts`
-/// must be sorted by time.
+/// Returns the number of robots in each condition and on each map, the message counts, and the
+/// alerts. `alerts` must be sorted by time.
 std::string summary_value(const FleetSnapshot& snapshot, const FleetState& fleet,
                           const FleetMap& map, const FleetServices& services, double states_per_s,
                           const std::deque<RobotAlert>& alerts);
 
-/// Returns the requested rows of the table. Arguments of the request: `filter`, a part of the name,
-/// state, reason, map or sheet; `show`, one of "all", "attention", "unknown" and the names of the
-/// conditions; `order`, one of "attention", "name" and "place"; `first` and `rows`.
+/// Returns the requested rows of the table. The request has the arguments `filter`, which is a part
+/// of the name, state, reason, map or sheet; `show`, which is "all", "attention", "unknown" or the
+/// name of a condition; `order`, which is "attention", "name" or "place"; `first`; and `rows`.
 std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Delivery delivery,
                         const serve::Command& request);
 
-/// Returns the newest state, the path and the alerts of the robot with the number `robot`, or null
-/// if there is no such robot.
+/// Returns the newest state, the path and the alerts of the robot whose number is the argument
+/// `robot` of the request. Returns null if there is no such robot.
 std::string robot_value(const FleetSnapshot& snapshot, const FleetState& fleet, const FleetMap& map,
                         Delivery delivery, const std::deque<RobotAlert>& alerts,
                         const serve::Command& request);
 
-/// Returns the robot with a number, or null.
+/// Returns the robot with the given number, or null if there is none.
 const FleetEntry* robot_with(const FleetRobots& robots, double id);
 
 }  // namespace dotpose::cli

@@ -46,7 +46,7 @@ void FleetView::refresh(const FleetState& fleet, const Now& now) {
     if (screen_) show_page(fleet, now);
     const auto begun = Clock::now();
     if (drawing_.empty() || begun < next_map_) return;
-    // Only reports a failure, because the next attempt to draw the map may succeed.
+    // A failure is only reported, because the next attempt to draw the map may succeed.
     try {
         draw(fleet, now);
         is_failing_ = false;
@@ -68,12 +68,13 @@ void FleetView::finish(const FleetState& fleet, const Now& now) {
     if (!drawing_.empty()) draw(fleet, now);
 }
 
-/// Closes the screen, and prints the last page and the messages on the normal terminal.
+/// Closes the screen, then prints the first page of the table and the messages on the normal
+/// terminal.
 void FleetView::leave_screen(const FleetState& fleet, const Now& now) {
     page_.take(Key::home);
     std::vector<std::string> lines =
         page_.lines(fleet, fleet.robots(now), map_, delivery_, screen_->size());
-    lines.pop_back();  // the position and the keys
+    lines.pop_back();  // drop the line with the scroll position and the keys
     const std::lock_guard lock(mutex_);
     screen_.reset();
     for (const std::string& line : lines) {

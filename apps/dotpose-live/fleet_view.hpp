@@ -1,4 +1,4 @@
-/// Periodically shows the robots of a fleet, as a table and as a map.
+/// Periodically displays the robots of a fleet as a table and as a map.
 #pragma once
 
 #include <chrono>
@@ -14,31 +14,31 @@
 
 namespace dotpose::cli {
 
-/// Reads a sheet file. Returns an empty map if the path is empty. Throws Error if the file cannot
-/// be read.
+/// Reads the sheet file, or returns an empty map if `sheets` is empty. Throws Error if the file
+/// cannot be read.
 FleetMap read_fleet_map(const std::string& sheets);
 
 class FleetView {
   public:
-    /// `drawing` is the path of the drawing, or empty for no drawing. Throws Error if it cannot be
-    /// written.
+    /// `drawing` is the path of the map drawing, or empty for none. Throws Error if the drawing
+    /// cannot be written.
     FleetView(FleetMap map, std::string drawing, Delivery delivery);
 
-    /// Takes the pressed keys, and shows the table if a key was pressed. Returns false if the user
-    /// wants to end the program.
+    /// Processes the pressed keys, and updates the table if there are any. Returns false if the
+    /// user wants to quit.
     bool take_keys(const FleetState& fleet, const Now& now);
 
-    /// Shows the table if standard output is a terminal. Draws the map, unless this would take more
-    /// than a tenth of the time: after a drawing that took t, the next one is not before 9 t later.
+    /// Updates the table if standard output is a terminal. Also draws the map, limited to a tenth
+    /// of the time: after a drawing that took time t, the next drawing starts at least 9 t later.
     void refresh(const FleetState& fleet, const Now& now);
 
-    /// Shows the final table and draws the final map. On a terminal, only the first page of the
-    /// table is shown. Throws Error if the map cannot be written.
+    /// Displays the final table and draws the final map. On a terminal, only the first page of the
+    /// table is displayed. Throws Error if the map cannot be written.
     void finish(const FleetState& fleet, const Now& now);
 
-    /// Reports a message to the user. If the table is shown on a terminal, the message appears
-    /// below the table and again at the end; otherwise it is printed on standard error.
-    /// Thread-safe.
+    /// Reports a message to the user. While the table is displayed on a terminal, the message
+    /// appears below it, and is printed again at the end. Otherwise, it is printed on standard
+    /// error. Thread-safe.
     void tell(const std::string& message);
 
     const FleetMap& map() const { return map_; }
@@ -55,9 +55,9 @@ class FleetView {
     Delivery delivery_;
     FleetPage page_;
     std::optional<TerminalScreen> screen_;
-    std::mutex mutex_;                  ///< guards `messages_` and the end of `screen_`
-    std::deque<std::string> messages_;  ///< newest messages, printed when `screen_` is closed
-    bool is_failing_ = false;           ///< true if the last map could not be written
+    std::mutex mutex_;                  ///< protects `messages_` and the destruction of `screen_`
+    std::deque<std::string> messages_;  ///< newest messages, printed after `screen_` is closed
+    bool is_failing_ = false;           ///< whether the last attempt to write the map failed
     Clock::time_point next_map_;
 };
 

@@ -64,7 +64,7 @@ void FleetWeb::run() {
     serve::run_in_background();
     Clock::time_point next = Clock::now();
     while (!ends_) {
-        // Missed ticks are skipped.
+        // Skips ticks that were missed.
         next = std::max(next + kTick, Clock::now());
         std::this_thread::sleep_until(next);
         const Clock::time_point now = Clock::now();
@@ -90,7 +90,7 @@ const FleetWeb::Snapshot& FleetWeb::snapshot() {
     return snapshot_;
 }
 
-/// Stores the newest alerts, even while no browser is connected.
+/// Stores new alerts, whether or not a browser is connected.
 void FleetWeb::note_alerts(Clock::time_point now) {
     constexpr std::size_t kMaxRemembered = 2000;
     if (now < next_check_) return;
@@ -147,9 +147,9 @@ void FleetWeb::obey() {
     }
 }
 
-/// Removes a robot like `dotpose fleet remove`. The command contains the number and the name of the
-/// robot. Both must match, because the number may belong to a different robot after a restart of
-/// the program.
+/// Removes a robot, as `dotpose fleet remove` does. The command contains both the number and the
+/// name of the robot. Both must match, because the number may belong to another robot after a
+/// restart of the program.
 void FleetWeb::remove(const serve::Command& command) {
     const auto* id = command.argument<double>("robot");
     const auto* name = command.argument<std::string>("name");

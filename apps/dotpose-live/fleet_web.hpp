@@ -1,5 +1,5 @@
-/// The page of `dotpose fleet --web` and `dotpose listen --web`, and its metrics. docs/fleet.md
-/// describes its topics.
+/// The web page of `dotpose fleet --web` and `dotpose listen --web`, and its metrics. docs/fleet.md
+/// describes the topics.
 #pragma once
 
 #include <atomic>
@@ -22,20 +22,20 @@ namespace dotpose::cli {
 struct FleetWebOptions {
     serve::ServerOptions server;
     ConditionLimits limits = {};
-    std::string store = {};   ///< database of `--store`, which the page reads; empty for none
-    std::string device = {};  ///< the robot of `dotpose listen`; empty for a fleet
-    // The following functions are called on any thread.
+    std::string store = {};   ///< database of `--store` to read from, or empty for none
+    std::string device = {};  ///< name of the robot for `dotpose listen`, or empty for a fleet
+    // The following functions may be called in any thread.
     std::function<Now()> now;
     std::function<FleetServices()> services;
-    /// Removes a robot from the broker; null if the page may not remove robots.
+    /// Removes a robot from the broker. Null if the page must not remove robots.
     std::function<void(const std::string& robot)> remove = nullptr;
 };
 
-/// Serves the page from its own threads.
+/// Serves the page in its own threads.
 class FleetWeb {
   public:
-    /// Starts the server, and reports its address. `fleet` and `map` must outlive the page. Throws
-    /// BadArgument or Error.
+    /// Starts the server and reports its address. `fleet` and `map` must outlive this object.
+    /// Throws BadArgument or Error on failure.
     FleetWeb(FleetWebOptions options, const FleetState& fleet, const FleetMap& map);
     ~FleetWeb();
     FleetWeb(const FleetWeb&) = delete;
@@ -52,10 +52,10 @@ class FleetWeb {
     };
 
     void run();
-    /// Returns true if a client is ready to receive the topic and its period has passed. The next
-    /// period then begins.
+    /// Returns true if the period of the topic has passed and a client is ready to receive it. If
+    /// so, starts the next period.
     static bool is_due(TimedTopic& timed, Clock::time_point now);
-    /// Returns the current robots. The snapshot is taken once per tick, and all topics share it.
+    /// Returns the current robots. All topics share one snapshot per tick.
     const Snapshot& snapshot();
     void note_alerts(Clock::time_point now);
     void publish_lists(Clock::time_point now);
@@ -69,7 +69,7 @@ class FleetWeb {
     AlertWatch watch_;
     std::deque<RobotAlert> alerts_;
     Clock::time_point next_check_;
-    Snapshot snapshot_;  ///< robots of this tick; null if no topic needed them yet
+    Snapshot snapshot_;  ///< robots in this tick, or null until a topic needs them
     std::int64_t counted_states_ = 0;
     Clock::time_point counted_at_;
 

@@ -35,8 +35,8 @@ const char* ending_of(ImageEncoding format) {
     return ".png";
 }
 
-/// Returns the number of the next frame in a folder: the highest number of the frames in the folder
-/// plus one, or 0 if there are none.
+/// Returns the number of the next frame to save in a folder: the highest existing number plus one,
+/// or 0 if the folder contains no frames.
 std::int64_t number_after(const fs::path& folder) {
     std::int64_t next = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -53,7 +53,7 @@ std::int64_t number_after(const fs::path& folder) {
     throw Error("cannot write " + path.string() + ": " + std::strerror(error_number));
 }
 
-/// Creates and writes a file. Returns false if a file with this name exists.
+/// Creates and writes a file. Returns false if a file with this name already exists.
 bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno == EEXIST) return false;
@@ -62,8 +62,8 @@ bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
     errno = 0;
     const bool is_written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // Also checks the result of fclose, which writes the buffered bytes and fails if the disk is
-    // full.
+    // The result of fclose is also checked, because fclose writes the buffered bytes and fails if
+    // the disk is full.
     const bool is_closed = file && std::fclose(file.release()) == 0;
     if (is_written && is_closed) return true;
     const int error_number = errno;
@@ -75,8 +75,8 @@ bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
 
 FrameSaver::FrameSaver(SaveOptions options) : options_(std::move(options)) {
     std::error_code failed;
-    // Creates only the last folder of the path, because a path whose parent folder is missing is
-    // probably mistyped.
+    // Creates only the last folder of the path. If its parent is missing, the path is probably
+    // mistyped.
     fs::create_directory(options_.folder, failed);
     if (!fs::is_directory(options_.folder)) {
         throw Error(fmt::format("cannot create the folder {}: {}", options_.folder,
@@ -97,7 +97,7 @@ void FrameSaver::take(ImageView image, const Fix& fix) {
         return fs::path(options_.folder) /
                fmt::format("{}{:06}{}", kPrefix, next_number_, ending_of(options_.format));
     };
-    // Skips numbers that another program has used in the same folder.
+    // Skips numbers that another program has already used in this folder.
     while (!write_new(path(), bytes))
         ++next_number_;
     ++next_number_;

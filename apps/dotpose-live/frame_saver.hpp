@@ -1,4 +1,4 @@
-/// Saves frames as images, for `dotpose calibrate` or for later inspection.
+/// Saves frames as images, for `dotpose calibrate` or for later analysis.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@ namespace dotpose::cli {
 
 struct SaveOptions {
     std::string folder;  ///< folder of the saved frames, or empty to save none
-    /// If this number is n > 0, every n-th frame is saved. If it is 0, the frames that show a new
-    /// place (NewPlaces) are saved.
+    /// If greater than 0, every `every`-th frame is saved. If 0, the frames that show a new place
+    /// (NewPlaces) are saved.
     std::int64_t every = 0;
     ImageEncoding format = ImageEncoding::png;
 };
 
 class FrameSaver {
   public:
-    /// Creates the folder. Its parent must exist. Throws Error if the folder cannot be created.
+    /// Creates the folder, whose parent must exist. Throws Error if the folder cannot be created.
     explicit FrameSaver(SaveOptions options);
 
-    /// Saves the frame if its number or place is selected. The files are named frame_000000.png and
-    /// so on, with the file extension of the format. Numbers continue after the highest number in
-    /// the folder. Existing files are never overwritten. Throws Error if the image cannot be
-    /// written.
+    /// Saves the frame if it is selected by its number or place. The files are named
+    /// frame_000000.png and so on, with the file extension of the format. Numbering continues after
+    /// the highest number in the folder, and existing files are never overwritten. Throws Error if
+    /// the image cannot be written.
     void take(ImageView image, const Fix& fix);
 
     std::int64_t saved() const { return saved_; }

@@ -12,30 +12,31 @@
 namespace dotpose::cli {
 namespace {
 
-/// Minimum distance between two frames of a straight drive. With this distance, a drive of
-/// kWantedLength_mm has at most 40 steps.
+/// Minimum distance between two collected frames of a straight drive. A drive of kWantedLength_mm
+/// then has at most 40 steps.
 constexpr double kStep_mm = 1.5;
-/// Required length of a straight drive. At this length, a residual of 0.01 mm at one end changes
+/// Required length of a straight drive. Over this length, an error of 0.01 mm at one end changes
 /// the direction by 0.01 degrees.
 constexpr double kWantedLength_mm = 60;
-/// Number of consecutive frames at which a fast drive is complete.
+/// Number of consecutive frames that completes a fast drive.
 constexpr std::size_t kWantedRun = 40;
-/// Minimum number of consecutive frames of a drive that ends early.
+/// Minimum number of consecutive frames for a fast drive that ends early.
 constexpr std::size_t kMinRun = 15;
-/// Minimum motion between two frames of a fast drive, in spacings.
+/// Minimum motion between two consecutive frames of a fast drive, in spacings.
 constexpr double kMinMotion = 0.5;
 
-/// Frames of a pivoting pen: the number at which the step ends if all requirements are met, and the
-/// number at which it ends in any case.
+/// Number of frames of a pivoting pen after which the step ends if all requirements are met, and
+/// number after which it ends in any case.
 constexpr std::size_t kWantedPivots = 30;
 constexpr std::size_t kMaxPivots = 80;
-/// Minimum distance between the tilt of a frame and that of each frame taken before, as a tangent.
+/// Minimum distance between the tilt of a frame and the tilts of all collected frames, as a
+/// tangent.
 constexpr double kMinLeanStep = 0.08;
-/// A direction is covered if at least kMinLeans frames are tilted towards it by at least
-/// kMinLean_deg.
+/// A direction is covered if at least kMinLeans frames are tilted towards it by kMinLean_deg or
+/// more.
 constexpr double kMinLean_deg = 10;
 constexpr int kMinLeans = 2;
-/// Minimum of the largest tilt of all frames.
+/// Required value of the largest tilt over all frames.
 constexpr double kWantedLean_deg = 20;
 constexpr std::array<const char*, PivotFrames::kDirections> kSides = {
     "right edge", "lower right corner", "bottom edge", "lower left corner",
@@ -45,7 +46,7 @@ double degrees_of(const PenLean& lean) {
     return std::atan(std::hypot(lean.x, lean.y)) * kDegrees;
 }
 
-/// Returns the index in kSides of the side to which a pen is tilted.
+/// Returns the index in kSides of the side towards which a pen is tilted.
 std::size_t side_of(const PenLean& lean) {
     const double turns = std::atan2(lean.y, lean.x) / (2 * std::numbers::pi);
     const auto side = std::lround(turns * PivotFrames::kDirections);
@@ -131,8 +132,8 @@ void ReadoutFrames::take(const GuidedFrame& frame) {
     if (seen_.size() > 1) advice_ = "go on at this speed";
 }
 
-/// Ends the run of consecutive frames. Completes the step if the run is long enough. Otherwise
-/// discards the run.
+/// Ends a sequence of consecutive frames. Completes the step if the sequence is long enough, and
+/// discards the sequence otherwise.
 void ReadoutFrames::end_run() {
     is_complete_ = is_complete_ || images_.size() >= kMinRun;
     if (is_complete_) return;
@@ -152,8 +153,8 @@ double ReadoutFrames::interval_ms() const {
 }
 
 /// Computes the tilt from the perspective of the dots. The relative change of the image scale per
-/// pixel is the tangent of the tilt divided by the focal length. The camera is tilted away from the
-/// part of the paper that is farther from it.
+/// pixel is the tangent of the tilt divided by the focal length. The camera leans away from the
+/// side of the view in which the paper is farther away.
 PenLean lean_in(const Fix& fix, double focal_px) {
     const FixedVec& perspective_q30 = fix.pattern_from_image.perspective_q30;
     const double u = std::ldexp(focal_px * perspective_q30.x, -30);

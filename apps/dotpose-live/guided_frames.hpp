@@ -1,4 +1,4 @@
-/// Selects the frames of a turn, of a straight drive, of a fast drive and of a pivoting pen.
+/// Selects the frames of a turn on the spot, a straight drive, a fast drive and a pivoting pen.
 #pragma once
 
 #include <array>
@@ -14,25 +14,26 @@
 
 namespace dotpose::cli {
 
-/// A located frame of `dotpose watch`.
+/// A frame located by `dotpose watch`.
 struct GuidedFrame {
     Fix fix;
     double spacing_mm = 0;
     std::int64_t time_us = 0;
-    std::int64_t index = 0;  ///< number of the frame, including dropped frames
+    std::int64_t index = 0;  ///< number of the frame, counting dropped frames
     ImageView image;
 };
 
-/// Frames of one step of the calibration, taken while the robot moves as the page describes.
+/// Collects the frames of one calibration step while the user moves the robot as the page
+/// instructs.
 class GuidedFrames {
   public:
     using Images = std::vector<std::shared_ptr<const GreyImage>>;
 
     virtual ~GuidedFrames() = default;
 
-    /// Copies the frame if the calibration needs it.
+    /// Copies a frame if the calibration needs it.
     virtual void take(const GuidedFrame& frame) = 0;
-    /// Called for each frame without a fix.
+    /// Called for every frame without a fix.
     virtual void lose() {}
 
     /// Returns true if no more frames are needed.
@@ -40,7 +41,7 @@ class GuidedFrames {
     /// Returns the progress towards each goal.
     virtual std::vector<video::Gauge> gauges() const = 0;
     virtual std::string advice() const = 0;
-    /// Returns advice about each unmet requirement, most urgent first.
+    /// Returns advice for each unmet requirement, most urgent first.
     virtual std::vector<std::string> needs() const { return {}; }
 
     const Images& images() const { return images_; }
@@ -50,10 +51,10 @@ class GuidedFrames {
     Images images_;
 };
 
-/// A turn on the spot: one frame in each direction.
+/// A turn on the spot: collects one frame in each direction.
 class SpinFrames : public GuidedFrames {
   public:
-    /// Number of directions into which a full turn is divided.
+    /// Number of directions in a full turn.
     static constexpr int kDirections = 24;
 
     void take(const GuidedFrame& frame) override;
@@ -67,7 +68,7 @@ class SpinFrames : public GuidedFrames {
     std::array<bool, kDirections> directions_{};
 };
 
-/// A straight drive: frames at equal distances.
+/// A straight drive: collects frames at regular distances.
 class DriveFrames : public GuidedFrames {
   public:
     void take(const GuidedFrame& frame) override;
@@ -83,11 +84,11 @@ class DriveFrames : public GuidedFrames {
     static double distance_mm(const Place& from, const Place& to);
 
     Place first_;
-    Place newest_;  ///< place of the newest frame that was taken
+    Place newest_;  ///< place of the last collected frame
     double length_mm_ = 0;
 };
 
-/// A fast drive: consecutive frames.
+/// A fast drive: collects consecutive frames.
 class ReadoutFrames : public GuidedFrames {
   public:
     void take(const GuidedFrame& frame) override;
@@ -96,7 +97,7 @@ class ReadoutFrames : public GuidedFrames {
     std::vector<video::Gauge> gauges() const override;
     std::string advice() const override { return advice_; }
 
-    /// Returns the mean interval between two frames. There must be at least two frames.
+    /// Returns the mean interval between consecutive frames, of which there must be at least two.
     double interval_ms() const;
 
   private:
@@ -108,13 +109,13 @@ class ReadoutFrames : public GuidedFrames {
     };
     void end_run();
 
-    std::vector<Seen> seen_;  ///< the frames of the current run of consecutive frames
+    std::vector<Seen> seen_;  ///< frames in the current sequence of consecutive frames
     bool is_complete_ = false;
     std::string advice_ = "drive fast over the sheet";
 };
 
-/// Tilt of a pen as a vector on the sheet, with x to the right and y to the bottom. Its length is
-/// the tangent of the angle between the optical axis of the camera and the normal of the paper.
+/// Tilt of a pen as a vector on the sheet, with x to the right and y down. Its length is the
+/// tangent of the angle between the optical axis of the camera and the normal of the paper.
 struct PenLean {
     double x = 0;
     double y = 0;
@@ -124,11 +125,11 @@ struct PenLean {
 /// must be ok.
 PenLean lean_in(const Fix& fix, double focal_px);
 
-/// A pen that pivots about its tip: frames with different tilts.
+/// A pen that pivots about its tip: collects frames with different tilts.
 class PivotFrames : public GuidedFrames {
   public:
-    /// Number of directions into which the tilts are divided. Direction 0 is towards the right edge
-    /// of the sheet, and direction 2 towards the bottom edge.
+    /// Number of directions in which a pen can be tilted. Direction 0 is towards the right edge of
+    /// the sheet, and direction 2 towards the bottom edge.
     static constexpr int kDirections = 8;
 
     explicit PivotFrames(double focal_px) : focal_px_(focal_px) {}
@@ -139,9 +140,9 @@ class PivotFrames : public GuidedFrames {
     std::string advice() const override;
     std::vector<std::string> needs() const override;
 
-    /// Tilts of the frames that were taken.
+    /// Returns the tilts of the collected frames.
     const std::vector<PenLean>& leans() const { return leans_; }
-    /// Directions with enough tilted frames.
+    /// Returns for each direction whether there are enough frames tilted towards it.
     std::array<bool, kDirections> directions() const;
 
   private:

@@ -11,7 +11,7 @@
 namespace dotpose::cli {
 
 void HistoryPath::add(const store::State& state) {
-    constexpr std::int64_t kMaxGap_us = 2'000'000;  // a longer gap starts another stroke
+    constexpr std::int64_t kMaxGap_us = 2'000'000;  // a longer gap starts a new stroke
     if (robot_.empty()) {
         robot_ = *state.robot;
         first_us_ = state.time_us;
@@ -40,8 +40,8 @@ void HistoryPath::add(const store::State& state) {
     if (++points_ > kMaxPoints) thin_out();
 }
 
-/// Removes every other point of each stroke except its ends. Doubles the minimum distance between
-/// the points that are added later.
+/// Removes every second point of each stroke, keeping the end points. Doubles the minimum distance
+/// between points that are added later.
 void HistoryPath::thin_out() {
     points_ = 0;
     for (auto& stroke : strokes_mm_) {

@@ -1,4 +1,4 @@
-/// Path of a robot from stored states, for a drawing.
+/// Path of a robot, based on stored states, for a drawing.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,18 @@ namespace dotpose::cli {
 
 class HistoryPath {
   public:
-    /// `map` contains the sheets to draw. Without sheets, the first map of the robot is drawn.
+    /// `map` contains the sheets to draw. If it contains none, the first map of the robot is drawn.
     explicit HistoryPath(FleetMap map) : map_(std::move(map)) {}
 
-    /// Adds a state. The states must be in the order of their times.
+    /// Adds a state. States must be added in chronological order.
     void add(const store::State& state);
 
-    /// Returns the map with the path, and with notes about the time span and states on other maps.
+    /// Returns the map with the path, and with notes about the time span and about states on other
+    /// maps.
     draw::Map drawing() const;
 
   private:
-    /// Maximum number of points. If it is exceeded, `thin_out` is called.
+    /// Maximum number of points. `thin_out` is called when it is exceeded.
     static constexpr std::size_t kMaxPoints = 20'000;
 
     void thin_out();
@@ -37,8 +38,8 @@ class HistoryPath {
     bool begins_stroke_ = true;
     std::vector<std::vector<draw::Point>> strokes_mm_;
     std::size_t points_ = 0;
-    double step_mm_ = 0.1;                          ///< minimum distance between two points
-    store::State newest_;                           ///< newest state with a place on the map
+    double step_mm_ = 0.1;                          ///< minimum distance between points
+    store::State newest_;                           ///< newest state on the map
     std::map<std::string, std::size_t> elsewhere_;  ///< number of states on each other map
 };
 

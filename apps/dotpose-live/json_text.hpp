@@ -1,4 +1,4 @@
-/// Text of JSON values for the pages of dotpose-live.
+/// JSON text for the pages of dotpose-live.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the value in one line. Bytes that are not UTF-8, for example in names, are replaced.
+/// Returns the value as one line of text. Bytes that are not valid UTF-8, for example in names, are
+/// replaced.
 inline std::string text_of(const nlohmann::json& value) {
     return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

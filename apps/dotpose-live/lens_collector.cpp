@@ -14,17 +14,17 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of frames that are taken. With more frames, the calibration would take longer,
-/// but the result would not improve.
+/// Maximum number of collected frames. More frames would only take longer, without improving the
+/// result.
 constexpr std::size_t kMaxFrames = 50;
-/// Maximum image speed of a steady camera, in px/s. At this speed, the image moves by at most a
-/// pixel during an exposure or a readout of up to 1/30 s.
+/// Maximum image speed at which a camera is considered steady, in px/s. At this speed, the image
+/// moves by at most one pixel during an exposure or readout of up to 1/30 s.
 constexpr double kSteady_px_s = 30;
-/// Time without a steady frame after which frames of a moving camera are accepted, for example if
-/// the robot does not stop.
+/// Time without a steady frame after which frames of a moving camera are also accepted, in case the
+/// robot never stops.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// A frame at a place that was already seen is taken only if its dots cover at least this number of
-/// image blocks that no taken frame covers.
+/// Minimum number of newly covered image blocks that makes a frame useful even though it shows a
+/// place that was already seen. A block is newly covered if no collected frame covers it.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {
@@ -78,7 +78,7 @@ void LensCollector::start_with(const GreyImage& image) {
 }
 
 bool LensCollector::is_steady(const capture::Frame& frame) {
-    if (!frame.file.empty()) return true;  // image files are assumed to be from a steady camera
+    if (!frame.file.empty()) return true;  // image files are assumed to come from a steady camera
     const double reach_px = std::hypot(width_px_, height_px_) / 2;
     const bool is_slow =
         motion_.speed_px_s(reader_.trace().fix, frame.time_us, reach_px) < kSteady_px_s;
@@ -90,7 +90,7 @@ bool LensCollector::is_new(const CalibrationView& view, ImageView image) {
     return places_.take(reader_.trace().fix, image) || coverage_->parts_added_by(view) >= kNewParts;
 }
 
-/// Returns the reason for not taking a frame, or an empty string if the frame is taken.
+/// Returns the reason why a frame is rejected, or an empty string if it is accepted.
 std::string LensCollector::refusal(const capture::Frame& frame,
                                    const std::optional<calibrate::LocatedFrame>& located) {
     ++tally_.seen;
@@ -123,8 +123,8 @@ std::string LensCollector::refusal(const capture::Frame& frame,
 LensCollector::Outcome LensCollector::take(capture::Frame& frame) {
     start_with(frame.image);
     const auto located = reader_.read(frame.image.view());
-    // The view of the image remains valid after the pixels are moved out of `frame`, because moving
-    // a vector does not move its elements.
+    // `outcome.image` remains valid after the pixels are moved out of `frame`, because moving a
+    // vector does not move its elements.
     Outcome outcome{refusal(frame, located), frame.image.view(), located.has_value()};
     if (outcome.is_taken()) {
         coverage_->add(view_of(*located, reader_.trace().fix));
@@ -155,11 +155,12 @@ std::optional<Camera> LensCollector::lens() const {
     return job_.newest() ? std::optional(job_.newest()->camera) : std::nullopt;
 }
 
-/// Returns true if another calibration is likely to be better than the newest one. The number of
-/// frames must double between two calibrations, because each calibration takes longer than the
-/// previous one. If only the accuracy of the lens is insufficient, a smaller growth may be enough.
-/// Because standard deviations are inversely proportional to the square root of the number of
-/// frames, the growth is the square of the ratio of the present to the required standard deviation.
+/// Returns true if a new calibration is likely to be better than the last one. Normally, the number
+/// of frames must have doubled since the last calibration, because each calibration takes longer
+/// than the previous one. If only the accuracy of the lens is insufficient, a smaller increase may
+/// suffice. Standard deviations are inversely proportional to the square root of the number of
+/// frames, so the required factor is the square of the ratio of the current to the wanted standard
+/// deviation.
 bool LensCollector::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();
@@ -207,7 +208,7 @@ bool LensCollector::finish(const std::function<bool()>& goes_on) {
     return true;
 }
 
-/// Describes the requirements that the frames do not meet.
+/// Describes the requirements that are not met.
 std::string LensCollector::shortage() const {
     std::string text = fmt::format(
         "not enough was seen, and no file was written: of {} frames, {} were located and {} taken "

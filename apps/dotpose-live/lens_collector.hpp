@@ -1,5 +1,5 @@
-/// Takes frames for the calibration of a lens while the camera moves, and calibrates the lens in
-/// the background.
+/// Collects frames for a lens calibration while the camera moves, and calibrates the lens in the
+/// background.
 ///
 ///     LensCollector collector(options);
 ///     while (!collector.is_enough() && !collector.is_full() && source.next(frame)) {
@@ -27,11 +27,11 @@
 
 namespace dotpose::cli {
 
-/// Measures the speed of the image between two located frames.
+/// Measures the speed at which the image moves between located frames.
 class ImageMotion {
   public:
-    /// Returns the speed of the image since the previous located frame, in px/s, or infinity if it
-    /// is not known.
+    /// Returns the speed of the image since the previous located frame in px/s, or infinity if it
+    /// is unknown.
     double speed_px_s(const Fix& fix, std::int64_t time_us, double reach_px);
     void forget() { newest_.reset(); }
 
@@ -48,53 +48,53 @@ class ImageMotion {
 class LensCollector {
   public:
     struct Outcome {
-        std::string refusal;  ///< reason for not taking the frame; empty if the frame was taken
-        ImageView image;      ///< pixels of the frame; valid until the next frame is read
+        std::string refusal;  ///< reason why the frame was rejected, or empty if it was accepted
+        ImageView image;      ///< pixels of the frame, valid until the next frame is read
         bool is_located = false;
         bool is_taken() const { return refusal.empty(); }
     };
 
     explicit LensCollector(const CalibrateOptions& options);
 
-    /// Takes a frame, or returns the reason for not taking it. If the frame is taken, its pixels
-    /// are moved out of `frame`. The image must not be empty. Throws BadArgument if the size of the
-    /// image differs from the previous ones.
+    /// Accepts or rejects a frame. The pixels of an accepted frame are moved out of `frame`. The
+    /// image must not be empty. Throws BadArgument if its size differs from the size of earlier
+    /// images.
     Outcome take(capture::Frame& frame);
 
-    /// Returns the progress after a frame.
+    /// Returns the progress after the frame with this outcome.
     CalibrationStatus status(const Outcome& outcome) const;
 
-    /// Returns the stages of the newest frame.
+    /// Returns the trace of the newest frame.
     Trace trace() const { return reader_.trace(); }
 
-    /// Starts a calibration with the frames so far if it would improve on the newest calibration.
+    /// Starts a calibration with the frames collected so far if it would improve on the last one.
     void start_if_useful();
     bool is_calibrating() const { return job_.is_running(); }
-    /// Waits at most `patience` for the running calibration. Returns true if it has ended.
+    /// Waits up to `patience` for the running calibration. Returns true if it has finished.
     bool wait(std::chrono::milliseconds patience);
 
-    /// Returns true if no requirement is unmet and the verdict of the newest calibration is good.
+    /// Returns true if all requirements are met and the verdict of the last calibration is good.
     bool is_enough() const;
-    /// Returns true if the maximum number of frames was taken.
+    /// Returns true if the maximum number of frames has been collected.
     bool is_full() const;
 
-    /// If enough frames were taken, calibrates with all of them and waits for the result. Calls
-    /// `goes_on` repeatedly while it waits. Returns false if `goes_on` returned false, otherwise
-    /// true.
+    /// Calibrates with all frames, if there are enough, and waits for the result. Meanwhile, calls
+    /// `goes_on` repeatedly. Returns false if `goes_on` has returned false, and true otherwise.
     bool finish(const std::function<bool()>& goes_on);
 
-    /// Returns the newest calibration. Must be called after `finish`. Throws Error if the frames
-    /// are not sufficient for the verdict `good`. The message names the unmet requirements.
+    /// Returns the last calibration. Must be called after `finish`. If the frames are not
+    /// sufficient for the verdict `good`, throws Error with a message that names the unmet
+    /// requirements.
     const LensCalibration& result() const;
 
-    /// Returns the unmet requirements. At least one frame must have been read.
+    /// Returns the unmet requirements. At least one frame must have been taken.
     std::vector<CalibrationNeed> needs() const { return coverage_->missing(lens()); }
 
-    /// Sets the compression of the source (capture/frame_source.hpp), for advice.
+    /// Sets the bit rate of the source (capture/frame_source.hpp), which may appear in advice.
     void set_bits_per_px(double bits_per_px) { bits_per_px_ = bits_per_px; }
 
   private:
-    /// Frame counts that explain why too few frames were taken.
+    /// Frame counts, which explain why too few frames were accepted.
     struct Tally {
         std::int64_t seen = 0;
         std::int64_t located = 0;
@@ -114,7 +114,7 @@ class LensCollector {
     calibrate::FrameReader reader_;
     CalibrationJob job_;
     CalibrationJob::Frames taken_;
-    std::optional<CalibrationCoverage> coverage_;  ///< none before the first frame
+    std::optional<CalibrationCoverage> coverage_;  ///< none until the first frame
     std::vector<FrameTilt> tilts_;
     int width_px_ = 0;
     int height_px_ = 0;
@@ -122,7 +122,7 @@ class LensCollector {
     ImageMotion motion_;
     std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, or of the first frame
     Tally tally_;
-    GreyImage failed_;  ///< newest frame that was not located, before the first located frame
+    GreyImage failed_;  ///< newest frame that could not be located, until a frame is located
     Status failure_ = Status::ok;
     double bits_per_px_ = 0;
 };

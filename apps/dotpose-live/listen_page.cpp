@@ -1,4 +1,4 @@
-// The page of `dotpose listen --web`. It is the page of a fleet whose only robot is the device.
+// The page of `dotpose listen --web`: the page of a fleet with the device as its only robot.
 #include <memory>
 #include <string>
 
@@ -24,7 +24,7 @@ class ListenPage : public ReadingSink {
                 .services = [] { return FleetServices{}; }},
                fleet_, map_) {}
 
-    /// Takes the state in the same form in which a fleet receives states from a broker.
+    /// Passes on the state in the form in which a fleet receives states from a broker.
     void take(const Reading& reading) override {
         const auto state = states_.next(reading);
         fleet_.take(topic_of(state->robot, Subject::visualization), json_of(*state), clock_.now());
@@ -36,7 +36,7 @@ class ListenPage : public ReadingSink {
     WatchedClock clock_;
     FleetState fleet_;
     StateSource states_;
-    FleetWeb web_;  ///< destroyed first, because its threads read the other members
+    FleetWeb web_;  ///< destroyed first, because its threads use the other members
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ class LiveCalibration {
 
     void say(const std::string& message) { display_.say(message); }
 
-    /// Takes frames until there are enough, the source ends or the user stops.
+    /// Collects frames until there are enough, the source ends, or the user stops.
     void take_all(capture::FrameSource& source) {
         try {
             capture::Frame frame;
@@ -39,7 +39,7 @@ class LiveCalibration {
         } catch (const BadArgument&) {
             throw;
         } catch (const Error& error) {
-            // The failure is only reported, because the frames taken before it may be enough.
+            // A failure is only reported, because the frames collected before it may be enough.
             say(error.what());
         }
     }
@@ -56,8 +56,8 @@ class LiveCalibration {
     std::optional<FrameSaver> saver_;
 };
 
-/// Displays a frame, and adds it to the calibration if it is suitable. Returns false if the user
-/// stopped the calibration.
+/// Displays a frame and adds it to the calibration if it is suitable. Returns false if the user
+/// wants to stop.
 bool LiveCalibration::look(capture::Frame& frame) {
     // An unplugged camera delivers empty frames.
     if (frame.image.pixels.empty()) return display_.is_wanted();
@@ -66,9 +66,10 @@ bool LiveCalibration::look(capture::Frame& frame) {
     return display_.show(collector_.status(outcome), outcome.image, collector_.trace());
 }
 
-/// Starts and finishes calibrations with the frames taken so far. During a calibration, a camera
-/// continues to deliver frames. All other sources wait, to make the result independent of the speed
-/// of the computer. Returns false if the user stops.
+/// Starts a calibration with the frames collected so far if it would be useful. With a camera,
+/// returns without waiting for the calibration, because the camera continues to deliver frames.
+/// With any other source, waits for the calibration, which makes the result independent of the
+/// speed of the computer. Returns false if the user wants to stop.
 bool LiveCalibration::go_on_calibrating() {
     collector_.start_if_useful();
     while (collector_.is_calibrating()) {
@@ -79,10 +80,10 @@ bool LiveCalibration::go_on_calibrating() {
     return true;
 }
 
-/// Returns the calibration with all frames. Throws Error if there are not enough frames or if the
-/// user interrupts the calculation.
+/// Returns the calibration based on all frames. Throws Error if there are not enough frames, or if
+/// the user interrupts the calculation.
 LensCalibration LiveCalibration::result() {
-    // The first Ctrl-C only ended the acquisition of frames.
+    // The first Ctrl-C only ends the collection of frames.
     take_ctrl_c();
     const ProgressLine line("calibrating the lens");
     collector_.finish([this] {

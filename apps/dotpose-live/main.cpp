@@ -6,7 +6,7 @@ int main(int argc, char** argv) {
     return dotpose::cli::tool_main(argc, argv, [](dotpose::cli::Command& app, int& exit_code) {
         using namespace dotpose::cli;
         add_live_commands(app, exit_code);
-        // `dotpose` starts this program for cameras, videos and brokers.
+        // Commands for which `dotpose` starts this program if they use cameras, videos or brokers.
         add_locate(app, exit_code);
         add_calibrate(app, exit_code);
         add_evaluate(app, exit_code);

@@ -1,4 +1,4 @@
-/// Writes metrics to a file for the textfile collector of Prometheus' node exporter.
+/// Writes metrics to a file, for the textfile collector of the Prometheus node exporter.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@ class MetricsFile {
     /// Throws Error if the file cannot be written.
     MetricsFile(std::string path, std::function<void(const std::string&)> tell);
 
-    /// Replaces the file in one step, so that a reader never reads an incomplete file. If writing
-    /// fails, reports this once and returns, because a later attempt may succeed.
+    /// Replaces the file atomically, so a reader never sees an incomplete file. A failure is
+    /// reported once and otherwise ignored, because later attempts may succeed.
     void write(const std::string& text);
 
   private:

@@ -1,4 +1,4 @@
-/// Text format of Prometheus, version 0.0.4.
+/// Writes metrics in version 0.0.4 of the Prometheus text format.
 #pragma once
 
 #include <iterator>
@@ -13,7 +13,8 @@ namespace dotpose::cli {
 /// MIME type of the format.
 inline constexpr const char* kMetricsType = "text/plain; version=0.0.4; charset=utf-8";
 
-/// Collects samples of metrics. All samples of a metric follow its `begin`.
+/// Collects the samples of metrics. `begin` starts a metric, and the samples added next belong to
+/// it.
 class MetricsText {
   public:
     void begin(std::string_view name, std::string_view type, std::string_view help) {
@@ -44,7 +45,7 @@ class MetricsText {
     std::string text_;
 };
 
-/// Returns a label with an escaped value.
+/// Returns a label, with its value escaped.
 std::string label(std::string_view name, std::string_view value);
 
 }  // namespace dotpose::cli

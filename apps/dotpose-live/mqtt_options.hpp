@@ -1,4 +1,4 @@
-/// Connection to the MQTT broker that the command line specifies.
+/// Converts command-line options to options for the connection to the MQTT broker.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the options, or none without --mqtt. The environment variable DOTPOSE_MQTT_PASSWORD may
-/// contain the password. Throws BadArgument if the URL is not valid.
+/// Returns the options, or none if --mqtt is not given. The password may be in the environment
+/// variable DOTPOSE_MQTT_PASSWORD. Throws BadArgument if the URL is invalid.
 std::optional<publish::MqttOptions> mqtt_options(const MqttArguments& arguments);
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-/// Order of names in which numbers are compared by value: robot2 before robot10.
+/// Natural sort order for names, in which numbers are compared by value: robot2 precedes robot10.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,9 @@
 
 namespace dotpose::cli {
 
-/// Compares byte by byte, except that runs of digits are compared as numbers of any length. Names
-/// that differ only in leading zeros are compared as text, so only equal names are equivalent.
+/// Compares names byte by byte, except that sequences of digits are compared as numbers of any
+/// length. Names that differ only in leading zeros are compared as text, so only identical names
+/// are equivalent.
 struct NaturalOrder {
     using is_transparent = void;
 
@@ -30,8 +31,8 @@ struct NaturalOrder {
     }
 
   private:
-    /// Removes the digits at the beginning of a text. Returns the digits without leading zeros, but
-    /// keeps at least one digit.
+    /// Removes the digits at the start of a text and returns them without leading zeros. The result
+    /// has at least one digit.
     static std::string_view take_number(std::string_view& text) {
         const std::size_t size = std::min(text.find_first_not_of("0123456789"), text.size());
         std::string_view number = text.substr(0, size);

@@ -20,8 +20,9 @@ struct Shown {
     double angle_rad = 0;
 };
 
-/// Returns the pose to show. This is the place on the sheet, if there is one and the track is not
-/// in the world. Otherwise, it is the pose of the track, or an empty optional if the robot is lost.
+/// Returns the pose to display: the place on the sheet if there is one and the track is not in the
+/// world frame, and the pose of the track otherwise. Returns none if the pose of the track is
+/// needed but the robot is lost.
 std::optional<Shown> shown_pose(const Reading& reading) {
     const std::optional<SheetPlace>& place = reading.record.place;
     const TrackedPose& pose = reading.track.pose;

@@ -1,4 +1,4 @@
-/// Captions beside the live picture of `dotpose watch`.
+/// Captions next to the live image of `dotpose watch`.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace dotpose::cli {
 
-/// Returns the lines of text for a frame: its number and time, its result, the state of the
+/// Returns the lines of text about a frame: its number and time, its result, the state of the
 /// tracker, the sheet, and the pose with the name of its frame of reference. The frame of reference
-/// is the world if the sheet file contains world poses. Otherwise, it is the sheet, or the pattern
-/// if there is no sheet.
+/// is the world if the sheet file contains world poses. Otherwise, it is the sheet or, without a
+/// sheet, the pattern.
 std::vector<std::string> panel_text(const Reading& reading);
 
 }  // namespace dotpose::cli

@@ -6,7 +6,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Converts a point of a page, in mm, to coordinates of `plane`. If `plane` is the world, the page
+/// Converts a point on a page, in mm, to the coordinates of `plane`. For the world plane, the page
 /// must have a world pose.
 draw::Point in_plane(const SheetEntry& entry, Plane plane, double x_mm, double y_mm) {
     const Sheet& sheet = entry.sheet;

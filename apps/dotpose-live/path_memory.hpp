@@ -1,5 +1,5 @@
-/// Stores the path of a robot in bounded memory. Each time the memory is full, every second point
-/// is removed, and the points that are added later are twice as far apart in time.
+/// Stores the path of a robot in a limited amount of memory. Whenever the memory is full, every
+/// second point is removed, and from then on points are added at half the rate.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,12 @@ namespace dotpose::cli {
 
 class PathMemory {
   public:
-    /// Takes the track after a frame. Adds a point to the path only if the robot is tracked in this
-    /// frame.
+    /// Takes the track after a frame. Adds a point only if the robot is tracked in this frame.
     void add(const Track& track);
 
     const std::vector<video::PathMark>& marks() const { return marks_; }
 
-    /// Returns the path in mm. A new stroke begins wherever the robot was lost or was moved by
+    /// Returns the path in mm. A new stroke starts wherever the robot was lost or was moved by
     /// hand.
     std::vector<std::vector<draw::Point>> strokes() const;
 
@@ -34,8 +33,8 @@ class PathMemory {
     bool is_jump_ = true;
 };
 
-/// Returns the outlines of the sheets in coordinates of `plane`. If `plane` is the world, sheets
-/// without a world pose are omitted.
+/// Returns the outlines of the sheets in the coordinates of `plane`. For the world plane, omits
+/// sheets without a world pose.
 std::vector<draw::MapSheet> map_sheets(const std::vector<SheetEntry>& sheets, Plane plane);
 
 }  // namespace dotpose::cli

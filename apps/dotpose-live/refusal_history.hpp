@@ -1,4 +1,4 @@
-/// Counts located and refused frames by reason, for each second of the last minutes.
+/// Counts located and refused frames by status, for each second of the last two minutes.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ class RefusalHistory {
     static constexpr std::int64_t kSeconds = 120;
 
     struct Second {
-        std::int64_t second = 0;  ///< time in s on the clock of the source, rounded down
+        std::int64_t second = 0;  ///< time on the clock of the source, in whole seconds
         std::map<Status, std::int64_t> frames;
     };
 
-    /// Counts a frame in the second of its time. A frame that is older than the newest second is
-    /// counted in this second.
+    /// Counts a frame in the second in which it was captured. A frame older than the newest second
+    /// is counted in the newest second.
     void add(std::int64_t time_us, Status status);
 
-    /// Returns the seconds with frames, oldest first.
+    /// Returns all seconds that contain frames, oldest first.
     const std::deque<Second>& seconds() const { return seconds_; }
 
   private:

@@ -1,4 +1,4 @@
-/// Conditions of the robots of a fleet, for operators.
+/// Conditions of the robots in a fleet, as shown to operators.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ enum class Condition {
     moving,
     still,
     lost,    ///< the pose is unknown, for example because no pattern is in view
-    silent,  ///< no message for some time, or the connection broke
-    gone,    ///< no message for a long time, or the robot disconnected
+    silent,  ///< no message for some time, or the connection is broken
+    gone,    ///< no message for a long time, or the robot has disconnected
 };
 inline constexpr int kConditionCount = 5;
 
@@ -37,7 +37,7 @@ struct ConditionLimits {
 Condition condition_of(const RobotState& newest, publish::Presence presence,
                        std::int64_t silence_us, const ConditionLimits& limits);
 
-/// Returns the reason of a condition in a few words, or an empty string if no reason is known.
+/// Returns a short reason for the condition, or an empty string if the reason is unknown.
 std::string reason_of(Condition condition, const RobotState& newest, publish::Presence presence);
 
 }  // namespace dotpose::cli

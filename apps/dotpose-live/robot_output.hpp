@@ -1,4 +1,4 @@
-/// Sends the readings of `dotpose watch` as ROS 2 messages to an MCAP file and over DDS.
+/// Outputs the readings of `dotpose watch` as ROS 2 messages, to an MCAP file and over DDS.
 #pragma once
 
 #include <cmath>
@@ -15,22 +15,23 @@
 namespace dotpose::cli {
 
 struct RobotOutputOptions {
-    std::string mcap;         ///< MCAP file to record, or empty for none
-    bool has_images = false;  ///< true to record the images as well
+    std::string mcap;         ///< path of the MCAP file, or empty for none
+    bool has_images = false;  ///< whether to record images as well
     ImageEncoding image_format = ImageEncoding::png;
     std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published over DDS
     std::string robot;
-    std::string frame_prefix;      ///< prefix of the names of the robot's frames of reference
-    std::optional<Camera> camera;  ///< source of the mount and the exposure time
-    /// True if the run fits poses of the camera in space. The mount of the camera is then not sent.
+    std::string frame_prefix;      ///< prefix for the names of the robot's coordinate frames
+    std::optional<Camera> camera;  ///< provides the mount and the exposure time
+    /// Whether the run fits poses of the camera in space. If so, the mount of the camera is not
+    /// sent.
     bool has_space_pose = false;
 
     bool is_wanted() const { return !mcap.empty() || dds; }
 };
 
-/// Computes the time stamps of messages, in ns. A live frame has the time of the end of its
-/// exposure on the monotonic clock. ROS expects the middle of the exposure on the system clock, so
-/// this time is converted. The times of recorded frames are used unchanged.
+/// Computes the time stamps of messages, in ns. The time of a live frame is the end of its exposure
+/// on the monotonic clock. ROS expects the middle of the exposure on the system clock, so the time
+/// is converted. The times of recorded frames are not changed.
 class Stamps {
   public:
     explicit Stamps(double exposure_us) : half_exposure_ns_(std::llround(exposure_us * 500)) {}
@@ -39,7 +40,7 @@ class Stamps {
   private:
     std::int64_t half_exposure_ns_;
     std::optional<std::int64_t>
-        system_from_monotonic_ns_;  ///< constant, to preserve the intervals between frames
+        system_from_monotonic_ns_;  ///< constant, which preserves the intervals between frames
 };
 
 class RobotOutput {
@@ -47,20 +48,20 @@ class RobotOutput {
     /// Throws Error if the file or the publisher cannot be opened.
     explicit RobotOutput(const RobotOutputOptions& options);
 
-    /// Sends the messages of a frame. Throws Error.
+    /// Outputs the messages for a frame. Throws Error on failure.
     void take(const capture::Frame& frame, const Reading& reading);
 
-    /// Replaces the camera. The new mount is sent with the next frame.
+    /// Replaces the camera. Its mount is sent with the next frame.
     void set_camera(const Camera& camera);
 
-    /// Completes the file and reports the number of published messages. Throws Error.
+    /// Finishes the file and reports the number of published messages. Throws Error on failure.
     void finish();
 
   private:
     RobotOutputOptions options_;
     Stamps stamps_;
     ros::RobotMessenger messenger_;
-    bool sends_mount_;  ///< true if the mount is sent with the next frame
+    bool sends_mount_;  ///< whether to send the mount with the next frame
     std::optional<RobotRecording> recording_;
     std::optional<dds::Publisher> publisher_;
 };

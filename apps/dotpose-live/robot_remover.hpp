@@ -9,15 +9,15 @@ namespace dotpose::cli {
 
 class RobotRemover {
   public:
-    /// Throws Error if the broker refuses the connection.
+    /// Throws Error if the broker rejects the connection.
     explicit RobotRemover(publish::MqttOptions options);
-    /// Waits up to 2 s until all removals are sent.
+    /// Waits up to 2 s for all removals to be sent.
     ~RobotRemover();
     RobotRemover(const RobotRemover&) = delete;
     RobotRemover& operator=(const RobotRemover&) = delete;
 
-    /// Clears the message that the broker retains for a robot. Does not wait for the broker.
-    /// Thread-safe.
+    /// Clears the message that the broker retains for a robot. Returns without waiting for the
+    /// broker. Thread-safe.
     void remove(const std::string& robot);
 
   private:

@@ -8,7 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the state message of a reading. `world_map` is the map name of the sheet file's world.
+/// Returns the state message for a reading. `world_map` is the name of the map for poses in the
+/// world of the sheet file.
 RobotState state_of(const Reading& reading, const std::string& robot, const std::string& world_map);
 
 }  // namespace dotpose::cli

@@ -81,7 +81,7 @@ bool SheetEdits::is_same_sheet(const SheetEntry& a, const SheetEntry& b) {
     return values_of(a) == values_of(b) && layout(a.sheet) == layout(b.sheet);
 }
 
-/// Stores the sheets, and gives changed sheets a new revision.
+/// Stores the sheets. Sheets that have changed get a new revision.
 void SheetEdits::take(const std::vector<SheetEntry>& sheets) {
     sheets_ = sheets;
     std::map<std::string, Known> known;
@@ -151,14 +151,14 @@ void SheetEdits::remove(const Target& target) {
     redo_.clear();
 }
 
-/// Returns true if the file contains the sheet as it was before the step.
+/// Returns true if the sheet in the file is still as it was before the step.
 bool SheetEdits::is_unchanged(const SheetStep& step) const {
     if (!step.before) return true;
     const SheetEntry* entry = find(sheets_, step.before->name);
     return entry != nullptr && is_same_sheet(*entry, *step.before);
 }
 
-/// Applies the change of a step to the file.
+/// Applies a step to the file.
 void SheetEdits::apply(SheetFile& file, const SheetStep& step) {
     if (!step.after) {
         file.remove(step.before->name);

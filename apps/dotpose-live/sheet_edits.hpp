@@ -1,8 +1,8 @@
-/// Edits a sheet file, with undo. Other programs may change the file at the same time.
+/// Edits a sheet file, with undo. Other programs may change the file at any time.
 ///
-/// Each edit locks the file and reads it again. An edit of a sheet is refused if another program
-/// has changed this sheet since the user saw it. If a function throws Error or BadArgument, the
-/// file is unchanged.
+/// Each edit locks the file and reads it again. An edit is rejected if another program has changed
+/// the sheet since the user last saw it. If a function throws Error or BadArgument, the file has
+/// not been changed.
 #pragma once
 
 #include <array>
@@ -24,18 +24,19 @@ class SheetEdits {
     /// Reads the file. Throws Error like `read_sheets`.
     SheetEdits(std::string path, SheetFileWait wait);
 
-    /// Reads the file if it was changed. Returns true if its sheets or `problem` changed.
+    /// Reads the file again if it has changed. Returns true if the sheets or `problem` have
+    /// changed.
     bool refresh();
 
     /// Returns the sheets as they were last read.
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
     /// Returns the reason why the file could not be read, or an empty string.
     const std::string& problem() const { return problem_; }
-    /// Returns the revision of a sheet, which increases with each change of its place, print scale,
-    /// offset or region. Returns 0 if there is no such sheet.
+    /// Returns the revision of a sheet, which increases with every change of its place, print
+    /// scale, offset or region. Returns 0 if there is no such sheet.
     std::int64_t revision(const std::string& name) const;
 
-    /// Returns a number that increases with each change of any sheet.
+    /// Returns a number that increases with every change of any sheet.
     std::int64_t version() const { return version_; }
 
     /// A sheet to edit, with the revision that the user saw.
@@ -45,31 +46,30 @@ class SheetEdits {
     };
     using Change = std::function<SheetEntry(const SheetEntry& before)>;
 
-    /// Changes name, place, print scale or offset of a sheet. `what` describes the edit for `undo`,
-    /// such as "move". Returns the new entry.
+    /// Changes the name, place, print scale or offset of a sheet. `what` is a description for
+    /// `undo_text`, such as "move". Returns the new entry.
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
 
-    /// Removes a sheet. Throws Error if it is the only one, because a run needs a sheet. If the
-    /// removal is undone, the sheet is added at the end of the file, and keys that dotpose does not
-    /// know are lost.
+    /// Removes a sheet. Throws Error if it is the only sheet, because a run needs one. Undoing the
+    /// removal appends the sheet to the file, without the keys that are unknown to dotpose.
     void remove(const Target& target);
 
-    /// Replaces the places and print scales of several sheets by those in `measured`, in one edit.
-    /// `targets` contains the sheets with their revisions at the start of the measurement.
+    /// Replaces the places and print scales of several sheets with the values in `measured`, as one
+    /// edit. `targets` are the sheets, with their revisions at the start of the measurement.
     void change_all(const std::vector<Target>& targets, const std::vector<SheetEntry>& measured,
                     const std::string& what);
 
-    /// Marks a reserved sheet as made, because its page exists now. The change cannot be undone.
+    /// Marks a reserved sheet as made because its page now exists. This change cannot be undone.
     void confirm(const std::string& name);
 
-    /// Returns the description of the edit that `undo` or `redo` would make, such as "move
-    /// 'table'", or an empty string if there is none.
+    /// Returns a description of the edit that `undo` or `redo` would apply, such as "move 'table'",
+    /// or an empty string if there is none.
     std::string undo_text() const { return undo_.empty() ? "" : undo_.back().text; }
     std::string redo_text() const { return redo_.empty() ? "" : redo_.back().text; }
 
-    /// Undoes or redoes the newest edit. Returns its description, or throws Error if there is none.
-    /// If another program has since changed one of the sheets of the edit, throws Error and
-    /// discards the edit.
+    /// Undoes or redoes the last edit and returns its description. Throws Error if there is none.
+    /// If another program has meanwhile changed a sheet of the edit, discards the edit and throws
+    /// Error.
     std::string undo();
     std::string redo();
 
@@ -77,14 +77,14 @@ class SheetEdits {
     std::filesystem::path path() const;
 
   private:
-    /// Values of a sheet that can be edited.
+    /// The editable values of a sheet.
     struct Values {
         std::optional<std::array<double, 3>> world;
         std::array<double, 2> print_scale{};
         std::array<double, 2> origin_mm{};
         bool operator==(const Values&) const = default;
     };
-    /// A changed sheet. `after` is missing if the sheet was removed.
+    /// A change of one sheet. `after` is none if the sheet was removed.
     struct SheetStep {
         std::optional<SheetEntry> before;
         std::optional<SheetEntry> after;

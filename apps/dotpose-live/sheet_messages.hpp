@@ -1,4 +1,4 @@
-/// Values of the topics about sheets (docs/web.md).
+/// Values of the topics about sheets, see docs/web.md.
 #pragma once
 
 #include <deque>
@@ -11,19 +11,19 @@
 
 namespace dotpose::cli {
 
-/// Answer to a command of a page.
+/// Answer to a command from a page.
 struct SheetAnswer {
-    std::string id = {};  ///< identifier of the command, chosen by the page
+    std::string id = {};  ///< identifier that the page chose for the command
     bool is_ok = false;
     std::string message = {};
-    std::string name = {};  ///< name of a new sheet; empty if there is none
-    std::string url = {};   ///< path of a file to download; empty if there is none
+    std::string name = {};  ///< name of a new sheet, or empty
+    std::string url = {};   ///< path of a file to download, or empty
 };
 
-/// Returns the sheets of the file, and descriptions of the edits that can be undone and redone.
+/// Returns the sheets of the file, and descriptions of the edits that can be undone or redone.
 nlohmann::json sheets_message(const SheetEdits& edits, bool may_edit);
 nlohmann::json answers_message(const std::deque<SheetAnswer>& answers);
-/// Returns the state of a measurement. `progress` is null if there is none.
+/// Returns the state of a measurement. `progress` is null if no measurement is running.
 nlohmann::json stitch_message(const StitchJob::Progress* progress);
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-/// Makes the PDF of a sheet in memory.
+/// Creates the PDF of a sheet in memory.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@ namespace dotpose::cli {
 /// minutes.
 void require_printable(const Sheet& sheet);
 
-/// Returns the PDF of the page of a sheet, as `dotpose sheets reprint` writes it. Calls `goes_on`
-/// often, and throws Error if it returns false. Also throws like `reprint_options` and
+/// Returns the PDF that `dotpose sheets reprint` would write for a sheet. Calls `goes_on`
+/// frequently, and throws Error when it returns false. Also throws like `reprint_options` and
 /// `write_sheet`.
 std::string pdf_of(const SheetEntry& entry, const std::function<bool()>& goes_on);
 

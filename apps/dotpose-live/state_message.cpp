@@ -19,7 +19,7 @@ constexpr std::int64_t kMicro = 1'000'000;
 /// Names of the subjects in topics, in the order of Subject.
 constexpr std::string_view kSubjects[] = {"visualization", "connection"};
 
-/// Returns the members that begin every message.
+/// Returns the members at the start of every message.
 nlohmann::ordered_json header(const std::string& robot, std::uint64_t id, std::int64_t sent_us) {
     return {{"headerId", id},
             {"timestamp", timestamp(sent_us)},
@@ -87,7 +87,7 @@ std::int64_t system_us() {
 
 std::string json_of(const RobotState& state) {
     nlohmann::ordered_json json = header(state.robot, state.header_id, state.sent_us);
-    // VDA 5050 permits additional members: state, reason, sheet, camera, cameraPose and
+    // Additional members, which VDA 5050 permits: state, reason, sheet, camera, cameraPose and
     // cameraTrack.
     json["state"] = state.state;
     if (!state.reason.empty()) json["reason"] = state.reason;

@@ -1,6 +1,6 @@
 /// JSON messages of robots according to VDA 5050, version 2.0.0: poses on the topic
-/// `visualization`, and the connection state of a robot on the topic `connection` (docs/live.md).
-/// Also defines the alerts that `dotpose fleet` publishes (docs/fleet.md).
+/// `visualization`, and the connection state on the topic `connection` (docs/live.md). Also defines
+/// the alerts that `dotpose fleet` publishes (docs/fleet.md).
 #pragma once
 
 #include <array>
@@ -20,17 +20,17 @@ namespace dotpose::cli {
 /// Prefix of the topics of all robots. A topic has the form kTopicRoot/ROBOT/SUBJECT.
 inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 
-/// Prefix of the topics of alerts. A topic has the form kAlertRoot/ROBOT. The alerts are not below
-/// kTopicRoot, because a broker may permit each robot to write below kTopicRoot/ROBOT.
+/// Prefix of the topics of alerts. A topic has the form kAlertRoot/ROBOT. It is separate from
+/// kTopicRoot, because a broker may allow each robot to publish below kTopicRoot/ROBOT.
 inline constexpr const char* kAlertRoot = "dotpose/alerts";
 
-/// Values of `connectionState`, in the order of publish::Presence.
+/// Values of `connectionState`, indexed by publish::Presence.
 inline constexpr std::string_view kConnectionStates[] = {"ONLINE", "OFFLINE", "CONNECTIONBROKEN"};
 
-/// Maximum length of the name of a robot. Topics with longer names are ignored.
+/// Maximum length of the name of a robot, in bytes. Topics with longer names are ignored.
 inline constexpr std::size_t kMaxNameBytes = 128;
 
-/// Subject of a message, given by the last level of its topic.
+/// Subject of a message, which is the last level of its topic.
 enum class Subject {
     visualization,  ///< a RobotState
     connection,     ///< a RobotConnection, retained by the broker
@@ -44,39 +44,41 @@ struct MessageTopic {
     Subject subject = Subject::visualization;
 };
 
-/// Parses a topic. Returns none if the topic does not have the form of `topic_of`, or if the name
-/// is longer than kMaxNameBytes. The name of the sender is taken from the topic and not from the
-/// message, because brokers restrict the topics, but not the messages, that a client may send.
+/// Parses a topic. Returns none if it does not have the form of `topic_of`, or if the name is
+/// longer than kMaxNameBytes. The name of the sender is taken from the topic rather than the
+/// message, because brokers can restrict the topics of a client but not the contents of its
+/// messages.
 std::optional<MessageTopic> parse_topic(std::string_view topic);
 
-/// Value of RobotState::reason if the frame was located, but its sheet has no place in the world.
+/// Value of RobotState::reason if the frame was located but its sheet has no world pose.
 inline constexpr std::string_view kNoPlace = "no_place";
 
-/// Number of refused frames, indexed by Status. The last element counts Status::other.
+/// Number of refused frames, indexed by Status. The last element is for Status::other.
 using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
 
-/// Frames of the camera of a robot since its program started.
+/// Counts of the camera frames of a robot since its program was started.
 struct CameraReport {
-    double rate_hz = 0;  ///< mean rate since the previous report
+    double rate_hz = 0;  ///< mean frame rate since the previous report
     std::uint64_t frames = 0;
-    RefusedFrames refused{};  ///< frames without a fix; the element of Status::ok is 0
+    RefusedFrames refused{};  ///< frames without a fix (the element of Status::ok is 0)
 };
 
-/// Factor from metres, the unit of the messages, to millimetres, the unit of the reports.
+/// Conversion factor from metres, the unit of the messages, to millimetres, the unit of the
+/// reports.
 inline constexpr double kMm_per_m = 1000;
 
 struct RobotState {
     std::string robot;            ///< name of the sender, or empty in a parsed message
     std::uint64_t header_id = 0;  ///< sequence number of the message
-    std::int64_t sent_us = 0;     ///< microseconds since 1970, system clock of the sender
+    std::int64_t sent_us = 0;     ///< microseconds since 1970, on the system clock of the sender
     std::string state = "lost";   ///< lost, moving or stationary
     /// Reason why the robot is lost: the name of the Status of its newest frame, or kNoPlace. Empty
     /// if the robot is not lost or the reason is unknown.
     std::string reason;
     std::string sheet;                   ///< name of the sheet in view, or empty if unknown
-    std::optional<CameraReport> camera;  ///< sent about once per second
-    bool is_localized = false;           ///< true if the members below are valid
-    std::string map_id;                  ///< name of the map, the plane of x and y
+    std::optional<CameraReport> camera;  ///< included about once per second
+    bool is_localized = false;           ///< whether the members below are valid
+    std::string map_id;                  ///< name of the map, which is the plane of x and y
     double x_m = 0;
     double y_m = 0;
     double theta_rad = 0;
@@ -84,25 +86,25 @@ struct RobotState {
     double vx_m_s = 0;
     double vy_m_s = 0;
     double omega_rad_s = 0;
-    /// Pose of the camera in space, with the axes of x and y. In a parsed message, the pose is that
-    /// of the tracked camera if there is one, and has no covariance.
+    /// Pose of the camera in space, along the axes of x and y. In a parsed message, this is the
+    /// pose of the tracked camera if there is one, and it has no covariance.
     std::optional<CameraInWorld> camera_pose;
-    /// Motion of the tracked camera, with the same axes as x and y. `parse_state` does not set it.
+    /// Motion of the tracked camera, along the axes of x and y. Not set by `parse_state`.
     std::optional<CameraMotion> camera_track;
 };
 
 /// Returns the message with the subject `visualization`.
 std::string json_of(const RobotState& state);
 
-/// Parses a message with the subject `visualization`. Returns none if the message is invalid or its
-/// numbers are out of range.
+/// Parses a message with the subject `visualization`. Returns none if the message is invalid or any
+/// of its numbers is out of range.
 std::optional<RobotState> parse_state(std::string_view json);
 
 struct RobotConnection {
     std::string robot;            ///< name of the sender, or empty in a parsed message
     std::uint64_t header_id = 0;  ///< sequence number of the connection message
-    /// Time of sending, in microseconds since 1970 on the system clock of the sender. The last will
-    /// of a robot contains the time at which the robot connected.
+    /// Time of sending, in microseconds since 1970 on the system clock of the sender. In the last
+    /// will of a robot, this is the time at which the robot connected.
     std::int64_t sent_us = 0;
     publish::Presence presence = publish::Presence::online;
 };
@@ -121,7 +123,7 @@ struct RobotAlert {
     std::string_view condition;  ///< moving, still, lost, silent, gone or removed
     std::string_view previous;   ///< condition before the change, or empty for a new robot
     std::string reason;          ///< may be empty
-    std::string map_id;          ///< newest known place, or empty if unknown
+    std::string map_id;          ///< last known map, or empty if unknown
     std::string sheet;
     double x_m = 0;
     double y_m = 0;
@@ -130,10 +132,12 @@ struct RobotAlert {
 /// Returns the message with the topic kAlertRoot/ROBOT.
 std::string json_of(const RobotAlert& alert);
 
-/// Formats a time in microseconds since 1970 as in messages: "2026-11-24T16:20:00.123456Z".
+/// Formats a time, in microseconds since 1970, as it appears in messages:
+/// "2026-11-24T16:20:00.123456Z".
 std::string timestamp(std::int64_t time_us);
 
-/// Parses a time of this form, with any number of decimals. Returns none for any other string.
+/// Parses a time in the format of `timestamp`, with any number of decimals. Returns none for any
+/// other text.
 std::optional<std::int64_t> parse_timestamp(std::string_view text);
 
 /// Returns the system time in microseconds since 1970.

@@ -27,9 +27,8 @@ StateNumbers::Arrival StateNumbers::take(const RobotState& state, StateCounts& c
         counts.missed = std::max<std::int64_t>(counts.missed - 1, 0);
         return Arrival::late;
     }
-    // The numbers between the number of the previous state and that of this state belong to missing
-    // states. A lower number means that the robot was restarted. In this case, no states are
-    // missing.
+    // A gap between the numbers of the previous state and of this state is due to missing states. A
+    // lower number is due to a restart of the robot, in which case no states are missing.
     if (!is_first && sent.number > newest_.number) {
         constexpr std::uint64_t kMax = 1'000'000'000;
         counts.missed +=
@@ -45,7 +44,7 @@ bool StateNumbers::is_late(const Sent& sent) {
         doubts_ = 0;
         return false;
     }
-    // After an interruption, queued states are sent newest first, so late states arrive in
+    // After an interruption, the robot sends queued states newest first, so late states arrive in
     // descending order of time. If older states arrive in ascending order instead, the clock of the
     // robot was set back.
     doubts_ = sent.time_us > doubted_us_ || doubts_ == 0 ? doubts_ + 1 : 1;

@@ -31,8 +31,8 @@ publish::MqttOptions with_presence(const PublishArguments& arguments) {
 void CameraCounter::count(const Reading& reading) {
     if (total_.frames++ == 0) {
         reported_us_ = reading.time_us;
-        // The rate is computed from the number of intervals between frames. There is no interval
-        // before the first frame, so this frame is not counted.
+        // The rate is based on the number of intervals between frames. No interval precedes the
+        // first frame, so the first frame is not counted.
         reported_frames_ = total_.frames;
     }
     newest_us_ = reading.time_us;

@@ -1,4 +1,4 @@
-/// Publishes the readings of `dotpose watch` and `dotpose listen` through a broker.
+/// Publishes the readings of `dotpose watch` and `dotpose listen` through an MQTT broker.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,13 @@
 
 namespace dotpose::cli {
 
-/// Counts the frames of the camera for the reports that the states contain.
+/// Counts camera frames for the reports in the state messages.
 class CameraCounter {
   public:
     void count(const Reading& reading);
 
-    /// Returns a report if the newest frame is at least a second later than the previous report.
+    /// Returns a report if at least one second has passed between the previous report and the
+    /// newest frame, and none otherwise.
     std::optional<CameraReport> take_report();
 
   private:
@@ -30,12 +31,12 @@ class CameraCounter {
 /// Creates the numbered state messages of a robot from its readings.
 class StateSource {
   public:
-    /// `sheets` is the path of the sheet file. Its name without extension is the name of the map of
-    /// world poses. Creates at most `max_rate_hz` states per second, and additional ones for
-    /// events. If `max_rate_hz` is 0, creates a state for each reading.
+    /// `sheets` is the path of the sheet file. Its file name without extension is the name of the
+    /// map of world poses. `max_rate_hz` is the maximum number of states per second, not counting
+    /// states about events. If it is 0, a state is created for every reading.
     StateSource(std::string robot, const std::string& sheets, double max_rate_hz);
 
-    /// Counts the reading. Returns its state, or none if the state is not due.
+    /// Counts a reading. Returns its state, or none if no state is due.
     std::optional<RobotState> next(const Reading& reading);
 
   private:
@@ -47,15 +48,15 @@ class StateSource {
     CameraCounter camera_;
 };
 
-/// Publishes the state of the robot through a broker.
+/// Publishes the states of the robot through the broker.
 class StateOutput : public ReadingSink {
   public:
-    /// `sheets` is the path of the sheet file. Throws Error if the broker refuses the connection.
+    /// `sheets` is the path of the sheet file. Throws Error if the broker rejects the connection.
     StateOutput(const PublishArguments& arguments, const std::string& sheets);
 
     void take(const Reading& reading) override;
 
-    /// Waits up to 2 s until all messages are sent, and reports the number of sent messages. Throws
+    /// Waits up to 2 s for all messages to be sent, and reports the number of sent messages. Throws
     /// Error if no connection to the broker was established.
     void finish() override;
 

@@ -1,5 +1,5 @@
-// Parses state messages with simdjson, because `dotpose fleet` receives tens of thousands of
-// messages per second. simdjson is ten times faster than the JSON library used elsewhere.
+// Parses state messages with simdjson, which is ten times faster than the JSON library used
+// elsewhere. `dotpose fleet` may receive tens of thousands of messages per second.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -21,11 +21,11 @@ namespace {
 
 using simdjson::dom::object;
 
-/// Maximum size of a message in bytes.
+/// Maximum size of a message, in bytes.
 constexpr std::size_t kMaxBytes = 1 << 16;
 
-/// Parses `count` digits from index `first`. `text` must be long enough. Returns -1 if any of the
-/// characters is not a digit.
+/// Parses `count` digits starting at index `first`. `text` must be long enough. Returns -1 if any
+/// of the characters is not a digit.
 int digits(std::string_view text, std::size_t first, std::size_t count) {
     int value = -1;
     const char* const begin = text.data() + first;
@@ -33,8 +33,8 @@ int digits(std::string_view text, std::size_t first, std::size_t count) {
     return error == std::errc() && stop == begin + count ? value : -1;
 }
 
-/// Parses a fraction of a second such as ".123456" into microseconds. Returns 0 for an empty
-/// string, and an empty optional for any other string.
+/// Converts a fraction of a second, such as ".123456", to microseconds. Returns 0 for an empty
+/// string, and none for any other text.
 std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
     if (text.empty()) return 0;
     double fraction_s = 0;
@@ -47,10 +47,10 @@ std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
     return std::llround(fraction_s * 1e6);
 }
 
-/// Thrown if a value of a message is out of range.
+/// Thrown if a value in a message is out of range.
 struct OutOfRange {};
 
-/// Returns a number of a message. Throws simdjson_error if the value is missing or not a number,
+/// Returns a number in a message. Throws simdjson_error if the value is missing or is not a number,
 /// and OutOfRange if its absolute value exceeds `max_magnitude`.
 double bounded(const object& values, std::string_view key, double max_magnitude) {
     const double value = values[key].get_double();
@@ -69,8 +69,8 @@ std::string optional_name_in(const object& values, std::string_view key) {
     return values[key].error() == simdjson::NO_SUCH_FIELD ? std::string() : name_in(values, key);
 }
 
-/// Returns the index of a status name in RefusedFrames. An unknown name has the index of
-/// Status::other.
+/// Returns the index in RefusedFrames for the name of a status. The index of an unknown name is
+/// that of Status::other.
 std::size_t refused_index(std::string_view text) {
     std::size_t i = 0;
     while (i < static_cast<std::size_t>(kStatusCount) && name(static_cast<Status>(i)) != text)
@@ -78,7 +78,7 @@ std::size_t refused_index(std::string_view text) {
     return i;
 }
 
-/// Returns the report of the camera, or an empty optional if the message does not contain one.
+/// Returns the camera report in a message, or none if there is none.
 std::optional<CameraReport> camera_in(const object& message) {
     constexpr double kMax_hz = 1e5;
     object values;
@@ -91,7 +91,7 @@ std::optional<CameraReport> camera_in(const object& message) {
     return camera;
 }
 
-/// Returns a unit quaternion.
+/// Returns a rotation as a unit quaternion. Throws OutOfRange unless its norm is approximately 1.
 Quaternion rotation_in(const object& values) {
     constexpr double kMaxError = 1e-3;
     const Quaternion q{bounded(values, "w", 1), bounded(values, "x", 1), bounded(values, "y", 1),
@@ -101,8 +101,8 @@ Quaternion rotation_in(const object& values) {
     return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
 }
 
-/// Returns the pose of the tracked camera or, if there is none, the pose of the camera in the
-/// newest frame. Returns an empty optional if the message contains neither pose.
+/// Returns the pose of the tracked camera or, if it is missing, the pose of the camera in the
+/// newest frame. Returns none if the message contains neither pose.
 std::optional<CameraInWorld> camera_pose_in(const object& message, double max_m) {
     object values;
     if (message["cameraTrack"].get(values) != simdjson::SUCCESS &&
@@ -169,11 +169,11 @@ simdjson::dom::parser make_parser() {
     return parser;
 }
 
-/// Returns `read(message)`, or an empty optional if the message is invalid.
+/// Returns `read(message)`, or none if the message is invalid.
 template <typename Read>
 auto parsed(std::string_view json, const Read& read) -> std::optional<decltype(read(object()))> {
-    // An empty message removes a robot. Its data pointer may be null, and the parser must not copy
-    // from a null pointer.
+    // An empty message, which removes a robot, may have a null data pointer. The parser must not
+    // copy from a null pointer.
     if (json.empty()) return std::nullopt;
     thread_local simdjson::dom::parser parser = make_parser();
     try {

@@ -10,11 +10,11 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum memory for frames.
+/// Maximum memory for frames, in bytes.
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
-/// Returns true if the dots in the frame may be on two sheets. This is the case if the frame
-/// extends beyond the edge of its sheet, or if the sheet is not known.
+/// Returns true if the frame may show dots of two sheets, either because it extends beyond the edge
+/// of its sheet or because the sheet is unknown.
 bool is_near_edge(const Record& record, ImageView image) {
     if (!record.place) return true;
     const Sheet& sheet = record.place->entry->sheet;
@@ -55,8 +55,8 @@ void StitchJob::offer(const Reading& reading, ImageView image) {
         if (!is_near_edge(reading.record, image) || !places_.take(reading.record.fix, image))
             return;
     } else {
-        // A frame without a fix is also offered, because it may show a seam between two sheets. The
-        // two patterns then prevent a fix.
+        // Frames without a fix are also tried, because a seam between two sheets may be in view.
+        // The two patterns then prevent a fix.
         constexpr std::chrono::milliseconds kPause(500);
         const Clock::time_point now = Clock::now();
         if (now < unlocated_at_ + kPause) return;
@@ -97,12 +97,12 @@ void StitchJob::run() {
     }
 }
 
-/// Returns true if the frame shows two sheets.
+/// Returns true if two sheets are visible in the frame.
 bool StitchJob::shows_seam(const GreyImage& frame) const {
     std::vector<SheetEntry> sheets = sheets_;
-    // `stitch_sheets` throws Error if some sheets of the file have a world pose, but no sheet in
-    // the frame has one. The poses are removed, because this function only checks whether the frame
-    // shows two sheets.
+    // Removes the world poses of the sheets. Otherwise, `stitch_sheets` would throw Error if some
+    // sheets in the file have a world pose but no sheet in this frame has one. The poses are
+    // irrelevant for this test.
     for (SheetEntry& entry : sheets)
         entry.world.reset();
     try {

@@ -1,5 +1,5 @@
-/// Measures the relative places of sheets from the frames of a running camera, in a separate
-/// thread.
+/// Measures the relative places of sheets in a separate thread, using the frames of a running
+/// camera.
 #pragma once
 
 #include <atomic>
@@ -21,31 +21,32 @@ namespace dotpose::cli {
 
 class StitchJob {
   public:
-    /// Maximum number of frames that show two sheets. No further frames are used.
+    /// Maximum number of frames with two sheets in view. Further frames are not used.
     static constexpr std::size_t kMaxFrames = 60;
 
     struct Progress {
-        int tried = 0;             ///< number of frames examined
-        std::size_t used = 0;      ///< number of frames that show two sheets
-        bool is_complete = false;  ///< true if no further frames are used
-        std::string problem;       ///< reason why there is no result yet; may be empty
+        int tried = 0;             ///< number of frames that were examined
+        std::size_t used = 0;      ///< number of frames with two sheets in view
+        bool is_complete = false;  ///< whether the maximum number of frames has been used
+        std::string problem;       ///< reason why there is no result yet, or empty
         std::optional<Stitching> result;
     };
 
-    /// `changed` is called on the thread of the job after each frame.
+    /// `changed` is called in the thread of the job after each frame.
     StitchJob(std::vector<SheetEntry> sheets, std::optional<Camera> camera,
               std::function<void(const Progress&)> changed);
-    /// Stops the measurement after its current frame.
+    /// Stops the measurement after the current frame.
     ~StitchJob();
     StitchJob(const StitchJob&) = delete;
     StitchJob& operator=(const StitchJob&) = delete;
 
-    /// Copies a frame if the job is idle and the frame may show two sheets: it shows a new place
-    /// near the edge of a sheet, or it is not located. `image` is the image that was located.
+    /// Copies a frame if the job is idle and the frame may show two sheets: either it shows a new
+    /// place near the edge of a sheet, or it was not located. `image` is the image that was
+    /// located.
     void offer(const Reading& reading, ImageView image);
 
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
-    /// Returns the newest result, or none.
+    /// Returns the newest result, or none if there is no result yet.
     std::optional<Stitching> result() const;
 
   private:
@@ -60,11 +61,11 @@ class StitchJob {
     std::function<void(const Progress&)> changed_;
     CalibrateOptions options_;
 
-    // Used by `offer` only.
+    // Used only by `offer`.
     NewPlaces places_;
     Clock::time_point unlocated_at_{};
 
-    // Used by the thread of the job only.
+    // Used only by the thread of the job.
     std::vector<GreyImage> frames_;
     std::size_t bytes_ = 0;
     int tried_ = 0;
@@ -75,7 +76,7 @@ class StitchJob {
     bool is_idle_ = true;
     std::atomic<bool> ends_ = false;
     std::optional<Stitching> result_;
-    std::thread thread_;  // last member, because the thread uses the other members
+    std::thread thread_;  // declared last, because the thread uses the other members
 };
 
 }  // namespace dotpose::cli

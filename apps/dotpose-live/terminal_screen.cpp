@@ -14,15 +14,15 @@ namespace dotpose::cli {
 namespace {
 
 // Control sequences of ECMA-48 and xterm. kEnter selects the alternate screen, hides the cursor and
-// disables line wrapping. kLeave reverses this.
+// disables line wrapping, and kLeave undoes this.
 constexpr const char* kEnter = "\033[?1049h\033[?25l\033[?7l";
 constexpr const char* kLeave = "\033[?7h\033[?25h\033[?1049l";
 constexpr std::string_view kTopLeft = "\033[H";
 constexpr std::string_view kEraseRight = "\033[K";
 constexpr std::string_view kEraseBelow = "\033[J";
 
-/// Bytes that terminals send for keys. They are compared in this order, so each sequence must
-/// precede all shorter sequences that are equal to its beginning.
+/// Bytes that terminals send for keys. They are compared in this order, so a sequence must precede
+/// its own prefixes.
 constexpr std::array<std::pair<std::string_view, Key>, 22> kKeys = {{
     {"\033[5~", Key::page_up},
     {"\033[6~", Key::page_down},
@@ -51,7 +51,8 @@ constexpr std::array<std::pair<std::string_view, Key>, 22> kKeys = {{
 }  // namespace
 
 bool TerminalScreen::is_available() {
-    // A program in the background must not change the terminal, because the system would stop it.
+    // A background program must not change the terminal settings, because the system would suspend
+    // it.
     return isatty(STDOUT_FILENO) == 1 && tcgetpgrp(STDOUT_FILENO) == getpgrp();
 }
 

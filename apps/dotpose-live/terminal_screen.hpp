@@ -1,4 +1,4 @@
-/// Displays lines on the whole terminal, and reads keys.
+/// Displays lines of text on the full terminal, and reads keys.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,12 @@ namespace dotpose::cli {
 
 class TerminalScreen {
   public:
-    /// Returns true if standard output is a terminal, and this program is in its foreground.
+    /// Returns true if standard output is a terminal and this program is in the foreground.
     static bool is_available();
 
-    /// Switches to the alternate screen of the terminal. If standard input is a terminal, keys are
-    /// read from it without echo. Ctrl-C still sends SIGINT. The destructor restores the terminal.
+    /// Switches to the alternate screen of the terminal. If standard input is a terminal, also
+    /// starts to read keys from it without echo. Ctrl-C still sends SIGINT. The destructor restores
+    /// the terminal.
     TerminalScreen();
     ~TerminalScreen();
     TerminalScreen(const TerminalScreen&) = delete;
@@ -25,17 +26,17 @@ class TerminalScreen {
 
     ScreenSize size() const;
 
-    /// Returns the next key that was pressed, or nullopt if there is none. Does not wait.
+    /// Returns the next key that was pressed, or none if there is none. Does not block.
     std::optional<Key> next_key();
 
-    /// Replaces the contents of the screen. Longer lines are cut off.
+    /// Replaces the contents of the screen. Lines that are too long are truncated.
     void show(const std::vector<std::string>& lines);
 
   private:
     void read_input();
 
-    std::optional<termios> before_;  ///< settings of the terminal, or none if no keys are read
-    std::string input_;              ///< bytes that are not yet recognized as keys
+    std::optional<termios> before_;  ///< original terminal settings, or none if no keys are read
+    std::string input_;              ///< bytes that have not been recognised as keys yet
 };
 
 }  // namespace dotpose::cli

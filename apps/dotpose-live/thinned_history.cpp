@@ -17,8 +17,8 @@ double rounded_to(double value, double steps) {
     return std::round(value * steps) / steps;
 }
 
-/// Returns the motion that a page shows for a time span that contains two different motions. `lost`
-/// takes precedence over `moving`, and `moving` over `still`.
+/// Returns the motion to display for a time span that contains two different motions. `lost` takes
+/// precedence over `moving`, and `moving` over `still`.
 Motion more_urgent(Motion a, Motion b) {
     const auto rank = [](Motion motion) {
         return motion == Motion::lost ? 2 : motion == Motion::moving ? 1 : 0;
@@ -61,7 +61,7 @@ void ThinnedHistory::add(const store::State& state) {
         thin_out();
 }
 
-/// Doubles the length of all time spans, and merges the points that are then in the same span.
+/// Doubles the length of all time spans, and merges the points that then belong to the same span.
 void ThinnedHistory::thin_out() {
     span_us_ *= 2;
     std::vector<Point> thinned;

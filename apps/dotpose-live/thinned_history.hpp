@@ -1,4 +1,4 @@
-/// Stored states of a robot, thinned by time for a page.
+/// Stored states of a robot, reduced to a limited number of time spans for display on a page.
 #pragma once
 
 #include <array>
@@ -16,32 +16,32 @@ namespace dotpose::cli {
 
 class ThinnedHistory {
   public:
-    /// Adds a state. The states must be in the order of their times.
+    /// Adds a state. States must be added in chronological order.
     void add(const store::State& state);
 
     std::int64_t states() const { return states_; }
 
-    /// Returns one array per member of the points, and the numbers of states by motion.
+    /// Returns an array for each member of the points, and the number of states for each motion.
     /// docs/fleet.md describes the value.
     nlohmann::json value() const;
 
   private:
-    /// Maximum number of points. If there are more, the spans of time become twice as long.
+    /// Maximum number of points. When it is exceeded, the length of the time spans is doubled.
     static constexpr std::size_t kMaxPoints = 2000;
     static constexpr std::size_t kMaxMaps = 100;
 
     struct Place {
         double x_mm = 0;
         double y_mm = 0;
-        std::size_t map = 0;  ///< index in `maps_`
+        std::size_t map = 0;  ///< index into `maps_`
     };
-    /// The states of a span of time.
+    /// The states in a time span.
     struct Point {
-        std::int64_t span = 0;       ///< index of the span of time
+        std::int64_t span = 0;       ///< index of the time span
         std::int64_t time_us = 0;    ///< time of the first state
-        std::optional<Place> place;  ///< first known place, if any
+        std::optional<Place> place;  ///< first known place, or none
         double speed_mm_s = 0;       ///< maximum speed
-        /// `lost` if any state is lost, otherwise `moving` if any state is moving.
+        /// `lost` if any state is lost, else `moving` if any state is moving, else `still`.
         store::Motion motion = store::Motion::still;
     };
 
@@ -50,10 +50,10 @@ class ThinnedHistory {
     void thin_out();
 
     std::int64_t states_ = 0;
-    std::array<std::int64_t, 3> counts_{};  ///< states by motion
+    std::array<std::int64_t, 3> counts_{};  ///< number of states for each motion
     std::int64_t first_us_ = 0;
     std::int64_t last_us_ = 0;
-    std::int64_t span_us_ = 100'000;  ///< length of the spans of time
+    std::int64_t span_us_ = 100'000;  ///< length of a time span
     double max_speed_mm_s_ = 0;
     std::vector<std::string> maps_;
     std::vector<Point> points_;

@@ -72,7 +72,7 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Reports on standard error why most frames fail, and the first warning of each kind.
+/// Reports on standard error why most frames fail. Also reports the first warning of each kind.
 void report_problems(const Reading& reading, ImageView image, const Follower& follower,
                      double bits_per_px, FailureHint& hint,
                      std::array<bool, kWarnings>& was_reported) {
@@ -87,12 +87,12 @@ void report_problems(const Reading& reading, ImageView image, const Follower& fo
 
 FollowerOptions options_of(const WatchArguments& arguments) {
     FollowerOptions options = arguments.follower.read();
-    options.locate.show_stages = true;  // the window and the recording show the stages
+    options.locate.show_stages = true;  // the window and the recording display the stages
     options.track.spacing_mm = static_cast<float>(options.spacing_mm);
     return options;
 }
 
-/// Saves a frame in its original form, without inversion and flip.
+/// Saves a frame in its original form, undoing inversion and flip.
 void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArguments& arguments) {
     const auto undo_or_redo = [&] {
         if (arguments.follower.is_inverted) invert(image);
@@ -103,12 +103,12 @@ void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArgume
     undo_or_redo();
 }
 
-/// Delays each recorded frame until its recording time.
+/// Delays each recorded frame until its time in the recording.
 class Pace {
   public:
     void wait_for(const capture::Frame& frame) {
         using namespace std::chrono;
-        // A live frame is due on arrival. The first recorded frame is due immediately.
+        // A live frame is due when it arrives, and the first recorded frame is due immediately.
         if (frame.is_live) return;
         if (!begun_) begun_ = steady_clock::now() - microseconds(frame.time_us);
         const auto due = *begun_ + microseconds(frame.time_us);
@@ -119,13 +119,13 @@ class Pace {
     }
 
   private:
-    /// Value of the steady clock at which the time of the source is 0. Empty before the first
+    /// Time on the steady clock that corresponds to time 0 of the source, or none before the first
     /// recorded frame.
     std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
-/// Warns on standard error if a sheet has no world pose. Also warns if poses are published without
-/// sheets, because these poses are not in world coordinates.
+/// Warns on standard error about sheets without a world pose. Also warns if poses are published
+/// without a sheet file, because they are then not in world coordinates.
 void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follower) {
     const OutputOptions& outputs = arguments.outputs;
     const bool is_published = !outputs.publish.mqtt.url.empty() || outputs.messages.is_wanted();
@@ -148,7 +148,7 @@ void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follow
     tell(follower.is_in_world() ? fmt::format(kPartly, unplaced->name) : kPattern);
 }
 
-/// Returns the number of frames to follow, or 0 if unknown.
+/// Returns the number of frames to process, or 0 if unknown.
 std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
                        const capture::FrameSource& source) {
     if (arguments.frames > 0) return arguments.frames;
@@ -156,7 +156,7 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
     return images > 0 ? images : source.length();
 }
 
-/// If the page or another program changed the sheets, uses the new sheets for the next frames.
+/// Applies changes of the sheets, made on the page or by another program, to the following frames.
 void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     std::optional<std::vector<SheetEntry>> sheets = outputs.take_changed_sheets();
     if (!sheets) return;
@@ -170,7 +170,7 @@ void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     outputs.use_sheets(was_in_world);
 }
 
-/// If a new camera was calibrated in the page, uses it for the next frames.
+/// Uses a camera that was calibrated on the page for the following frames.
 void use_calibrated_camera(WatchOutputs& outputs, Follower& follower) {
     const std::optional<Camera> camera = outputs.take_camera();
     if (!camera) return;
@@ -178,7 +178,7 @@ void use_calibrated_camera(WatchOutputs& outputs, Follower& follower) {
     tell("a calibration was saved in the page; the next frames are located with it");
 }
 
-/// Follows the robot over all frames. `length` is the number of frames, or 0 if unknown. Returns
+/// Follows the robot through all frames. `length` is the number of frames, or 0 if unknown. Returns
 /// the exit status. Throws BadArgument if the arguments do not match the frames.
 int follow(const WatchArguments& arguments, capture::FrameSource& source, std::int64_t length,
            Follower& follower, std::optional<FrameSaver>& saver, WatchOutputs& outputs,
@@ -205,15 +205,15 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     } catch (const BadArgument&) {
         throw;
     } catch (const Error& error) {
-        // Returns an exit status instead of throwing, because the map and the report must include
-        // the frames before the failure.
+        // Returns an exit status rather than throwing, because the map and the report must still be
+        // written for the frames before the failure.
         tell(error.what());
         return kExitFailed;
     }
     return 0;
 }
 
-/// Returns the options of the page, or an empty optional without --web.
+/// Returns the options of the web page, or none if --web is not given.
 std::optional<WebOptions> web_options(const WatchArguments& arguments, const Follower& follower) {
     const auto server = arguments.web.options();
     if (!server) return std::nullopt;
@@ -244,7 +244,7 @@ void print_cameras() {
     }
 }
 
-/// Returns the exit status.
+/// Runs the command and returns the exit status.
 int run(WatchArguments& arguments) {
     if (arguments.lists_cameras) {
         print_cameras();
@@ -304,7 +304,7 @@ int run(WatchArguments& arguments) {
     report(outputs, source->dropped());
     if (saver) tell(fmt::format("{} frames saved in {}", saver->saved(), arguments.save.folder));
     if (const std::string why = hint.at_end(); !why.empty()) tell(why);
-    // Unreadable images are skipped, but the run fails if no image at all could be read.
+    // Unreadable images are skipped, but the run fails if none of the images could be read.
     return is_unreadable && outputs.tally().frames == 0 ? kExitFailed : exit_code;
 }
 

@@ -1,4 +1,4 @@
-// Options of `dotpose watch`.
+// Command-line options of `dotpose watch`.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct DdsArguments {
     std::optional<int> domain;
 
     void add_to(Command& command);
-    /// Returns the options of the DDS publisher, or none without --dds. Throws BadArgument if
-    /// ROS_DOMAIN_ID is needed and is not a valid domain.
+    /// Returns the options of the DDS publisher, or none if --dds is not given. Throws BadArgument
+    /// if the domain is taken from ROS_DOMAIN_ID and is invalid.
     std::optional<dds::PublisherOptions> publisher() const;
 };
 
@@ -39,7 +39,7 @@ struct WatchArguments {
     bool lists_cameras = false;
     bool has_no_window = false;
     bool is_realtime = false;
-    std::int64_t frames = 0;  ///< number of frames to take, or 0 for no limit
+    std::int64_t frames = 0;  ///< number of frames to process, or 0 for no limit
 
     void add_to(Command& command);
 };

@@ -11,11 +11,11 @@
 
 namespace dotpose::cli {
 
-/// Thread-safe.
+/// Collects the metrics of a run. Thread-safe.
 class WatchMetrics {
   public:
-    /// Counts a frame with this status. `tally` already includes the frame. `dropped` is the number
-    /// of frames that were dropped since the start.
+    /// Counts a frame with the given status. `tally` already includes the frame. `dropped` is the
+    /// total number of dropped frames.
     void take(Status status, const WatchTally& tally, std::int64_t dropped, double rate_hz);
 
     /// Returns the metrics in the text format of Prometheus.
@@ -23,7 +23,7 @@ class WatchMetrics {
 
   private:
     mutable std::mutex mutex_;
-    RefusedFrames frames_{};  ///< by status; the element of Status::ok counts located frames
+    RefusedFrames frames_{};  ///< number of frames by status, including Status::ok
     WatchTally tally_;
     std::int64_t dropped_ = 0;
     double rate_hz_ = 0;

@@ -85,8 +85,8 @@ std::optional<Camera> WatchOutputs::take_camera() {
     return camera;
 }
 
-/// Writes a line. If the reader has closed the pipe, no more lines are written, but the other
-/// outputs continue.
+/// Writes a line. If the reader has closed the pipe, stops writing lines but keeps the other
+/// outputs.
 void WatchOutputs::write_line(const std::string& line) {
     if (!lines_) return;
     try {
@@ -130,7 +130,7 @@ std::optional<std::vector<SheetEntry>> WatchOutputs::take_changed_sheets() {
 
 void WatchOutputs::use_sheets(bool was_in_world) {
     sheets_ = map_sheets(follower_.sheets(), plane_of(follower_));
-    // Starts a new path, because the previous points are in a different plane.
+    // Starts a new path, because the earlier points are in a different plane.
     if (was_in_world != follower_.is_in_world()) path_ = PathMemory();
     if (web_) web_->use_sheets();
 }

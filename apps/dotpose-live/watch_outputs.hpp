@@ -23,12 +23,12 @@ namespace dotpose::cli {
 
 struct OutputOptions {
     LineArguments lines;
-    // Outputs with an empty path are not written.
-    std::string log;              ///< CSV file of all frames
-    std::string map;              ///< SVG file of the path, written at the end
-    std::string packets;          ///< file or device for pose packets
+    // An output with an empty path is not written.
+    std::string log;              ///< path of a CSV file with all frames
+    std::string map;              ///< path of an SVG of the robot's path, written at the end
+    std::string packets;          ///< path of a file or device for pose packets
     RobotOutputOptions messages;  ///< ROS messages
-    PublishArguments publish;     ///< the broker, and the name of the robot
+    PublishArguments publish;     ///< the MQTT broker and the name of the robot
     std::string sheets;           ///< path of the sheet file
     video::ScreenOptions screen;
     std::optional<WebOptions> web;  ///< none if there is no page
@@ -37,8 +37,8 @@ struct OutputOptions {
 /// Writes pose packets to a file or serial device.
 class PacketOutput {
   public:
-    /// Opens the file or device. Throws Error on failure. `write` also throws Error on failure, but
-    /// ReaderLeft if the output is a pipe that its reader has closed.
+    /// Opens the file or device. Throws Error on failure. `write` throws ReaderLeft if the output
+    /// is a pipe whose reader has closed it, and Error on any other failure.
     explicit PacketOutput(const std::string& path);
     ~PacketOutput();
     PacketOutput(const PacketOutput&) = delete;
@@ -55,26 +55,26 @@ class WatchOutputs {
     /// Throws Error if an output cannot be opened.
     WatchOutputs(const OutputOptions& options, const Follower& follower);
 
-    /// Writes the outputs of a frame. Returns false if the user closed the window, or if no output
-    /// is left because all readers closed their pipes. Throws Error if an output cannot be written.
+    /// Writes the outputs for a frame. Returns false if the user closed the window, or if no output
+    /// is left because the readers of all pipes have closed them. Throws Error if an output cannot
+    /// be written.
     bool take(const capture::Frame& frame, const Reading& reading, const SourceState& source);
 
-    /// Returns the camera that was calibrated in the page since the previous call, or none.
+    /// Returns the camera that was calibrated on the page since the previous call, or none.
     std::optional<Camera> take_camera();
 
-    /// Writes the map, completes the recording and sends the last states. Throws Error on failure.
+    /// Writes the map, finishes the recording and sends the last states. Throws Error on failure.
     void finish();
 
-    /// Returns the sheets if the page or another program changed them since the previous call.
-    /// Returns none otherwise, and always without a page.
+    /// Returns the sheets if they were changed, on the page or by another program, since the
+    /// previous call. Returns none otherwise, or if there is no page.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
-    /// Shows the new sheets of the follower. `was_in_world` is true if the poses of the earlier
-    /// frames are in world coordinates. If the poses of later frames are not in the same plane, the
-    /// path begins again.
+    /// Displays the new sheets of the follower. `was_in_world` states whether the earlier poses are
+    /// in world coordinates. If the plane of the poses changes, a new path is started.
     void use_sheets(bool was_in_world);
 
     const WatchTally& tally() const { return tally_; }
-    /// Returns the mean number of frames per second of real time.
+    /// Returns the mean number of frames per second of wall-clock time.
     double rate() const;
 
   private:

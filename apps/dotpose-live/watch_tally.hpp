@@ -1,4 +1,4 @@
-/// Number of frames, fixes and events of a run.
+/// Numbers of frames, fixes and events in a run.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Command-line options of the page in the browser.
+/// Command-line options for a web page.
 #pragma once
 
 #include <optional>
@@ -20,9 +20,9 @@ class WebArguments {
     /// Returns true if --web is given.
     bool is_wanted() const { return !page_.address.empty(); }
 
-    /// Returns the options of the server, or none without --web. The caller must add the pages. If
-    /// the server is reachable from other computers and no token file is given, creates a token.
-    /// Throws BadArgument or Error if the options are invalid.
+    /// Returns the options of the server, or none if --web is not given. The caller must add the
+    /// pages. Creates a token if the server is reachable from other computers and no token file is
+    /// given. Throws BadArgument or Error if the options are invalid.
     std::optional<serve::ServerOptions> options() const;
 
     const std::string& token_file() const { return page_.token_file; }

@@ -62,8 +62,7 @@ json json_of(const CalibrationStatus& status) {
             {"is_taken", status.is_taken}};
 }
 
-/// Returns the mean residuals of the image blocks as lists in which the u and v components
-/// alternate.
+/// Returns the mean residual of each image block as lists of alternating u and v components.
 json json_of(const ResidualField& field) {
     json before = json::array();
     json after = json::array();
@@ -81,7 +80,7 @@ json json_of(const ResidualField& field) {
             {"after", std::move(after)}};
 }
 
-/// Returns the rows of a report (calibrate_report.hpp), each with its label and its text.
+/// Returns the rows of a report (calibrate_report.hpp), each with a label and a text.
 json rows_of(std::string_view report) {
     constexpr std::size_t kLabelColumns = 12;
     json rows = json::array();
@@ -112,8 +111,8 @@ std::string sigma_text(const Camera& camera, const char* key, double factor, int
     return sigma == camera.sigma.end() ? "" : plus_minus(factor * sigma->second, digits);
 }
 
-/// Describes the lens. Returns an empty string for a lens without distortion and without standard
-/// deviations, because it was not calibrated.
+/// Describes the lens. Returns an empty string for a lens that was not calibrated, which has
+/// neither distortion nor standard deviations.
 std::string lens_text(const Camera& camera) {
     constexpr std::array kSigmas = {"k_per_px2", "centre_u_px", "centre_v_px"};
     const auto is_known = [&camera](const char* key) { return camera.sigma.contains(key); };
@@ -143,7 +142,7 @@ std::string tip_text(const Camera& camera) {
                        sigma_text(camera, "tip_z_mm", 1, 4));
 }
 
-/// Returns the values in the camera file, by step. The text of a missing value is empty.
+/// Returns the values in the camera file, grouped by step. The text for a missing value is empty.
 json values_of(const std::optional<Camera>& camera) {
     json values = {{"lens", ""}, {"spin", ""}, {"drive", ""}, {"readout", ""}, {"pivot", ""}};
     if (!camera) return values;

@@ -1,4 +1,4 @@
-/// The page `/calibration` of `dotpose watch --web`: its topic `calibration` and its commands.
+/// The page `/calibration` of `dotpose watch --web`: the topic `calibration`, and its commands.
 #pragma once
 
 #include <chrono>
@@ -14,20 +14,20 @@ namespace dotpose::cli {
 
 class WebCalibration {
   public:
-    /// Adds the topic to the server, which must not have started. If `options` is none, the page
-    /// explains how to enable the calibration, and commands are refused.
+    /// Adds the topic to the server, which must not have been started. If `options` is none, the
+    /// page explains how to enable calibration, and all commands are rejected.
     WebCalibration(std::optional<GuideOptions> options, serve::Server& server);
 
-    /// Obeys {"do": "calibrate", "action": "start", "step": NAME}, or the action "finish", "cancel"
-    /// or "save". Refuses commands with other arguments, such as the name of a file, and reports
-    /// them at most every 10 s.
+    /// Executes {"do": "calibrate", "action": "start", "step": NAME}, or a command with the action
+    /// "finish", "cancel" or "save". Rejects commands with other arguments, such as a file name,
+    /// and reports such commands at most once every 10 s.
     void obey(const serve::Command& command);
 
-    /// Calibrates with these sheets from now on.
+    /// Uses these sheets in later calibrations.
     void set_sheets(std::vector<SheetEntry> sheets);
 
-    /// Offers a frame to the running step, and sends the state if it has changed. `image` is the
-    /// image that was located, or empty.
+    /// Offers a frame to the current step, and publishes the state if it has changed. `image` is
+    /// the image that was located, or empty.
     void take(const capture::Frame& frame, const Reading& reading, ImageView image,
               double bits_per_px);
 
@@ -43,7 +43,7 @@ class WebCalibration {
     serve::Server& server_;
     serve::Topic& topic_;
     std::optional<CalibrationGuide> guide_;
-    std::optional<std::uint64_t> published_;  ///< version of the newest published state
+    std::optional<std::uint64_t> published_;  ///< version of the last published state
     Clock::time_point next_{};
     Clock::time_point next_report_{};
 };

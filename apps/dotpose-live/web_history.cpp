@@ -22,14 +22,14 @@
 
 namespace dotpose::cli {
 
-/// Time span that a page shows, in s: either the last `last_s`, or from `from_s` to `to_s`, which
-/// are relative to 1970.
+/// Request for the states of a robot. The time span is either the last `last_s` seconds, or the
+/// range from `from_s` to `to_s` in seconds since 1970.
 struct HistoryRequest {
     std::string robot;
     double last_s = 0;
     double from_s = 0;
     double to_s = 0;
-    double ask = 0;  ///< number chosen by the page; a new number reads the same time span again
+    double ask = 0;  ///< changed by the page to read the same time span again
     bool operator==(const HistoryRequest&) const = default;
 };
 
@@ -41,7 +41,7 @@ constexpr std::size_t kMaxQueries = 8;
 constexpr std::size_t kMaxHistories = 16;
 constexpr std::size_t kMaxRobotName = 400;
 constexpr double kMaxSpan_s = 31 * 86'400.0;
-/// Latest time of a request: the year 2100.
+/// Maximum time in a request: the year 2100.
 constexpr double kMaxTime_s = 4.1e9;
 /// Maximum number of states that a query reads: 23 days of a robot at 10 Hz.
 constexpr std::int64_t kMaxReadStates = 20'000'000;
@@ -53,8 +53,7 @@ double seconds_of(const serve::Command& request, std::string_view key, double ma
     throw BadArgument(fmt::format("{} must be a number from 0 to {:.0f}", key, max));
 }
 
-/// Returns the request, or an empty optional if no robot is given. Throws BadArgument if the
-/// request is invalid.
+/// Returns the request, or none if it names no robot. Throws BadArgument if the request is invalid.
 std::optional<HistoryRequest> request_of(const serve::Command& command) {
     const auto* robot = command.argument<std::string>("robot");
     if (robot == nullptr) return std::nullopt;
@@ -95,10 +94,10 @@ std::string problem_text(json value, const std::string& problem) {
 
 struct WebHistory::Queries {
     std::string where;
-    std::mutex mutex;  ///< guards the following members
+    std::mutex mutex;  ///< protects the following members
     std::condition_variable changed;
     bool ends = false;
-    std::deque<HistoryRequest> waiting;  ///< the first one is being read
+    std::deque<HistoryRequest> waiting;  ///< queued requests, the first of which is being read
     std::deque<std::pair<HistoryRequest, std::string>> results;
 
     bool is_ending() {
@@ -111,7 +110,7 @@ struct WebHistory::Queries {
 };
 
 /// Returns the value for a client. Must not wait for the database, because it is called in the
-/// thread of the server.
+/// server's thread.
 std::string WebHistory::Queries::value_for(const serve::Command& command) {
     try {
         const std::optional<HistoryRequest> request = request_of(command);
@@ -137,7 +136,7 @@ std::string WebHistory::Queries::value_for(const serve::Command& command) {
 }
 
 std::string WebHistory::Queries::read_states(const HistoryRequest& request) {
-    /// Thrown to end a query.
+    /// Thrown to end a query early.
     struct Enough {};
     ThinnedHistory history;
     bool is_cut = false;
@@ -157,7 +156,7 @@ std::string WebHistory::Queries::read_states(const HistoryRequest& request) {
     return text_of(value);
 }
 
-/// Returns the states, or the reason why there are none.
+/// Returns the states, or the reason why they cannot be read.
 std::string WebHistory::Queries::read(const HistoryRequest& request) {
     try {
         return read_states(request);
@@ -182,7 +181,7 @@ WebHistory::~WebHistory() {
     thread_.join();
 }
 
-/// Sends each client the result of its request, if there is one.
+/// Sends the result of its request to each client, if the result is available.
 void WebHistory::publish() {
     server_.publish_for_each(topic_, [queries = queries_](const serve::Command& request) {
         return queries->value_for(request);

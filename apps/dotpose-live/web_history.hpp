@@ -1,7 +1,7 @@
-/// The topic `history` of the page of `dotpose fleet --web --store`: stored states of a robot.
+/// The topic `history` on the page of `dotpose fleet --web --store`: the stored states of a robot.
 ///
-/// A thread with a low priority reads the database, with a connection of its own. The live values
-/// of the page do not wait for it.
+/// A low-priority thread reads the database through its own connection, so the live values on the
+/// page are not delayed.
 #pragma once
 
 #include <memory>
@@ -29,8 +29,8 @@ class WebHistory {
 
     serve::Server& server_;
     serve::Topic& topic_;
-    std::shared_ptr<Queries> queries_;  ///< shared with the thread of the server
-    std::thread thread_;                // last member, because the thread uses the other members
+    std::shared_ptr<Queries> queries_;  ///< shared with the server's thread
+    std::thread thread_;                // declared last, because the thread uses the other members
 };
 
 }  // namespace dotpose::cli

@@ -1,5 +1,5 @@
-/// Files of the pages of `dotpose watch --web` and `dotpose fleet --web`, built from web/ and
-/// embedded by CMake.
+/// The files of the pages of `dotpose watch --web` and `dotpose fleet --web`, which CMake builds
+/// from web/ and embeds.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace dotpose::cli {
 
-/// Return the files, or none if this program was built without the pages.
+/// Return the files, or an empty span if the program was built without the pages.
 std::span<const serve::Page> live_pages();
 std::span<const serve::Page> fleet_pages();
 

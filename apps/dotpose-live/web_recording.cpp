@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kLogEnding = ".csv";
 constexpr const char* kMessagesEnding = ".mcap";
 
-/// Returns a name for a recording, without characters that are special in paths or URLs.
+/// Returns a name for a recording, without characters that have a special meaning in paths or URLs.
 std::string name_at(const std::string& robot, std::time_t now) {
     std::tm utc{};
     gmtime_r(&now, &utc);
@@ -85,8 +85,8 @@ void WebRecordings::stop() {
     files_.push_back(name_ + kMessagesEnding);
 }
 
-/// Measures the free space of the disk at most once a second. Returns true only if this call has
-/// measured the space and found less than 256 MiB.
+/// Measures the free disk space at most once per second. Returns true only if this call measured
+/// the space and found less than 256 MiB.
 bool WebRecordings::is_disk_full() {
     constexpr std::uintmax_t kReserve_bytes = 256 << 20;
     const auto now = std::chrono::steady_clock::now();

@@ -1,5 +1,5 @@
-/// Recordings that are started and stopped in the page of `dotpose watch --web`: a CSV log and an
-/// MCAP file each.
+/// Recordings that are started and stopped on the page of `dotpose watch --web`. Each consists of a
+/// CSV log and an MCAP file.
 #pragma once
 
 #include <chrono>
@@ -17,31 +17,32 @@ namespace dotpose::cli {
 
 class WebRecordings {
   public:
-    /// `messages` describes the robot; the MCAP file and the DDS publisher in it are ignored.
-    /// `empty` is a record without a fix that has the fields of the run.
+    /// `messages` describes the robot. Its MCAP file and its DDS publisher are ignored. `empty` is
+    /// a record without a fix that has the fields of the run.
     WebRecordings(std::filesystem::path folder, RobotOutputOptions messages, Record empty);
 
-    /// Starts a recording, unless one is running. Creates new files, named after the robot and the
-    /// time. If they cannot be written, `notice` contains the reason.
+    /// Starts a recording unless one is already running. Creates new files, which are named after
+    /// the robot and the time. If they cannot be created, `notice` returns the reason.
     void start();
 
-    /// Records a frame. Stops if a file cannot be written or if the disk is almost full.
+    /// Records a frame. Stops the recording if a file cannot be written or the disk is almost full.
     void take(const capture::Frame& frame, const Reading& reading);
 
-    /// Completes the files of a running recording.
+    /// Stops a running recording and finishes its files.
     void stop();
 
-    /// Sets the camera of the next recording.
+    /// Sets the camera for later recordings.
     void set_camera(const Camera& camera) { messages_.camera = camera; }
 
     bool is_running() const { return running_.has_value(); }
-    /// Returns the name of the newest recording, without file extensions; empty if there is none.
+    /// Returns the name of the newest recording without file extension, or an empty string if there
+    /// is none.
     const std::string& name() const { return name_; }
-    /// Returns the number of frames of the newest recording.
+    /// Returns the number of frames in the newest recording.
     std::int64_t frames() const { return frames_; }
-    /// Returns a message for the user, or an empty string.
+    /// Returns a message for the user, or an empty string if there is none.
     const std::string& notice() const { return notice_; }
-    /// Returns the names of all completed files, oldest first.
+    /// Returns the names of all finished files, oldest first.
     const std::vector<std::string>& files() const { return files_; }
     std::filesystem::path path_of(const std::string& file) const { return folder_ / file; }
 

@@ -20,7 +20,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum time to wait while another program holds the lock of the sheet file.
+/// Maximum time to wait for another program to release the lock of the sheet file.
 constexpr double kMaxWait_s = 3;
 constexpr std::chrono::milliseconds kRefreshPeriod(300);
 constexpr std::size_t kMaxWaiting = 16;
@@ -38,7 +38,7 @@ const T& require(const serve::Command& command, std::string_view key) {
     return *value;
 }
 
-/// Returns the id of a command, or an empty string if there is none or it is too long.
+/// Returns the id of a command, or an empty string if it is missing or too long.
 std::string id_of(const serve::Command& command) {
     const std::string* id = command.argument<std::string>("id");
     return id != nullptr && id->size() <= kMaxIdLength ? *id : std::string();
@@ -156,7 +156,7 @@ void WebSheets::run() {
     measure(false);
 }
 
-/// Reads the sheet file if another program changed it.
+/// Reads the sheet file if another program has changed it.
 void WebSheets::refresh() {
     if (edits_.refresh()) publish_sheets();
 }
@@ -169,8 +169,8 @@ void WebSheets::answer_to(const serve::Command& command) {
     } catch (const std::exception& error) {
         given.message = error.what();
     }
-    // Publishes the sheets before the answer, so that a page shows the current values when the
-    // answer arrives, even if the change was refused.
+    // Publishes the sheets before the answer, even if the change was rejected. The page then
+    // already displays the current values when the answer arrives.
     publish_sheets();
     answer(std::move(given));
 }
@@ -264,7 +264,7 @@ void WebSheets::print_new(const serve::Command& command, SheetAnswer& answer) {
     answer.name = entry.name;
 }
 
-/// Makes the PDF of a sheet available for download. Only the newest PDFs are kept.
+/// Offers the PDF of a sheet for download. Only the newest PDFs are kept.
 void WebSheets::offer_pdf(const SheetEntry& entry, SheetAnswer& answer) {
     const auto bytes =
         std::make_shared<const std::string>(pdf_of(entry, [this] { return !ends_.load(); }));
@@ -282,14 +282,14 @@ void WebSheets::offer_pdf(const SheetEntry& entry, SheetAnswer& answer) {
     answer.message = fmt::format("The PDF of {} is ready.", printable(entry.name));
 }
 
-/// Starts a measurement with the current sheets, or discards the running measurement.
+/// Starts a measurement of the current sheets if `is_on` is true. Discards a running measurement.
 void WebSheets::measure(bool is_on) {
     std::shared_ptr<StitchJob> job;
     {
         const std::lock_guard lock(mutex_);
         std::swap(job, job_);
     }
-    job.reset();  // waits for the thread of the job, which may still publish
+    job.reset();  // waits for the thread of the job, which may still be publishing
     publish_measurement(nullptr);
     if (!is_on) return;
     edits_.refresh();
@@ -342,7 +342,8 @@ void WebSheets::answer(SheetAnswer answer) {
     server_.publish(topics_.answers, [text = text_of(answers_message(answers_))] { return text; });
 }
 
-/// Publishes the sheets to the pages, and passes them to the thread that follows the robot.
+/// Publishes the sheets to the pages, and makes them available to the thread that follows the
+/// robot.
 void WebSheets::publish_sheets() {
     server_.publish(topics_.sheets,
                     [text = text_of(sheets_message(edits_, options_.may_edit))] { return text; });

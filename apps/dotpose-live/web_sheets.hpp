@@ -1,8 +1,7 @@
-/// The view of the sheets in the page of `dotpose watch --web`. docs/web.md describes its topics
-/// and commands.
+/// The sheets on the page of `dotpose watch --web`. docs/web.md describes the topics and commands.
 ///
-/// A separate thread reads and changes the sheet file and prints sheets, because another program
-/// may hold the lock of the file, and large pages take seconds.
+/// A separate thread reads and changes the sheet file and creates PDFs. This may take seconds,
+/// because another program may hold the lock of the file, and because pages may be large.
 #pragma once
 
 #include <atomic>
@@ -25,15 +24,15 @@
 namespace dotpose::cli {
 
 struct WebSheetsOptions {
-    std::string path;       ///< sheet file
-    bool may_edit = false;  ///< true if pages may change the sheet file and print sheets
+    std::string path;       ///< path of the sheet file
+    bool may_edit = false;  ///< whether pages may change the sheet file and print sheets
     std::optional<Camera> camera;
 };
 
-/// Topics about sheets. They also exist without a sheet file, because pages always subscribe to
+/// Topics about sheets. They exist even without a sheet file, because pages always subscribe to
 /// them.
 struct SheetTopics {
-    /// Adds the topics. The server must not be started yet.
+    /// Adds the topics to the server, which must not have been started.
     explicit SheetTopics(serve::Server& server);
 
     serve::Topic& sheets;
@@ -43,28 +42,28 @@ struct SheetTopics {
 
 class WebSheets {
   public:
-    /// Reads the sheet file. The server must outlive this object. Throws Error if the file cannot
-    /// be read.
+    /// Reads the sheet file. `server` must outlive this object. Throws Error if the file cannot be
+    /// read.
     WebSheets(WebSheetsOptions options, serve::Server& server, const SheetTopics& topics);
-    /// Ends running work. A change of the sheet file that has begun is completed.
+    /// Aborts running work, but completes a change of the sheet file that has already begun.
     ~WebSheets();
     WebSheets(const WebSheets&) = delete;
     WebSheets& operator=(const WebSheets&) = delete;
 
-    /// Publishes the sheets. Call this function after the server was started.
+    /// Publishes the sheets. Must be called after the server was started.
     void start();
 
-    /// Uses this camera in measurements that start from now on.
+    /// Uses this camera in later measurements.
     void set_camera(const Camera& camera);
 
-    /// Obeys a command of a page. Returns false if the command is not about sheets.
+    /// Executes a command from a page. Returns false if the command is not about sheets.
     bool obey(const serve::Command& command);
 
-    /// Offers a frame to a running measurement. `image` is the located image.
+    /// Offers a frame to a running measurement. `image` is the image that was located.
     void take(const Reading& reading, ImageView image);
 
-    /// Returns the sheets if a page or another program changed them since the previous call,
-    /// otherwise none.
+    /// Returns the sheets if a page or another program has changed them since the previous call,
+    /// and none otherwise.
     std::optional<std::vector<SheetEntry>> take_changed();
 
   private:
@@ -87,11 +86,11 @@ class WebSheets {
     serve::Server& server_;
     SheetTopics topics_;
 
-    // Used by the thread only.
+    // Used only by the thread.
     SheetEdits edits_;
-    std::deque<std::string> pdf_paths_;         ///< paths of the PDFs that can be downloaded
+    std::deque<std::string> pdf_paths_;         ///< paths of the downloadable PDFs
     std::int64_t taken_version_ = 0;            ///< version of the sheets in `changed_`
-    std::int64_t pdfs_ = 0;                     ///< number of PDFs made
+    std::int64_t pdfs_ = 0;                     ///< number of PDFs created so far
     std::vector<SheetEdits::Target> measured_;  ///< sheets at the start of the measurement
 
     std::mutex mutex_;
@@ -101,7 +100,7 @@ class WebSheets {
     std::optional<std::vector<SheetEntry>> changed_;
     std::shared_ptr<StitchJob> job_;
     std::atomic<bool> ends_ = false;
-    std::thread thread_;  // last member, because the thread uses the other members
+    std::thread thread_;  // declared last, because the thread uses the other members
 };
 
 }  // namespace dotpose::cli

@@ -29,10 +29,10 @@ constexpr milliseconds kSlowPeriod{1000};
 constexpr milliseconds kAdvicePeriod{2000};
 constexpr int kMaxSide_px = 1280;
 constexpr int kMaxSmallSide_px = 480;
-/// Maximum number of points of the path that a message contains.
+/// Maximum number of path points in a message.
 constexpr std::size_t kMaxPathPoints = 2000;
 
-/// Removes user and password from the URL of a camera.
+/// Removes the user name and the password from a camera URL.
 std::string without_user(const std::string& source) {
     const std::size_t scheme = source.find("://");
     if (scheme == std::string::npos) return source;
@@ -79,8 +79,8 @@ WebView::WebView(WebOptions options, const Follower& follower)
     }
     server_.start();
     if (sheet_view_) sheet_view_->start();
-    // The page offers the log only if the log is a regular file, because the data of a pipe are
-    // available only to its reader.
+    // The log is offered for download only if it is a regular file. The data in a pipe are only
+    // available to its reader.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
         server_.set_route("/log.csv", [log = options_.log] {
@@ -138,8 +138,8 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Wa
                       source.bits_per_px);
 }
 
-/// Returns the frame if the located image is a reduced copy of it. Otherwise returns the located
-/// image.
+/// Returns the full frame if the located image is a reduced copy of it, and the located image
+/// otherwise.
 ImageView WebView::image_for_calibration(const capture::Frame& frame) const {
     const ImageView located = follower_.image();
     return located.width_px == frame.image.width_px ? located : frame.image.view();
@@ -167,7 +167,7 @@ void WebView::publish_frame(const Reading& reading, Clock::time_point now) {
     const bool is_small = is_time_for(small_frame_, small_timer_, kFramePeriod, now);
     if (!is_large && !is_small) return;
     const ImageView image = follower_.image();
-    // The thread of the server encodes the images of both sizes from the same copy.
+    // The server's thread encodes the images of both sizes from one shared copy.
     const auto shot = std::make_shared<const std::pair<GreyImage, serve::FrameOverlay>>(
         copy_of(image), serve::overlay_of(image, follower_.trace()));
     const auto encoder = [shot, index = reading.index](int max_side_px) {
@@ -273,8 +273,8 @@ void WebView::obey() {
     }
 }
 
-/// Adds the routes of completed recordings. Each file has its own route, so requests cannot read
-/// any other file.
+/// Adds a route for each finished recording. Since each file has a route of its own, requests
+/// cannot read any other files.
 void WebView::offer_recordings() {
     const std::vector<std::string>& files = recordings_.files();
     for (; offered_ < files.size(); ++offered_) {

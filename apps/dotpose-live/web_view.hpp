@@ -1,4 +1,4 @@
-/// The page of `dotpose watch --web`. docs/web.md describes its topics.
+/// The page of `dotpose watch --web`. docs/web.md describes the topics.
 #pragma once
 
 #include <chrono>
@@ -26,44 +26,44 @@ namespace dotpose::cli {
 
 struct WebOptions {
     serve::ServerOptions server;
-    std::vector<std::string> sources;  ///< names of the sources of the frames
-    std::string recordings = ".";      ///< folder of the recordings that are started in the page
-    std::string log;              ///< log of the run that the page offers; empty if there is none
-    RobotOutputOptions messages;  ///< robot that recordings describe
-    WebSheetsOptions sheets;      ///< without a sheet file, the path is empty
-    /// Calibration in the page; none if the page may not calibrate.
+    std::vector<std::string> sources;  ///< names of the frame sources
+    std::string recordings = ".";      ///< folder for recordings that are started on the page
+    std::string log;                   ///< path of the log to offer for download, or empty
+    RobotOutputOptions messages;       ///< description of the robot for recordings
+    WebSheetsOptions sheets;           ///< the path is empty if there is no sheet file
+    /// Options of the calibration on the page, or none if the page must not calibrate.
     std::optional<GuideOptions> calibration;
 };
 
-/// State of the source of the frames.
+/// State of the frame source.
 struct SourceState {
-    std::int64_t dropped = 0;  ///< number of frames that were dropped since the start
-    double bits_per_px = 0;    ///< compression of the video; 0 if it is not compressed
+    std::int64_t dropped = 0;  ///< total number of dropped frames
+    double bits_per_px = 0;    ///< bit rate of a compressed video, or 0
 };
 
 class WebView {
   public:
-    /// Starts the server, and reports its address. Throws BadArgument or Error. `follower` must
-    /// outlive the view.
+    /// Starts the server and reports its address. `follower` must outlive this object. Throws
+    /// BadArgument or Error on failure.
     WebView(WebOptions options, const Follower& follower);
 
-    /// Sends a frame to the clients that are ready, and executes their commands.
+    /// Sends a frame to the clients that are ready, and executes the commands of the clients.
     void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
               const PathMemory& path, const SourceState& source);
 
-    /// Returns the sheets if they changed since the previous call. Otherwise returns none.
+    /// Returns the sheets if they have changed since the previous call, and none otherwise.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
-    /// Shows the new sheets of the follower.
+    /// Displays the new sheets of the follower.
     void use_sheets();
-    /// Returns the camera that was calibrated in the page since the previous call, or none.
+    /// Returns the camera that was calibrated on the page since the previous call, or none.
     std::optional<Camera> take_camera();
 
-    /// Completes a running recording.
+    /// Finishes a running recording.
     void finish() { recordings_.stop(); }
 
   private:
     using Clock = std::chrono::steady_clock;
-    /// Limits the rate of a topic.
+    /// Limits the rate at which a topic is published.
     struct Timer {
         Clock::time_point next{};
         bool is_due(Clock::time_point now) const { return now >= next; }
@@ -90,11 +90,11 @@ class WebView {
     RefusalHistory history_;
     WatchMetrics metrics_;
     WebRecordings recordings_;
-    std::size_t offered_ = 0;  ///< number of files that can be downloaded
+    std::size_t offered_ = 0;  ///< number of recorded files that are available for download
 
     Clock::time_point rate_begun_;
     std::int64_t rate_frames_ = 0;
-    double rate_hz_ = 0;  ///< frames per second, in the last full second
+    double rate_hz_ = 0;  ///< frame rate in the last complete second
 
     Timer frame_timer_;
     Timer small_timer_;
@@ -114,7 +114,7 @@ class WebView {
     SheetTopics sheet_topics_;
     std::optional<WebSheets> sheet_view_;  ///< none without a sheet file
     WebCalibration calibration_;
-    AdviceWorker adviser_;  ///< destroyed before the server, to which its thread publishes
+    AdviceWorker adviser_;  ///< destroyed before the server, which its thread uses
 };
 
 }  // namespace dotpose::cli

@@ -22,7 +22,7 @@ constexpr std::array kBaudConstants = {
     Baud{1000000, B1000000}, Baud{2000000, B2000000},
 };
 
-/// Sets a serial line to raw mode and to the baud rate. Returns false on failure.
+/// Sets a serial line to raw mode at the given baud rate. Returns false on failure.
 bool set_up_line(int descriptor, int baud) {
     termios line{};
     if (tcgetattr(descriptor, &line) != 0) return false;

@@ -50,7 +50,7 @@ constexpr const char* kCalibrateExamples =
     "taken until they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not determine\n"
     "the requested values.\n";
 
-/// Sources of the frames for each part of the calibration. A part without frames has no sources.
+/// Frame sources of each part of the calibration, or none if the part is skipped.
 struct Series {
     std::optional<Sources> lens;
     std::optional<Sources> spin;
@@ -60,7 +60,7 @@ struct Series {
     std::optional<Sources> flat;
 };
 
-/// Returns a copy of the arguments with `names` as the sources and without a list file.
+/// Returns a copy of the arguments in which `names` replaces the sources and the list file.
 SourceArguments with_names(SourceArguments arguments, const std::vector<std::string>& names) {
     arguments.names = names;
     arguments.list.clear();
@@ -89,8 +89,8 @@ Series series_of(const CalibrateArguments& arguments) {
     return series;
 }
 
-/// Runs `work(number of frames, frame_at, options)` on the frames of the sources, and shows the
-/// progress. If the camera has a flat field, `frame_at` returns frames that are corrected by it.
+/// Calls `work(number of frames, frame_at, options)` with the frames of the sources and shows the
+/// progress. If the camera has a flat field, `frame_at` returns frames with flat-field correction.
 template <typename Work>
 auto with_progress(const CalibrateArguments& arguments, Sources& sources,
                    const std::optional<Camera>& camera, const std::string& what, Work work) {
@@ -117,8 +117,8 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources,
     }
 }
 
-/// Returns the path of the picture of the turn. This is the path of --draw, with "-spin" before the
-/// extension if the picture of the lens is also drawn.
+/// Returns the path for the picture of the spin calibration: the path of --draw. If the picture of
+/// the lens is also drawn, "-spin" is inserted before the extension.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;
@@ -127,8 +127,8 @@ std::string spin_picture_of(const CalibrateArguments& arguments) {
     return (lens.parent_path() / system::path_of(name)).string();
 }
 
-/// Writes the camera file to the path of -o, or to standard output if the path is "-". Without -o,
-/// writes nothing.
+/// Writes the camera file to the path of -o, where "-" is standard output. Writes nothing if `out`
+/// is empty.
 void write_result(const std::string& out, const Camera& camera) {
     if (out.empty()) return;
     const DocumentOutput output(out, ".yaml");
@@ -136,7 +136,7 @@ void write_result(const std::string& out, const Camera& camera) {
     output.finish();
 }
 
-/// Returns the camera for --pivot. Throws BadArgument if there is no camera, and Error if the
+/// Returns the camera for --pivot. Throws BadArgument if no camera is given, and Error if the
 /// camera has no focal length.
 Camera pivot_camera(const std::optional<Camera>& camera, const std::string& path) {
     if (!camera) throw BadArgument("--pivot needs --camera FILE, with a focal length");
@@ -148,9 +148,9 @@ Camera pivot_camera(const std::optional<Camera>& camera, const std::string& path
     return *camera;
 }
 
-/// Calibrates the flat field, the lens, the mount, the heading, the tip and the readout, in this
-/// order. Skips calibrations without frames. Writes the camera file and the pictures. Returns a
-/// report.
+/// Calibrates the flat field, the lens, the mount, the heading, the pen tip and the readout, in
+/// this order. Skips each part for which there are no frames. Writes the camera file and the
+/// pictures. Returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;
@@ -212,7 +212,7 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
     return report;
 }
 
-/// Computes the world poses and print scales of the sheets and writes them to the sheet file.
+/// Computes the world poses and print scales of all sheets and writes them to the sheet file.
 /// Returns a report.
 std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     SheetFile file(system::path_of(arguments.sheets), {.tell = tell, .stop = interrupted});
@@ -230,8 +230,8 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     return stitching_report(stitching);
 }
 
-/// If --camera is not given, uses the camera file that -o replaces. This preserves the values that
-/// the calibration does not determine, such as the mount.
+/// If --camera is not given, uses the camera file that -o will overwrite. This keeps the values
+/// that the calibration does not determine, such as the mount.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
     if (!camera.path.empty()) return;
     camera.camera = replaced_camera("-o", out);
@@ -241,7 +241,7 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
                      out));
 }
 
-/// Uses the code and the spacing in the sheet file of --sheets.
+/// Takes the code and the spacing from the sheet file of --sheets.
 void use_sheets(CalibrateArguments& arguments) {
     if (arguments.sheets.empty() || arguments.stitch) return;
     arguments.spacing = SpacingSource::sheets;
@@ -262,8 +262,8 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     } else {
         files.reads("--sheets", arguments.sheets);
     }
-    // -o and --camera may name the same file. In this case, the calibrated values in the file are
-    // replaced, and all others are preserved.
+    // -o and --camera may name the same file. The calibration then replaces only the values that it
+    // determines.
     const auto camera = identity_of(arguments.camera.path);
     if (camera && camera == identity_of(arguments.out) &&
         !is_camera_info(system::path_of(arguments.camera.path))) {
@@ -279,7 +279,7 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     }
 }
 
-/// Makes a print map instead of calibrating a camera. Returns the exit status.
+/// Creates a print map instead of calibrating a camera. Returns the exit status.
 int run_print_map(const CalibrateArguments& arguments) {
     if (arguments.sources.is_given())
         throw BadArgument(
@@ -307,8 +307,7 @@ int run(CalibrateArguments& arguments) {
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    // Checked here, so that an output that cannot be written is reported before the user spends
-    // minutes moving the camera.
+    // Reports an unwritable output before the user spends minutes moving the camera.
     if (arguments.is_live && !arguments.out.empty())
         require_writable(system::path_of(arguments.out));
     catch_interrupts();

@@ -1,4 +1,4 @@
-// Options of `dotpose calibrate`.
+// Command-line options of `dotpose calibrate`.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ struct CalibrateArguments {
     CameraArgument camera;
     std::string out;
     std::string picture;
-    std::optional<CodeVariant> code;  ///< none if the code is detected from the frames
+    std::optional<CodeVariant> code;  ///< if none, the code is detected from the frames
     CalibrateOptions options;
 
     void add_to(Command& command);

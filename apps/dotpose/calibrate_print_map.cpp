@@ -30,7 +30,7 @@ void require_apart(const PrintMapArguments& arguments, const Sources& sources) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns the map at the path of -o, or an empty map if there is no such file.
+/// Returns the existing map at the path of -o, or an empty map if there is none.
 PrintMap earlier_map(const std::string& out) {
     std::error_code failed;
     if (!std::filesystem::exists(system::path_of(out), failed)) return {};

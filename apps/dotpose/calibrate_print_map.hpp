@@ -1,4 +1,4 @@
-/// Makes a print map, for `dotpose calibrate --print-map`.
+/// Creates a print map for `dotpose calibrate --print-map`.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ struct PrintMapArguments {
     std::string sheets;  ///< path of the sheet file
     std::string camera_path;
     std::optional<Camera> camera;
-    std::string out;      ///< path of the map, which is updated if it exists
-    std::string picture;  ///< path of the picture of the map (SVG), or empty
+    std::string out;      ///< path of the map, which is updated if the file exists
+    std::string picture;  ///< path of the picture of the map (SVG), or empty for no picture
 };
 
-/// Reads all frames, and writes or updates the map. After Ctrl-C, no more frames are read, and the
-/// map is made from the frames read so far. Prints a report.
+/// Reads all frames, creates or updates the map, and prints a report. Ctrl-C stops the reading, and
+/// the map is then made from the frames read so far.
 void make_print_map(const PrintMapArguments& arguments);
 
 }  // namespace dotpose::cli

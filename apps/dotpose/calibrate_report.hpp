@@ -7,12 +7,12 @@
 
 namespace dotpose::cli {
 
-/// Origin of the spacing used for a calibration.
+/// How the spacing of a calibration was determined.
 enum class SpacingSource { assumed, option, sheets };
 
 std::string lens_report(const LensCalibration& calibration, SpacingSource source);
-/// Returns the standard deviation of the undistorted position of the farthest image corner, as one
-/// line of text for live calibration.
+/// Returns one line of text for live calibration: the standard deviation of the undistorted
+/// position of the farthest image corner.
 std::string corner_report(const Camera& camera);
 std::string spin_report(const SpinCalibration& calibration);
 std::string drive_report(const DriveCalibration& calibration);

@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of frames from one source. With more frames, the calibration would take longer,
-/// but the result would not improve.
+/// Maximum number of frames chosen from one source. More frames would only take longer, without
+/// improving the result.
 constexpr std::size_t kMaxChosen = 50;
 
 Follower follower_for(const CalibrateOptions& calibration) {

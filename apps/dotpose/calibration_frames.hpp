@@ -1,4 +1,4 @@
-/// Selects the frames for `dotpose calibrate`.
+/// Selects the frames of a calibration for `dotpose calibrate`.
 #pragma once
 
 #include <string>
@@ -9,16 +9,15 @@
 
 namespace dotpose::cli {
 
-/// Error message for frames that show the pattern mirrored.
+/// Error message for mirrored frames.
 inline constexpr const char* kMirrored =
     "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
-/// The frames of a calibration: all given images, and up to 50 frames that show different places
-/// from each video, camera or raw stream. Images are read when they are needed. All other frames
-/// are kept in memory.
+/// The frames of a calibration: all given images, and up to 50 frames of different places from each
+/// video, camera or raw stream. Images are read on demand, and all other frames are kept in memory.
 class CalibrationFrames {
   public:
-    /// Reads videos and raw frames to their end, and a camera until it has shown 50 places. Ctrl-C
+    /// Reads videos and raw streams to the end, and cameras until 50 places have been shown. Ctrl-C
     /// ends the current source early. Throws Error if a source fails, if no frame of a source can
     /// be located, or after a signal other than Ctrl-C.
     CalibrationFrames(const SourceArguments& arguments, Sources& sources,
@@ -26,10 +25,10 @@ class CalibrationFrames {
 
     int count() const { return static_cast<int>(frames_.size()); }
 
-    /// Returns the frame with this index. Throws Error if the image cannot be read.
+    /// Returns frame `index`. Throws Error if the image cannot be read.
     GreyImage at(int index) const;
 
-    /// Returns true if one of the first frames shows the pattern mirrored. Throws Error like `at`.
+    /// Returns true if one of the first frames is mirrored. Throws Error like `at`.
     bool are_mirrored(const CalibrateOptions& options) const;
 
   private:

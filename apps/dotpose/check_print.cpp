@@ -63,16 +63,15 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Returns true if the scale deviates from 1 by at most 25 % along x and y, which scaling by a
-/// printer driver can cause. Larger deviations are probably due to a wrong resolution of the scan
-/// or a wrong spacing.
+/// Returns true if the scale along x and y is within 25 % of 1, a deviation that a printer driver
+/// may cause. A larger deviation is probably due to an incorrect scan resolution or spacing.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
            std::abs(scale.scale_y - 1) <= kMaxDeviation;
 }
 
-/// Throws Error unless the check determined a print scale that can be written into a sheet file.
+/// Throws Error unless the check determined a print scale that can be saved in a sheet file.
 void require_scan(const std::string& scan, const PrintCheck& check) {
     constexpr const char* kRemedy = "; nothing was written: --fit needs a scan from a flatbed";
     if (check.camera) {
@@ -101,13 +100,12 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Returns a remark for the user about the maximum shift of the dots that scaling by the printer
-/// driver can cause. The actual shift cannot be measured, because the edges of the paper are not
-/// visible in the scan.
+/// Returns a remark about the maximum shift of the dots due to scaling by the printer driver. The
+/// actual shift cannot be measured, because the scan does not show the edges of the paper.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
-    // Returns the largest shift of the first dot along one axis, if the driver scales the page
-    // about a corner or about its centre, as most drivers do.
+    // Maximum shift of the first dot along one axis. Most drivers scale the page about a corner or
+    // about its centre.
     const auto shift_mm = [](double scale, double first_mm, double side_mm) {
         return std::abs(1 - scale) * std::max(first_mm, std::abs(side_mm / 2 - first_mm));
     };
@@ -119,7 +117,7 @@ std::string offset_remark(const SheetEntry& entry) {
         shift_mm(entry.print_scale_y, sheet.origin_y_mm, sheet.height_mm));
 }
 
-/// Writes the scale of each field of dots to the entry of its sheet, and returns a report.
+/// Saves the scale of each field of dots in the entry of its sheet and returns a report.
 /// `field.sheet` is an index into `sheets`.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
@@ -127,10 +125,10 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
-        // If several parts of a sheet are visible, each part is a separate field. Only the first
-        // field is used, because it is the largest.
+        // Each visible part of a sheet is a separate field. Only the first field of a sheet is
+        // used, because it is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
-        // The entry is read again, because another process may have changed it during the check.
+        // Reads the entry again, because another process may have changed it during the check.
         const std::string& name = sheets[*field.sheet].name;
         const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
         if (found == file.sheets().end()) {
@@ -190,8 +188,7 @@ void require_apart(const CheckPrintArguments& arguments) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns the part of the error message that explains how to check a scan that has too many
-/// pixels.
+/// Returns the part of the error message that explains how to check a scan with too many pixels.
 std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution>& resolution,
                        int max_megapixels) {
     const double megapixels = 1e-6 * scan.width_px * scan.height_px;
@@ -211,7 +208,7 @@ std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution
     return remedy + "; or scan the page in parts";
 }
 
-/// Reads the scan, and flips the image if --flip is given. Throws Error if the scan cannot be read.
+/// Reads the scan and mirrors it if --flip is given. Throws Error if the scan cannot be read.
 GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOptions& options) {
     std::string note;
     try {

@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 double rounded(double value, int decimals) {
     const double scale = std::pow(10, decimals);
     const double result = std::round(value * scale) / scale;
-    return result == 0 ? 0 : result;  // turns -0 into 0
+    return result == 0 ? 0 : result;  // converts -0 to 0
 }
 
 template <typename... Values>
@@ -74,8 +74,9 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
         100 * field.wrong_share());
 }
 
-/// Returns a prefix that names a field: "sheet 'table': ", or "from cell X,Y on: " if the field is
-/// not on a known sheet. The prefix is empty if there is only one field, or if `index` is none.
+/// Returns the prefix that names a field: "sheet 'table': ", or "from cell X,Y on: " if the field
+/// is not on a known sheet. Returns an empty string if there is only one field or if `index` is
+/// none.
 std::string about(const CheckedScan& scan, const PrintCheck& check,
                   std::optional<std::size_t> index) {
     if (!index || check.fields.size() == 1) return "";
@@ -84,7 +85,7 @@ std::string about(const CheckedScan& scan, const PrintCheck& check,
     return fmt::format("from cell {},{} on: ", field.origin.x, field.origin.y);
 }
 
-/// Returns the indices of the patches, ordered by spacing and then by dot diameter.
+/// Returns the indices of the patches, sorted by spacing and then by dot diameter.
 std::vector<std::size_t> patches_in_order(const PrintCheck& check) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < check.fields.size(); ++i) {
@@ -162,7 +163,7 @@ ordered_json json_of(const Pattern& pattern) {
 }
 
 /// Returns a remark to append to the name of a detected code, or an empty string if the probability
-/// of a different code is below 1 %.
+/// that the code is wrong is below 1 %.
 std::string code_remark(const PrintCheck& check) {
     constexpr double kDoubtful = 0.01;
     if (check.code_p_wrong < kDoubtful) return "";

@@ -9,10 +9,10 @@
 
 namespace dotpose::cli {
 
-/// The checked image, and the sheets with which it was compared.
+/// The checked image and the sheets that it was compared with.
 struct CheckedScan {
     std::string file;
-    int page = 1;   ///< page number of the checked page
+    int page = 1;   ///< number of the checked page
     int pages = 1;  ///< number of pages in the file
     int width_px = 0;
     int height_px = 0;

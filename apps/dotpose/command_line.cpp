@@ -11,8 +11,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Wraps the words of `text` into lines that begin at column `indent` and are at most 100 columns
-/// wide.
+/// Wraps `text` into lines that start at column `indent` and end at column 100 or earlier.
 std::string wrapped(const std::string& text, std::size_t indent) {
     constexpr std::size_t kColumns = 100;
     std::string lines(indent, ' ');
@@ -46,9 +45,8 @@ std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
     return names;
 }
 
-/// Formats the help in two columns. The first column contains an option and its value. The second
-/// column contains the description and, in parentheses, the default and the options that it
-/// requires or excludes.
+/// Formats the help in two columns: the option with its value, and the description. The default and
+/// the required or excluded options follow the description in parentheses.
 class HelpFormatter : public CLI::Formatter {
   public:
     HelpFormatter() {
@@ -98,16 +96,16 @@ Validator range(Number min, Number max) {
     });
 }
 
-/// Splits a string at the first `separator`.
+/// Splits a string at the first occurrence of `separator`.
 std::pair<std::string, std::string> split(const std::string& text, std::string_view separator) {
     const std::size_t at = text.find(separator);
     if (at == std::string::npos) return {text, ""};
     return {text.substr(0, at), text.substr(at + separator.size())};
 }
 
-/// Returns a message for a CLI11 error. The messages of CLI11 are not suitable for users, because
-/// they contain type names and counts. Only the name of the option and its value are extracted from
-/// them, because CLI11 does not report these separately.
+/// Returns a user-friendly message for a CLI11 error. The original messages contain type names and
+/// counts. They are parsed only for the name of the option and its value, which CLI11 does not
+/// provide separately.
 std::string message_of(const CLI::ParseError& error) {
     const std::string text = error.what();
     if (text == "A subcommand is required") return "no command given";
@@ -134,8 +132,8 @@ std::string message_of(const CLI::ParseError& error) {
     return text;
 }
 
-/// Calls `parse` and translates the exceptions of CLI11. Returns false after printing the help or
-/// the version. Throws UsageError after an error.
+/// Calls `parse` and translates the exceptions of CLI11. Returns false if the help or the version
+/// was printed. Throws UsageError on any other exception.
 bool parsed(CLI::App& app, const std::function<void()>& parse) {
     try {
         parse();
@@ -389,7 +387,7 @@ Command* Command::command_of(CLI::App* app) const {
     return command.get();
 }
 
-// The templates are instantiated for these types of option values.
+// Instantiations for all supported types of option values.
 template <typename Value>
 using Store = std::function<void(const Value&)>;
 using Text = const std::string&;

@@ -1,7 +1,7 @@
-/// Commands and their options. A thin layer over CLI11 that uses the names of CLI11.
+/// Commands and their options: a thin wrapper around CLI11 that uses the same names.
 ///
 /// Only command_line.cpp includes the CLI11 header, because the header adds ten seconds to the
-/// compile time of each source file.
+/// compile time of a source file.
 #pragma once
 
 #include <cstddef>
@@ -33,16 +33,16 @@ class ValidationError : public UsageError {
         : UsageError(option + ": " + why) {}
 };
 
-/// Parses a number in the same format as option values. Returns true if the whole string is a
+/// Parses a number in the format of option values. Returns false unless the whole string is a
 /// number.
 bool parse_number(const std::string& text, double& number);
 bool parse_number(const std::string& text, int& number);
 
-/// Returns the reason why a value is invalid, or an empty string if the value is valid.
+/// Returns the reason why a value is invalid, or an empty string for a valid value.
 using Check = std::function<std::string(const std::string& value)>;
 
-/// Checks option values. `choices` lists all valid values if there are only a few, and is otherwise
-/// empty.
+/// Checks option values. `choices` lists the valid values if there are only a few, and is empty
+/// otherwise.
 class Validator {
   public:
     explicit Validator(Check check, std::vector<std::string> choices = {})
@@ -54,7 +54,7 @@ class Validator {
     std::vector<std::string> choices_;
 };
 
-/// Accepts numbers in a range, including both ends.
+/// Accepts the numbers of a range, including its limits.
 class Range : public Validator {
   public:
     Range(int min, int max);
@@ -81,7 +81,7 @@ class Option {
     Option* check(const Check& check);
     Option* check(const Validator& validator);
 
-    std::size_t count() const;  ///< number of times the option was given
+    std::size_t count() const;  ///< number of times the option is on the command line
 
     std::string get_name() const;  ///< longest name, with hyphens
     std::string get_type_name() const;
@@ -90,8 +90,8 @@ class Option {
     std::vector<std::string> get_lnames() const;  ///< long names, without the hyphens
     bool get_positional() const;
     int get_items_expected_max() const;  ///< maximum number of values, or 0 for a flag
-    /// Returns all values that the validators accept, or an empty list if the validators do not
-    /// list them.
+    /// Returns all values that the validators accept, or an empty list if the validators accept
+    /// more than a few values.
     const std::vector<std::string>& choices() const { return choices_; }
 
   private:
@@ -99,10 +99,10 @@ class Option {
     std::vector<std::string> choices_;
 };
 
-/// A command, or the program itself. Owns its subcommands and options.
+/// A command, or the program itself. Owns its subcommands and its options.
 class Command {
   public:
-    /// Creates a program. If `name` is empty, the program has the name of its executable file.
+    /// Creates a program. If `name` is empty, the program is named after its executable file.
     explicit Command(const std::string& what = "", const std::string& name = "");
     /// Creates a subcommand.
     explicit Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
@@ -110,12 +110,12 @@ class Command {
     Command& operator=(const Command&) = delete;
 
     Command* add_subcommand(const std::string& name, const std::string& what = "");
-    /// Adds an option whose value is stored in a variable. The variable must outlive the command.
-    /// The end of command_line.cpp lists the supported types.
+    /// Adds an option that stores its value in a variable. The variable must outlive the command.
+    /// The supported types are listed at the end of command_line.cpp.
     template <typename Value>
     Option* add_option(const std::string& names, Value& value, const std::string& help = "");
-    /// Adds an option whose value is passed to a function. The end of command_line.cpp lists the
-    /// supported types.
+    /// Adds an option that passes its value to a function. The supported types are listed at the
+    /// end of command_line.cpp.
     template <typename Value>
     Option* add_option_function(const std::string& names,
                                 const std::function<void(const Value&)>& store,
@@ -130,32 +130,34 @@ class Command {
     Command* group(const std::string& name);
     Command* require_subcommand(int number);
     Command* require_subcommand(int min, int max);
-    Command* prefix_command();  ///< accepts arbitrary words after the command
+    Command* prefix_command();  ///< makes the command accept arbitrary words after its name
     Command* set_help_flag();   ///< removes --help
     Command* set_version_flag(const std::string& name, const std::string& version);
 
-    /// Parses the arguments of `main` and runs the callbacks of the given commands. Returns false
-    /// after printing the help or the version. Throws UsageError.
+    /// Parses the arguments of `main` and runs the callbacks of the commands that were given.
+    /// Returns false if the help or the version was printed. Throws UsageError if the arguments are
+    /// invalid.
     bool parse(int argc, const char* const* argv);
-    /// Like the first overload, but takes the words without the program name and in reverse order.
+    /// Like the first overload, for a list of words in reverse order that does not include the
+    /// program name.
     bool parse(std::vector<std::string> words);
 
     std::string get_name() const;
     std::string get_description() const;
     std::size_t count(const std::string& option) const;
-    Option* get_option(const std::string& name) const;           ///< throws if there is none
-    Option* get_option_no_throw(const std::string& name) const;  ///< null if there is none
+    Option* get_option(const std::string& name) const;           ///< throws if it does not exist
+    Option* get_option_no_throw(const std::string& name) const;  ///< null if it does not exist
     std::vector<Option*> get_options() const;
     std::vector<Command*> get_all_subcommands() const;
     std::vector<Command*> get_parsed_subcommands() const;
-    std::vector<std::string> remaining() const;  ///< words that the parser did not recognize
+    std::vector<std::string> remaining() const;  ///< words that the parser did not recognise
 
   private:
     Option* option_of(CLI::Option* option) const;
     Command* command_of(CLI::App* app) const;
 
     std::shared_ptr<CLI::App> app_;
-    // Wrappers of the options and commands of CLI11. Each is created when it is first used.
+    // Wrappers of CLI11 options and commands, created on first use.
     mutable std::map<CLI::Option*, Option> options_;
     mutable std::map<CLI::App*, std::unique_ptr<Command>> commands_;
 };

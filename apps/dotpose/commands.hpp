@@ -1,7 +1,7 @@
-/// Subcommands of the tool, one source file each. Each function registers a command, its options
-/// and a callback, which CLI11 runs if the command is given. The callback sets `exit_code` on
-/// failure, or throws dotpose::Error. main.cpp converts the exception into a message and an exit
-/// status.
+/// Subcommands of the tool, each in its own source file. Each function registers a command, its
+/// options and a callback. CLI11 runs the callback if the command is given. On failure, the
+/// callback sets `exit_code` or throws dotpose::Error, which main.cpp converts into a message and
+/// an exit status.
 #pragma once
 
 #include "command_line.hpp"
@@ -25,7 +25,7 @@ void add_sheets(Command& app, int& exit_code);
 /// Registers all subcommands.
 void add_commands(Command& app, int& exit_code);
 
-/// Registers the commands that dotpose-live executes, without their options.
+/// Registers the commands that dotpose-live executes, but not their options.
 void add_live(Command& app);
 
 }  // namespace dotpose::cli

@@ -27,12 +27,12 @@ const std::map<std::string, DotDrawing> kDrawings = {
     {"strokes", DotDrawing::strokes},
 };
 
-/// The values of --code except auto.
+/// Values of --code other than auto.
 const std::vector<std::string> kCodes = {"anoto", "libdots", "microdots"};
 
 std::vector<std::string> g_arguments;
 
-/// Parses "A,B" with two integers from 0 to limit - 1.
+/// Parses "A,B", two integers in the range [0, limit).
 std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, const std::string& text,
                                                    std::uint32_t limit) {
     const auto numbers = whole_numbers(text, ",", limit - 1);
@@ -44,8 +44,8 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, cons
     return {(*numbers)[0], (*numbers)[1]};
 }
 
-/// Checks that a number is positive. The check of CLI11 is not used because its message contains an
-/// upper limit of 309 digits.
+/// Requires a positive number. CLI11 has an equivalent check, but its message contains an upper
+/// limit of 309 digits.
 std::string require_positive(const std::string& text) {
     double value = 0;
     if (parse_number(text, value) && value > 0 && std::isfinite(value)) return {};
@@ -53,8 +53,8 @@ std::string require_positive(const std::string& text) {
 }
 
 /// Rejects a spacing that was probably given in micrometres or metres instead of millimetres. The
-/// minimum is about ten dots of a printer with 25,000 dpi. At the maximum, a view of 8 x 8 dots is
-/// 0.8 m wide. A smaller view does not determine a position.
+/// minimum is about ten printer dots at 25,000 dpi. At the maximum, 8 x 8 dots, the smallest view
+/// that determines a position, are 0.8 m wide.
 std::string require_spacing(const std::string& text) {
     constexpr double kMin_mm = 0.01;
     constexpr double kMax_mm = 100;
@@ -243,8 +243,8 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 }
 
 void refuse_non_finite_numbers(Command& app) {
-    // Values of these types are texts, even if they can be parsed as numbers. For example, a file
-    // name may be "nan".
+    // Option types whose values are text, even if a value could be parsed as a number: a file may
+    // be called "nan".
     const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "FILE|-|DIR", "NAME", "PART",
                                          "RANGE", "SCAN", "SOURCE", "TEXT",       "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {

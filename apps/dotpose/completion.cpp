@@ -7,7 +7,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Prints a completion if `name` begins with the typed text.
+/// Prints a completion if `name` begins with the text typed so far.
 void offer(const std::string& typed, const std::string& name, const std::string& what) {
     if (name.starts_with(typed)) fmt::print("{}\t{}\n", name, what);
 }
@@ -26,7 +26,7 @@ void offer_choices(const std::string& typed, const Option& option) {
         offer(typed, name, "");
 }
 
-/// Returns the subcommand of `parent` with this name, or null if there is none.
+/// Returns the subcommand of `parent` with the given name, or null if there is none.
 Command* command_named(const std::string& name, const Command& parent) {
     const std::vector<Command*> commands = parent.get_all_subcommands();
     const auto found = std::ranges::find(commands, name, &Command::get_name);
@@ -36,7 +36,8 @@ Command* command_named(const std::string& name, const Command& parent) {
 }  // namespace
 
 void print_completions(Command& app, std::vector<std::string> words) {
-    // bash splits --option=value into three words, so the words "=" are removed.
+    // bash splits --option=value into the three words "--option", "=" and "value", so the words "="
+    // are removed.
     if (words.empty() || words.back() == "=") words.emplace_back();
     std::erase(words, "=");
     const std::string typed = words.back();

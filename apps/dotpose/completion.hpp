@@ -1,4 +1,4 @@
-/// Completes command lines for shells. The scripts in apps/shell request completions.
+/// Completes command lines for the shell scripts in apps/shell.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace dotpose::cli {
 
-/// First argument of a request for completions. The words of the command line follow.
+/// First argument of a completion request. The words of the command line follow it.
 inline constexpr const char* kComplete = "__complete";
 
-/// Prints the completions of the last of `words`, which are commands, options or values of an
-/// option. Each line contains a completion, a tab and a description. Prints nothing if the word may
-/// be a file or arbitrary text. If dotpose-live implements the command, runs the callback of the
-/// command, which starts dotpose-live.
+/// Prints the completions of the last word: commands, options, or values of an option. Each line
+/// contains a completion, a tab and a description. Prints nothing if the word may be a file name or
+/// arbitrary text. For a command of dotpose-live, runs the callback of the command, which starts
+/// dotpose-live.
 void print_completions(Command& app, std::vector<std::string> words);
 
 }  // namespace dotpose::cli

@@ -49,14 +49,14 @@ constexpr const char* kEvaluateExamples =
     "wrong; errors are computed from the other fixes. Exit status 1 if truth.csv or an image\n"
     "cannot be read, 2 for wrong usage.\n";
 
-/// Value of `--protocol paper`, which repeats the protocol of section IV of the paper.
+/// The value of `--protocol`, which selects the experiment of section IV of the paper.
 struct PaperProtocol {};
 constexpr std::array kProtocols = {PaperProtocol{}};
 const char* name(PaperProtocol) {
     return "paper";
 }
 
-/// Reference point of the poses in truth.csv: the image centre, or the reference point of the
+/// The point to which the poses in truth.csv refer: the image centre, or the reference point of the
 /// robot.
 enum class TruthOf : std::uint8_t { image, robot };
 constexpr std::array kTruths = {TruthOf::image, TruthOf::robot};
@@ -70,7 +70,7 @@ struct EvaluateArguments {
     std::optional<Preset> preset;
     std::optional<SweepKind> sweep;
     bool protocol = false;
-    ReportArguments report;  ///< `out` is a folder for --sweep and --protocol
+    ReportArguments report;  ///< `out` is a folder with --sweep and --protocol
     std::optional<int> frames;
     Setup setup;
     DeviceOptions options;
@@ -79,8 +79,8 @@ struct EvaluateArguments {
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
-    std::optional<CodeVariant> code;   ///< code of all frames; empty if --code does not name one
-    bool ignores_truth_codes = false;  ///< true to ignore the codes in truth.csv
+    std::optional<CodeVariant> code;   ///< code of all frames, or none if not specified
+    bool ignores_truth_codes = false;  ///< ignore the codes in truth.csv
     int threads = 0;
 };
 
@@ -91,7 +91,7 @@ Progress progress_on(ProgressLine& line) {
     };
 }
 
-/// Returns the score as JSON. Statistics over no frames are NaN in `score` and null in JSON.
+/// Returns the score as JSON. Statistics of zero frames are NaN in `score` and null in JSON.
 nlohmann::ordered_json json_of(const Score& score) {
     nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
     for (std::size_t i = 1; i < score.by_status.size(); ++i) {
@@ -133,8 +133,8 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
     return exit_code;
 }
 
-/// Evaluates the frames in batches. After Ctrl-C, the results of completed batches are kept,
-/// without those from the index `readable_frames()` on.
+/// Evaluates the frames in batches. After Ctrl-C, returns the outcomes of the completed batches, up
+/// to the index `readable_frames()`.
 std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line,
                                        const std::function<std::size_t()>& readable_frames) {
     const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -175,8 +175,8 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     return outcomes.size() < static_cast<std::size_t>(run.frames) ? kExitFailed : exit_code;
 }
 
-/// Makes `run` locate the frames with the camera file, as `locate --camera` does. If the size of a
-/// frame differs from that in the camera file, its outcome is a problem instead of a result.
+/// Makes `run` locate the frames with the camera file, as `locate --camera` does. A frame whose
+/// size differs from the size in the camera file is reported as a problem.
 void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameRun& run) {
     run.frame_at = [camera, rows, read = run.frame_at](int index) {
         KnownFrame frame = read(index);
@@ -300,7 +300,8 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // With --sweep or --protocol, --preset sets the conditions. Otherwise, it is a separate job.
+    // With --sweep and --protocol, --preset sets the conditions. Without them, it is a job of its
+    // own.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

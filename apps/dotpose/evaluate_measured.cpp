@@ -18,7 +18,7 @@ namespace dotpose::cli {
 namespace {
 
 /// Returns the place of the reference point in the world or, if `is_in_world` is false, on its
-/// sheet. Returns an empty optional if the frame shows no sheet of the file, or if the world is
+/// sheet. Returns none if the frame is not on a sheet of the file, or if the world place is
 /// requested and the sheet has no world pose.
 std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPlace>& place) {
     if (!place) return std::nullopt;
@@ -29,8 +29,8 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
     return FoundPlace{sheet, 1000 * world->x_m, 1000 * world->y_m, world->yaw_rad};
 }
 
-/// Throws Error unless all true places are in the same frame of reference, and the poses of the
-/// sheets in this frame are known. Returns true if this frame of reference is the world.
+/// Throws Error unless all true places are in one frame of reference and the poses of the sheets in
+/// this frame are known. Returns true if the frame of reference is the world.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;

@@ -1,5 +1,4 @@
-/// `dotpose evaluate --sheets`: compares located frames with places that were measured on sheets or
-/// in the world.
+/// `dotpose evaluate --sheets`: compares fixes with places measured on sheets or in the world.
 #pragma once
 
 #include <string>
@@ -15,26 +14,26 @@
 
 namespace dotpose::cli {
 
-/// Options for an evaluation with a sheet file.
+/// Options for the evaluation with a sheet file.
 struct MeasuredArguments {
-    std::string sheets;      ///< sheet file, or empty for poses in the pattern frame
-    bool is_aligned = true;  ///< true to align the located places with the true places
+    std::string sheets;      ///< path of the sheet file, or empty for poses in the pattern frame
+    bool is_aligned = true;  ///< whether to align the located places with the true places
     bool alignment_given = false;
-    std::string residuals;  ///< CSV file for the error of each frame, or empty for none
-    std::string draw;       ///< folder for the figures, or empty for none
+    std::string residuals;  ///< path of the CSV file with the error of each frame, or empty
+    std::string draw;       ///< folder for the figures, or empty for no figures
 
     void add_to(Command& command);
     void add_files(RunFiles& files) const;
 
-    /// Throws BadArgument if another option of this group is given without --sheets.
+    /// Throws BadArgument if any other option of this struct is given without --sheets.
     void require_sheets() const;
 };
 
-/// Returns {"median": ..., "p95": ..., "max": ...}, with null for NaN.
+/// Returns {"median": ..., "p95": ..., "max": ...}. NaN becomes null.
 nlohmann::ordered_json quantiles_json(const Quantiles& quantiles);
 
-/// Locates the frames in order, compares the located poses with the true poses and writes the
-/// report. Returns the exit status.
+/// Locates the frames in order, compares the fixes with the true poses, and writes the report.
+/// Returns the exit status.
 int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions& options,
                       const KnownFrames& known, const ReportArguments& report);
 

@@ -5,6 +5,6 @@ namespace dotpose::cli {
 
 inline constexpr int kExitFailed = 1;
 inline constexpr int kExitUsage = 2;
-inline constexpr int kExitFaults = 3;  ///< exit status of a check that found faults
+inline constexpr int kExitFaults = 3;  ///< a check found faults
 
 }  // namespace dotpose::cli

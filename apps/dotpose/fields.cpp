@@ -54,7 +54,7 @@ std::string degrees(double angle_rad) {
 }
 
 std::string p_wrong_text(double p_wrong) {
-    // Smallest reported probability, because the model of paper, ink and camera does not justify
+    // Smallest probability that is reported. The model of paper, ink and camera does not justify
     // smaller values.
     constexpr double kMin_p_wrong = 1e-30;
     return fmt::format("{:.3g}", std::max(p_wrong * 1.005, kMin_p_wrong));

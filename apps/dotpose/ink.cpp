@@ -40,16 +40,15 @@ struct InkArguments {
     std::string log;
     std::string out;
     std::string sheets;
-    double fps = 0;  ///< 0 if not given
+    double fps = 0;  ///< frame rate, or 0 if not given
 };
 
 std::string extension_of(const std::string& out) {
     return print::lower_case(system::path_of(out).extension().string());
 }
 
-/// Reads the tip of the pen from the row with this index in the log. If the row contains no tip, or
-/// if the tip is not on a sheet, the standard deviations of the sample are not set. This marks the
-/// sample as one without a tip.
+/// Reads the pen tip from row `index` of the log. Returns a default sample, whose standard
+/// deviations are 0, if the row contains no tip or the tip is not on a sheet.
 InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
     if (row.number("tip_x_pattern_m")) throw Error("its lengths are in m; write it in --units mm");
     InkSample sample;
@@ -71,9 +70,9 @@ InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
     return sample;
 }
 
-/// Reads all samples with a tip. Throws Error if there are none.
+/// Reads all samples that have a tip. Throws Error if there are none.
 std::vector<InkSample> read_samples(const InkArguments& arguments) {
-    // No columns are required, because lines of `locate` have no times.
+    // Does not require any columns, because the output of `locate` has no times.
     LogReader log(system::path_of(arguments.log), {});
     std::vector<InkSample> samples;
     std::int64_t index = 0;
@@ -93,7 +92,7 @@ std::vector<InkSample> read_samples(const InkArguments& arguments) {
                     arguments.log));
 }
 
-/// Copies the sizes of the sheets in the sheet file to their pages.
+/// Sets the size of each page to the size of its sheet in the sheet file.
 void set_sizes(const std::string& sheets, std::vector<InkPage>& pages) {
     if (sheets.empty()) return;
     const std::vector<SheetEntry> entries = read_sheets(system::path_of(sheets));
@@ -106,8 +105,8 @@ void set_sizes(const std::string& sheets, std::vector<InkPage>& pages) {
     }
 }
 
-/// Returns the path of the file of a page. This is the path of -o if there is only one page.
-/// Otherwise, the name of the page is inserted before the extension.
+/// Returns the output path of a page: the path of -o, with the name of the page inserted before the
+/// extension if there are several pages.
 std::string path_of_page(const std::string& out, const std::string& page, bool is_only) {
     if (is_only) return out;
     std::string name = page;

@@ -1,4 +1,4 @@
-/// Values of a camera file that are kept when a calibration replaces the file.
+/// Keeps values of a camera file when a calibration replaces the file.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,12 @@
 
 namespace dotpose::cli {
 
-/// Reads the camera file that a calibration replaces. Returns none if the file is missing or empty.
-/// `option` is the option that names the file. Throws Error if the file is not a camera file.
+/// Reads the camera file that a calibration is about to replace. Returns none if the file does not
+/// exist or is empty. `option` is the option that names the file. Throws Error if the file is not a
+/// camera file.
 std::optional<Camera> replaced_camera(const std::string& option, const std::string& path);
 
-/// Throws Error if the image sizes of the camera file and of the frames differ.
+/// Throws Error unless the camera file and the frames have the same image size.
 void require_size(const Camera& file, const Camera& frames, const std::string& path);
 
 /// Copies mount, tip, flat field, readout time, exposure and gain from another calibration of the

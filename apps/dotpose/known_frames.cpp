@@ -22,14 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 using capture::SourceKind;
 
-/// Returns true if the last components of `path` are equal to the components of `end`.
+/// Returns true if the last components of `path` equal `end`.
 bool ends_with(const fs::path& path, const fs::path& end) {
     const std::vector<fs::path> all(path.begin(), path.end());
     const std::vector<fs::path> last(end.begin(), end.end());
     return last.size() <= all.size() && std::equal(last.rbegin(), last.rend(), all.rbegin());
 }
 
-/// Looks up the poses of images in truth files. Each file is read once.
+/// Looks up the true poses of images in truth files. Reads each file only once.
 class Poses {
   public:
     Poses(std::string given, std::optional<double> spacing_mm)
@@ -103,10 +103,9 @@ KnownFrames known_images(const std::vector<std::string>& names,
     return known;
 }
 
-/// Frames of sources that can only be read in order. Several threads may request frames, but each
-/// frame can be requested only once. A request reads all frames up to its index, and keeps the
-/// earlier frames in memory until they are requested. The requests should therefore be roughly in
-/// order.
+/// Frames of sources that can only be read sequentially. Several threads may request frames at the
+/// same time, but each frame can be requested only once. A request reads all frames up to its index
+/// and buffers the earlier frames until they are requested, so requests should be roughly in order.
 class FramesInOrder {
   public:
     /// Opens the first source. Throws Error or BadArgument if the source cannot be opened.
@@ -172,11 +171,11 @@ class FramesInOrder {
     std::size_t next_name_ = 0;
     std::mutex mutex_;
     capture::SourceList list_;
-    /// Frames that were read but not yet requested, by index.
+    /// Frames that were read but not requested yet, by index.
     std::map<std::int64_t, GreyImage> waiting_;
     std::int64_t read_ = 0;  ///< number of frames read so far
     bool is_over_ = false;
-    std::string problem_;  ///< reason why reading ended early
+    std::string problem_;  ///< reason why reading ended early, or empty
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Writes lines of output.
+/// Writes output lines.
 #pragma once
 
 #include <cstdio>
@@ -9,22 +9,21 @@
 
 namespace dotpose::cli {
 
-/// Value of -o for standard output.
+/// Value of -o that means standard output.
 inline constexpr const char* kStandardOutput = "-";
 
-/// Returns true if `out`, the value of -o, names standard output. `out` is empty if -o is not
-/// given.
+/// Returns true if `out`, the value of -o, means standard output. `out` is empty without -o.
 inline bool is_standard_output(const std::string& out) {
     return out.empty() || out == kStandardOutput;
 }
 
-/// Thrown when writing to an output whose reader, such as `head`, has ended.
+/// Thrown when the reader of an output, such as `head`, has closed it.
 struct ReaderLeft : Error {
     using Error::Error;
 };
 
-/// Throws ReaderLeft if the reader closed the output, otherwise Error because the output cannot be
-/// written. `error_number` is the errno of the failure.
+/// Throws ReaderLeft if the reader closed the output, and Error otherwise. `error_number` is the
+/// errno of the failed write.
 [[noreturn]] void throw_unwritable(const std::string& output, int error_number);
 
 struct FileCloser {
@@ -35,15 +34,15 @@ using File = std::unique_ptr<std::FILE, FileCloser>;
 /// Creates or truncates a file. Throws Error on failure.
 File create_file(const std::string& path);
 
-/// Writes lines to standard output or a file. Flushes each line, so no line is lost if the tool is
-/// stopped.
+/// Writes lines to standard output or to a file. Flushes after each line, so no line is lost if the
+/// tool is terminated.
 class Lines {
   public:
     /// An empty path or "-" means standard output. Throws Error if the file cannot be created.
     explicit Lines(const std::string& path);
 
-    /// Writes a line. Throws ReaderLeft if the reader closed the output and SIGPIPE is ignored.
-    /// Throws Error if the line cannot be written for any other reason.
+    /// Writes a line. Throws ReaderLeft if the reader closed the output and SIGPIPE is ignored, and
+    /// Error on any other failure.
     void write(const std::string& line);
 
   private:

@@ -73,8 +73,8 @@ class ByteSource {
     ByteSource(const ByteSource&) = delete;
     ByteSource& operator=(const ByteSource&) = delete;
 
-    /// Returns at least one byte, or an empty span at the end of the input or after Ctrl-C. Throws
-    /// Error if reading fails.
+    /// Reads at least one byte. Returns an empty span at the end of the input or after Ctrl-C.
+    /// Throws Error if reading fails.
     std::span<const std::uint8_t> next() {
         while (!interrupted()) {
             const auto size = read();
@@ -101,7 +101,7 @@ class ByteSource {
     std::array<std::uint8_t, 4096> buffer_{};
 };
 
-/// Counts lost packets for the report at the end.
+/// Counts lost packets for the final report.
 class LossCounter {
   public:
     void count(const PosePacket& packet) {
@@ -128,7 +128,7 @@ class LossCounter {
 
 using Sinks = std::vector<std::unique_ptr<ReadingSink>>;
 
-/// Connects to the broker and starts the web page, if the options request them.
+/// Connects to the broker and starts the web page if the options ask for them.
 Sinks open_sinks(const ListenArguments& arguments) {
     Sinks sinks;
     sinks.push_back(open_publisher(arguments.publish, arguments.sheets));
@@ -201,8 +201,8 @@ void run(const ListenArguments& arguments) {
     files.reads("--web-token-file", arguments.page.token_file);
     files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
     files.writes("--log", arguments.log, Content::csv);
-    // The sinks are opened before all other outputs, because `dotpose` may replace this process
-    // with dotpose-live to open them.
+    // Opens the sinks before all other outputs, because opening them may replace `dotpose` with
+    // dotpose-live.
     Sinks sinks = open_sinks(arguments);
     catch_interrupts();
     ByteSource source(arguments);

@@ -1,5 +1,5 @@
-// Starts `dotpose-live` for the commands that only dotpose-live implements, and for other commands
-// that read frames from cameras and videos.
+// Starts `dotpose-live` for commands that only dotpose-live implements, and for commands that read
+// frames from cameras or videos.
 #include <cerrno>
 #include <string>
 

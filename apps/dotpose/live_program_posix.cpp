@@ -14,8 +14,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the path of dotpose-live. If dotpose is installed, dotpose-live is in the libexec
-/// directory. Otherwise, it is beside this program.
+/// Returns the path of dotpose-live: in the libexec directory if dotpose is installed, and
+/// otherwise next to this program.
 std::string live_program() {
     std::error_code failed;
     const auto folder = system::program_folder();
@@ -34,7 +34,7 @@ int become_live() {
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
     // Timeout in seconds for a camera that delivers no frames. OpenCV reads this variable when it
-    // is loaded, so the variable must be set before the program starts.
+    // is loaded, so it must be set before dotpose-live starts.
     setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2", 0);
     execv(live_program().c_str(), arguments.data());
     return errno;

@@ -1,5 +1,5 @@
-/// Access to cameras and videos. Only dotpose-live has it, because only dotpose-live loads the
-/// video module. Therefore `dotpose` and dotpose-live define these functions differently.
+/// Access to cameras and videos. `dotpose` and dotpose-live define these functions differently,
+/// because only dotpose-live loads the video module.
 #pragma once
 
 #include <memory>
@@ -10,19 +10,19 @@
 
 namespace dotpose::cli {
 
-/// In `dotpose`, replaces this process with dotpose-live and the same command line. Throws Error if
-/// dotpose-live is missing. In dotpose-live, does nothing.
+/// In `dotpose`, replaces this process with dotpose-live, passing the same command line, or throws
+/// Error if dotpose-live is missing. In dotpose-live, does nothing.
 void hand_over();
 
 /// Like `hand_over`, but returns if dotpose-live is missing.
 void hand_over_if_possible();
 
-/// Opens a camera or video. In `dotpose`, throws Error with the name of the missing program.
+/// Opens a camera or a video. In `dotpose`, throws Error, which names the missing program.
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
-/// Creates a video file. Its encoding is H.264 if the name ends in .mp4, and Motion JPEG if it ends
-/// in .avi. In `dotpose`, throws Error with the name of the missing program.
+/// Creates a video file: H.264 if the name ends in .mp4, and Motion JPEG if it ends in .avi. In
+/// `dotpose`, throws Error, which names the missing program.
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

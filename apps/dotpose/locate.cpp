@@ -55,7 +55,7 @@ constexpr const char* kLocateExamples =
 struct LocateArguments {
     SourceArguments sources;
     LineArguments lines;
-    std::optional<Columns> columns;  ///< columns of CSV, or none if not specified
+    std::optional<Columns> columns;  ///< CSV columns, or none if not specified
     std::string draw;                ///< NAME.svg or a folder, or empty for no pictures
     FollowerArguments follower;
     int threads = 1;
@@ -70,9 +70,9 @@ class ImageLocator {
 
     const Follower& follower() const { return follower_; }
 
-    /// Locates an image. The image must remain valid until `draw` has been called. `bits_per_px` is
-    /// the number of bits per pixel if the image is from a compressed video, or 0 if unknown.
-    /// Throws Error if the size of the image differs from the size in the camera file.
+    /// Locates an image, which must remain valid until `draw` is called. `bits_per_px` is the
+    /// number of bits per pixel of a compressed video, or 0 if unknown. Throws Error if the size of
+    /// the image differs from the size in the camera file.
     Record operator()(const std::string& name, GreyImage& image, double bits_per_px) {
         if (arguments_.follower.is_inverted) invert(image);
         const auto start = steady_clock::now();
@@ -92,8 +92,8 @@ class ImageLocator {
         return record;
     }
 
-    /// Returns the record of an image whose pixels were not read, because the size in its header is
-    /// too large.
+    /// Returns the record of an image whose header specifies too large a size. The pixels of such
+    /// an image are not read.
     Record too_large(const std::string& name, const ImageTooLarge& image) const {
         Record record = empty_record(follower_);
         record.file = name;
@@ -103,7 +103,7 @@ class ImageLocator {
         return record;
     }
 
-    /// Draws the newest image if --draw is given. Throws Error on failure.
+    /// Draws the last located image if --draw is given. Throws Error on failure.
     void draw(const Record& record) {
         if (!pictures_) return;
         pictures_->add(record.file, follower_.image(), follower_.trace(),
@@ -139,7 +139,7 @@ class ImageLocator {
 
     const LocateArguments& arguments_;
     Follower follower_;
-    std::unique_ptr<LargeMemory> scratch_;  ///< memory for advice on images without a fix
+    std::unique_ptr<LargeMemory> scratch_;  ///< memory for finding advice on images without a fix
     std::optional<PictureFolder> pictures_;
 };
 
@@ -155,7 +155,7 @@ RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Locates all frames of a run. Frames and sources that fail are skipped.
+/// Locates all frames of a run. Skips frames and sources that fail.
 class LocateRun {
   public:
     LocateRun(const LocateArguments& arguments, Sources& sources)
@@ -170,12 +170,13 @@ class LocateRun {
           frames_(sources.open(options_of(arguments))),
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
-        // Signals are not caught if names come from a pipe, because a signal must end the tool
-        // immediately while it waits for a name. No line is lost, because each line is flushed.
+        // If the names of the images come from a pipe, signals are not caught, because a signal
+        // must end the tool immediately even while it waits for a name. No line is lost, because
+        // each line is flushed.
         if (!sources.has_pipe()) catch_interrupts();
     }
 
-    /// Returns the exit status. Throws Error if the lines cannot be written.
+    /// Runs and returns the exit status. Throws Error if a line cannot be written.
     int operator()() {
         if (format_ == RecordFormat::csv) {
             lines_.write(csv_header(locator_.follower(), units_, columns_));
@@ -197,19 +198,19 @@ class LocateRun {
     }
 
   private:
-    /// The record of an image, or the error if there is no record.
+    /// The record of an image, or the error that prevented it.
     using Outcome = std::variant<Record, Error>;
 
     capture::SourceOptions options_of(const LocateArguments& arguments) {
         return options_of(arguments, [this](Outcome outcome) { return take(outcome); });
     }
 
-    /// Returns the options of the source. `pass_on` receives the outcome of each image that cannot
-    /// be read.
+    /// Returns the options for opening sources. `pass_on` receives an outcome for each image that
+    /// cannot be read.
     capture::SourceOptions options_of(const LocateArguments& arguments,
                                       std::function<bool(Outcome)> pass_on) {
         capture::SourceOptions options = arguments.sources.options;
-        // Large images are reduced, unless a camera file determines the image size.
+        // Reduces large images, unless a camera file specifies the image size.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
         options.tell = tell;
         options.stop = interrupted;
@@ -233,7 +234,7 @@ class LocateRun {
         return true;
     }
 
-    /// Locates images in several threads. Each thread has its own source and locator.
+    /// Locates the images in several threads, each with its own source and locator.
     int in_threads() {
         const std::vector<std::string> images = sources_.all_images();
         const std::size_t threads = arguments_.threads > 0
@@ -266,7 +267,7 @@ class LocateRun {
         return exit_code_;
     }
 
-    /// Reads the next frame and skips sources that cannot be read. Returns false after the last
+    /// Reads the next frame, skipping sources that cannot be read. Returns false after the last
     /// frame.
     bool next(capture::Frame& frame) {
         while (true) {
@@ -311,7 +312,7 @@ class LocateRun {
     const LocateArguments& arguments_;
     Sources& sources_;
     std::unique_ptr<capture::SourceList> frames_;
-    std::int64_t images_;  ///< number of images of all sources, or 0 if unknown
+    std::int64_t images_;  ///< number of images in all sources, or 0 if unknown
     ProgressLine progress_;
     int exit_code_ = 0;
 };

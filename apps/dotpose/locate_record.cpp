@@ -23,7 +23,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Columns of the pose in the pattern frame. The brief format omits them if a sheet file is given.
+/// Columns of the pose in the pattern frame. `Columns::brief` omits them if a sheet file is given.
 constexpr std::array<std::string_view, 6> kPatternPose = {
     "x_mm", "y_mm", "theta_deg", "x_pattern_m", "y_pattern_m", "yaw_pattern_rad"};
 constexpr std::array<std::string_view, 18> kBriefColumns = {
@@ -35,12 +35,12 @@ double sigma(const Fix& fix, std::size_t axis) {
     return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
 }
 
-/// Converts a pose with y down, as on the paper, to the axes of `units`.
+/// Converts a pose with y down, as on the paper, to the axes that `units` implies.
 std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>& pose) {
     return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
 }
 
-/// Returns an explanation, with numbers, of why a position is rejected as not certain.
+/// Returns the reason, with numbers, why a position is rejected as uncertain.
 std::string uncertainty_reason(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
@@ -53,9 +53,9 @@ std::string uncertainty_reason(const Record& record) {
         fix.p_wrong_log2 >= 0 ? "other positions are as likely"
                               : fmt::format("{} instead of at most {}", p_wrong_text(fix.p_wrong()),
                                             p_wrong_text(std::ldexp(1.0, record.max_p_wrong_log2)));
-    // The total number of bits is not reported, because it would look inconsistent with the number
-    // of dots. It is not twice the number of dots, because bits are also read in cells without a
-    // detected dot.
+    // The total number of bits is not reported, because it would seem inconsistent with the number
+    // of dots: cells without a detected dot are also read, so there are not exactly two bits per
+    // dot.
     if (fix.bit_errors > 0) {
         return fmt::format("{}; {} of the bits read contradict it", odds, fix.bit_errors);
     }
@@ -79,7 +79,7 @@ std::string in_one_line(const std::array<std::string, kWarnings>& warnings) {
     return line;
 }
 
-/// Returns the fields of the code and, if two codes are possible, of the positions in both codes.
+/// Returns the fields of the code, including the positions in both codes if two codes are possible.
 std::vector<Field> code_fields(const Record& record, Units units) {
     const CodeReading& reading = record.reading;
     const Fix& fix = reading.fix;
@@ -113,7 +113,7 @@ std::vector<Field> code_fields(const Record& record, Units units) {
     };
 }
 
-/// Returns `text` if the fix is ok and has a covariance. Otherwise returns an empty string.
+/// Returns `text` if the fix is ok and has a covariance, and an empty string otherwise.
 std::string if_judged(const Fix& fix, std::string text) {
     return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
 }
@@ -131,7 +131,7 @@ Field evidence(bool is_known, const char* key, Value value) {
     return {key, is_known ? text : "", kIsName};
 }
 
-/// Returns the fields of the place in the code and of the evidence for the place.
+/// Returns the fields of the position in the code and of the evidence for it.
 std::vector<Field> evidence_fields(const Fix& fix) {
     const bool ok = fix.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
@@ -192,7 +192,8 @@ std::vector<Field> image_fields(const Record& record) {
     };
 }
 
-/// Returns the reason why there is no fix, without advice, or an empty string if there is a fix.
+/// Returns the reason why there is no fix, without advice. Returns an empty string if there is a
+/// fix.
 std::string plain_reason(const Record& record) {
     const Fix& fix = record.fix;
     switch (fix.status) {

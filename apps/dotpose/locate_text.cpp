@@ -13,8 +13,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Formats a value and its standard deviation. If `sigma` is 0, the standard deviation is not known
-/// and is omitted.
+/// Formats a value and its standard deviation. The standard deviation is omitted if `sigma` is 0,
+/// which means unknown.
 std::string with_deviation(double value, double sigma, int decimals, const std::string& unit) {
     const std::string deviation = sigma > 0 ? fmt::format(" ± {:.2g}", sigma) : std::string();
     return fmt::format("{}{} {}", decimal(value, decimals), deviation, unit);

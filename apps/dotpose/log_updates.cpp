@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// Column names of a pose and its covariance. `units` contains the factors that convert x, y and
-/// the angle to metres and radians with y up. The factors of y and of the angle are negative if y
-/// points down in the log.
+/// Column names of a pose and its covariance. `units` contains factors for x, y and the angle,
+/// which convert them to metres and radians with y up. The factors for y and the angle are negative
+/// if y points down in the log.
 struct PoseColumns {
     const char* x;
     const char* y;
@@ -60,8 +60,8 @@ std::optional<ros::PlanarCovariance> covariance_in(const LogCells& row,
     return covariance;
 }
 
-/// Returns the pose and the velocities of a row. The log contains only one standard deviation of
-/// the velocity, which is therefore used for both components.
+/// Returns the pose and the velocities in a row. The log contains a single standard deviation for
+/// the velocity, which is used for both components.
 ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
                             const PoseColumns& columns) {
     const auto value = [&row](const char* column) { return row.number(column).value_or(0); };
@@ -86,20 +86,20 @@ ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
     return motion;
 }
 
-/// Column names of a pose of the camera in space, without their prefix.
+/// Column names of a camera pose in space, without their prefix.
 struct SpaceColumns {
-    std::string_view unit;  ///< end of the names of x, y and z
+    std::string_view unit;  ///< suffix of the column names of x, y and z
     std::string_view rotation;
     std::string_view covariance;
-    double angle_rad;  ///< unit of angles in the covariance
+    double angle_rad;  ///< unit of angles in the covariance, in radians
 };
 
 constexpr SpaceColumns kSpaceInWorld = {"m", "quaternion_world_xyzw", "covariance_m_rad", 1};
 constexpr SpaceColumns kSpaceInPattern = {"mm", "quaternion_xyzw", "covariance_mm_deg", kRadians};
 
-/// Reads a pose of the camera in space from the columns whose names begin with `prefix`. The pose
-/// is in the world or, if `is_in_world` is false, in the pattern frame with y up. Returns an empty
-/// optional if the row does not contain the pose.
+/// Reads a camera pose in space from the columns whose names begin with `prefix`. The pose is in
+/// the world or, if `is_in_world` is false, in the pattern frame with y up. Returns none if the row
+/// does not contain the pose.
 std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::string& prefix,
                                            bool is_in_world) {
     const SpaceColumns& columns = is_in_world ? kSpaceInWorld : kSpaceInPattern;
@@ -125,15 +125,15 @@ std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::strin
                     WorldPose{});
 }
 
-/// Returns the pose of the camera in space that was fitted to the frame alone. Returns an empty
-/// optional if the pose is unknown or ambiguous.
+/// Returns the camera pose in space that was computed from the frame alone. Returns none if the
+/// pose is unknown or ambiguous.
 std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     if (row.text("camera_is_ambiguous") != "false") return std::nullopt;
     return space_pose_in(row, "camera_", is_in_world);
 }
 
-/// Returns the motion of the tracked camera. The log contains only one standard deviation of the
-/// velocity and one of the angular velocity, which are therefore used for all components.
+/// Returns the motion of the tracked camera. The log contains a single standard deviation for the
+/// velocity and one for the angular velocity, which are used for all components.
 std::optional<CameraMotion> camera_motion_in(const LogCells& row, bool is_in_world) {
     const auto pose = space_pose_in(row, "camera_track_", is_in_world);
     if (!pose) return std::nullopt;
@@ -158,8 +158,8 @@ std::int64_t time_ns_in(const LogCells& row) {
     if (!(t_s >= 0 && t_s <= double{std::numeric_limits<std::int32_t>::max()})) {
         throw Error(fmt::format("t_s {} is no time of a message, which is 0 to 2^31 - 1", t_s));
     }
-    // The times in the log are whole microseconds, so rounding recovers them exactly from the
-    // decimal text.
+    // The times in the log are integer microseconds in decimal text, which rounding recovers
+    // exactly.
     return std::llround(t_s * 1e6) * 1000;
 }
 
@@ -173,8 +173,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // A row without a plane is from a lost robot. If the row contains x_m, its fix is in the world,
-    // because only logs of sheets with world poses have this column.
+    // A row without a plane is from a robot that is lost. Its fix is in the world if the row
+    // contains x_m, because only logs of sheets with world poses have this column.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

@@ -1,4 +1,4 @@
-/// Converts the rows of a log, written by `dotpose watch --log`, to robot states for ROS messages.
+/// Converts rows of a log written by `dotpose watch --log` to robot states for ROS messages.
 #pragma once
 
 #include "dotpose/tools/robot_messages.hpp"
@@ -6,7 +6,7 @@
 
 namespace dotpose::cli {
 
-/// Returns the robot state in a row. Throws Error if the row is invalid.
+/// Returns the robot state of a row. Throws Error if the row is invalid.
 ros::RobotUpdate update_of(const LogCells& row);
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-/// Command-line options for the MQTT broker, shared by `watch`, `listen` and `fleet`.
+/// Command-line options for the MQTT broker in `watch`, `listen` and `fleet`.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace dotpose::cli {
 
 struct MqttArguments {
-    std::string url;  ///< empty: no broker
+    std::string url;  ///< empty for no broker
     std::string ca_file;
     int qos = 0;
 
@@ -16,12 +16,12 @@ struct MqttArguments {
     void add_to(Command& command);
 };
 
-/// Options of commands that publish the states of a robot.
+/// Options of commands that publish the state of a robot.
 struct PublishArguments {
     MqttArguments mqtt;
-    std::string robot = "robot";  ///< name of the robot on the broker and in ROS
-    /// Maximum number of messages per second. Messages about events are sent in addition. If 0, a
-    /// message is sent for each frame.
+    std::string robot = "robot";  ///< name of the robot in MQTT topics and in ROS
+    /// Maximum number of messages per second, not counting messages about events. 0 to send a
+    /// message for every frame.
     double max_rate_hz = 0;
 
     /// Adds the options of MqttArguments, --robot and --mqtt-rate. `robot_help` describes --robot.

@@ -5,7 +5,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the word in ASCII lower case and without leading hyphens.
+/// Returns the word in ASCII lower case, without leading hyphens.
 std::string bare(std::string_view word) {
     word.remove_prefix(std::min(word.find_first_not_of('-'), word.size()));
     std::string result(word);
@@ -15,8 +15,8 @@ std::string bare(std::string_view word) {
     return result;
 }
 
-/// Returns the name that begins with `word`, if there is exactly one. Otherwise, or if `word` has
-/// fewer than kMinCharacters characters, returns an empty string.
+/// Returns the only name that begins with `word`. Returns an empty string if there are none or
+/// several, or if `word` has fewer than kMinCharacters characters.
 std::string only_continuation(const std::string& word, const std::vector<std::string>& names) {
     constexpr std::size_t kMinCharacters = 2;
     if (word.size() < kMinCharacters) return {};
@@ -32,8 +32,8 @@ std::string only_continuation(const std::string& word, const std::vector<std::st
 }  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
-    // distance[i][j] is the distance between the first i characters of a and the first j characters
-    // of b.
+    // distance[i][j] is the distance between the first i characters of `a` and the first j
+    // characters of `b`.
     std::vector<std::vector<int>> distance(a.size() + 1, std::vector<int>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i)
         distance[i][0] = static_cast<int>(i);
@@ -55,8 +55,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
     const std::string asked = bare(word);
     std::string nearest;
-    // A longer word is not compared with the names: the distance table would need too much memory,
-    // and no name is long enough to be similar to it.
+    // Longer words are not compared. No name is long enough to be similar, and the distance table
+    // would need too much memory.
     constexpr std::size_t kMaxCharacters = 64;
     if (asked.size() > kMaxCharacters) return nearest;
     int min_distance = static_cast<int>(kMaxCharacters);

@@ -1,4 +1,4 @@
-/// Selects frames for a calibration that show new places of a sheet, because frames of the same
+/// Selects frames for a calibration that show new places on a sheet. Further frames of the same
 /// place add little information.
 #pragma once
 
@@ -13,18 +13,17 @@ namespace dotpose::cli {
 class NewPlaces {
   public:
     /// Returns true and stores the place if the frame shows a new place. A place is new if it
-    /// differs from each stored place of the same section in at least one of these properties:
-    /// - the centre of the frame, by a quarter of the shorter side of the frame and at least two
-    /// spacings,
+    /// differs from every stored place in the same section in at least one of these properties:
+    /// - the centre of the frame, by a quarter of the shorter frame side and at least two spacings,
     /// - the direction, by 15 degrees, or
     /// - the distance from the paper, by 10 %.
-    /// Each call of `thin_out` doubles these minimum differences. Returns false for a frame without
-    /// a fix.
+    ///
+    /// Each call of `thin_out` doubles these differences. Returns false for a frame without a fix.
     bool take(const Fix& fix, ImageView image);
 
     std::size_t count() const { return places_.size(); }
 
-    /// Removes every second place, and doubles the minimum differences for later frames.
+    /// Removes every second stored place, and doubles the minimum differences for later frames.
     void thin_out();
 
   private:
@@ -37,7 +36,7 @@ class NewPlaces {
     };
 
     std::vector<Place> places_;
-    /// Product of the factors of all calls of `thin_out`; multiplies the minimum differences.
+    /// Factor by which the minimum differences have grown. Each call of `thin_out` doubles it.
     double factor_ = 1;
 };
 

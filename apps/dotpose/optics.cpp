@@ -24,12 +24,12 @@ constexpr const char* kOpticsExamples =
 
 struct OpticsArguments {
     Optics optics;
-    CameraModel size;  ///< only its width and height are used
+    CameraModel size;  ///< image size: only the width and the height are used
     bool is_paper = false;
     double exposures_per_s = 7684;
 };
 
-/// Text that explains how the paper rounds the numbers of its section III-A.
+/// Text that explains how the numbers in section III-A of the paper are rounded.
 constexpr const char* kRounding =
     "\nThe paper's numbers, and where it rounds:\n"
     "  5.39 mm    sqrt(2) x 0.508 x 7.5 = 5.388\n"
@@ -56,7 +56,7 @@ int run(OpticsArguments& arguments) {
                r.block_fits_anywhere ? "fit at any angle and place"
                : r.block_fits        ? "fit at any angle"
                                      : "do not fit at every angle");
-    // The speeds are maxima, so they are rounded down.
+    // The speeds are upper limits, so they are rounded down.
     fmt::print("exposure      1/{:.0f} s: blur under {:g} px up to {:.0f} mm/s, or {:.0f} rpm\n",
                1 / o.exposure_s, o.largest_blur_px, std::floor(r.fastest_mm_s),
                std::floor(r.fastest_turn_rpm));

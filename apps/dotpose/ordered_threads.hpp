@@ -1,4 +1,4 @@
-/// Processes the items of a list in several threads and returns the results in list order.
+/// Processes the items of a list in parallel and returns the results in list order.
 #pragma once
 
 #include <condition_variable>
@@ -16,13 +16,14 @@
 
 namespace dotpose::cli {
 
-/// Thread `i` of `n` processes the items i, i + n, i + 2n and so on, and emits one result for each
+/// Thread `i` of `n` processes the items i, i + n, i + 2n, and so on, and emits one result per
 /// item.
 template <typename Result>
 class OrderedThreads {
   public:
-    /// Function to which a thread passes a result. Blocks while kMaxResults results of the thread
-    /// are waiting. Returns false if no more results are needed. The thread must then return.
+    /// Function that a thread calls to deliver a result. Blocks while kMaxResults results of the
+    /// thread are queued. Returns false if no more results are needed, in which case the thread
+    /// must return.
     using Emit = std::function<bool(Result)>;
     using Work = std::function<void(std::size_t thread, const Emit& emit)>;
 
@@ -42,8 +43,8 @@ class OrderedThreads {
         }
     }
 
-    /// Returns the next result, or none after the last result. Rethrows an exception that ended a
-    /// thread.
+    /// Returns the next result, or none after the last result. Rethrows the exception of a thread
+    /// that failed.
     std::optional<Result> next() {
         Lane& lane = *lanes_[next_lane_++ % lanes_.size()];
         std::optional<Result> result = lane.take();
@@ -84,9 +85,9 @@ class OrderedThreads {
         std::condition_variable_any changed;
         std::deque<Result> results;
         bool has_ended = false;
-        /// Exception that ended the thread, or null. Set before `has_ended`.
+        /// Exception that terminated the thread, or null. Set before `has_ended`.
         std::exception_ptr failure;
-        /// Last member, so that the thread is joined before the members that it uses are destroyed.
+        /// Declared last, to be joined before the members that the thread uses are destroyed.
         std::jthread thread;
     };
 

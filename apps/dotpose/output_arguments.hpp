@@ -1,5 +1,5 @@
-/// Output options that have the same names and values in all commands: --format, --units, --draw
-/// and -o. The value "-" of -o means standard output.
+/// Output options with the same names and values in all commands: --format, --units, --draw and -o.
+/// "-" as the value of -o means standard output.
 #pragma once
 
 #include <cstdio>
@@ -13,45 +13,44 @@
 
 namespace dotpose::cli {
 
-/// Options of commands that write a line for each frame or packet.
+/// Options of commands that write one line per frame or packet.
 struct LineArguments {
-    std::string out;  ///< output file, or empty or "-" for standard output
+    std::string out;  ///< path of the output file, or empty or "-" for standard output
     RecordFormat format = RecordFormat::json;
     Units units = Units::mm;
 };
 
-/// Adds --format json|csv and -o. If `has_text`, --format also accepts text. The default format is
-/// csv if the name given to -o ends in .csv, and json otherwise.
+/// Adds --format json|csv and -o. With `has_text`, --format also accepts text. The default format
+/// is csv if the file name given to -o ends in .csv, and json otherwise.
 void add_format_options(Command& command, LineArguments& arguments, bool has_text = false);
 
 /// Adds the options of `add_format_options`, and --units mm|ros.
 void add_line_options(Command& command, LineArguments& arguments, bool has_text = false);
 
-/// Options of commands that write one report.
+/// Options of commands that write a single report.
 struct ReportArguments {
-    std::string out;  ///< output file, or empty or "-" for standard output
+    std::string out;  ///< path of the output file, or empty or "-" for standard output
     bool as_json = false;
 };
 
-/// Adds --format text|json, and -o with the help `out_help`. The default format is json if the name
-/// given to -o ends in .json, and text otherwise.
+/// Adds --format text|json, and -o with the help text `out_help`. The default format is json if the
+/// file name given to -o ends in .json, and text otherwise.
 void add_report_options(Command& command, ReportArguments& arguments,
                         const std::string& out_help = "File to write instead of standard output");
 
-/// Writes the report to the file of -o or to standard output. A text report is coloured if it is
-/// written to a terminal. Throws Error on failure.
+/// Writes the report to the file of -o or to standard output. Text is coloured if it goes to a
+/// terminal. Throws Error on failure.
 void write_report(const ReportArguments& arguments, const std::string& report);
 
-/// Adds --draw FILE, which writes an additional picture.
+/// Adds --draw FILE, the path of an additional picture.
 Option* add_draw_option(Command& command, std::string& path, const std::string& help);
 
-/// A document that the library can write only to a named file. If the document is for standard
-/// output, the library writes it to a temporary file, and `finish` copies this file to standard
-/// output.
+/// A document that the library can only write to a named file. For standard output, the library
+/// writes a temporary file, which `finish` then copies to standard output.
 class DocumentOutput {
   public:
     /// `out` is the value of -o. `ending` is the file extension of the format, such as ".pdf".
-    /// Throws Error if no temporary folder can be created.
+    /// Throws Error if the temporary folder cannot be created.
     DocumentOutput(const std::string& out, const std::string& ending);
 
     /// Removes the temporary folder.
@@ -59,19 +58,19 @@ class DocumentOutput {
     DocumentOutput(const DocumentOutput&) = delete;
     DocumentOutput& operator=(const DocumentOutput&) = delete;
 
-    /// Returns the path of the file that the library must write.
+    /// Returns the path to which the library must write the document.
     const std::filesystem::path& path() const { return path_; }
 
-    /// Copies the document to standard output if -o is "-". Throws Error on failure.
+    /// Copies the document to standard output if `out` is "-". Throws Error on failure.
     void finish() const;
 
-    /// Returns the stream for reports: standard error if the document is written to standard
-    /// output.
+    /// Returns the stream for reports: standard error if the document goes to standard output, and
+    /// standard output otherwise.
     std::FILE* report_stream() const { return folder_.empty() ? stdout : stderr; }
 
   private:
     std::filesystem::path path_;
-    std::filesystem::path folder_;  ///< temporary folder, or empty if there is none
+    std::filesystem::path folder_;  ///< temporary folder, or empty if none is needed
 };
 
 }  // namespace dotpose::cli

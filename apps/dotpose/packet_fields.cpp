@@ -12,7 +12,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the pose of a packet in the units and axes of `units`, or none if the packet has no fix.
+/// Returns the pose in a packet in the given units and axes, or none if the packet has no fix.
 std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Units units) {
     if (packet.status != Status::ok) return std::nullopt;
     const PlanePose pose{
@@ -20,12 +20,11 @@ std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Un
     return units == Units::ros ? with_other_y(pose) : pose;
 }
 
-/// Returns the field with the standard deviation of the position. The packet contains the larger of
-/// the values along x and y.
+/// Returns the field for the standard deviation of the position. The packet contains the larger of
+/// the standard deviations along x and y.
 Field deviation_field(const PosePacket& packet, double spacing_mm, Units units) {
     const double sigma_mm = packet.deviation_q12 * spacing_mm / 4096;
-    // The value 255 represents an unknown deviation, and all deviations that are too large for the
-    // packet.
+    // 255 means that the deviation is unknown or too large for the packet.
     const bool is_known = packet.status == Status::ok && packet.deviation_q12 < 255;
     if (units == Units::ros) return {"sigma_m", is_known ? metres(sigma_mm) : ""};
     return {"sigma_mm", is_known ? decimal(sigma_mm, 6) : ""};

@@ -1,4 +1,4 @@
-/// Output lines for pose packets.
+/// Output fields of pose packets.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the fields of a packet. `spacing_mm` is the spacing of the pattern. The fields of the
-/// pose are empty if the packet has no fix.
+/// Returns the fields of a packet. `spacing_mm` is the spacing of the pattern. The pose fields are
+/// empty if the packet has no fix.
 std::vector<Field> fields(const PosePacket& packet, double spacing_mm, Units units);
 
 }  // namespace dotpose::cli

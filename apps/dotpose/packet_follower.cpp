@@ -10,7 +10,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the fix of a packet, without a covariance.
+/// Returns the fix in a packet, without a covariance.
 Fix fix_of(const PosePacket& packet) {
     Fix fix;
     fix.status = packet.status;
@@ -25,14 +25,13 @@ Fix fix_of(const PosePacket& packet) {
     return fix;
 }
 
-/// Sets the covariance of a fix to a diagonal matrix that is computed from the deviation in the
-/// packet.
+/// Sets a diagonal covariance for a fix, based on the deviation in the packet.
 void set_covariance(const PosePacket& packet, Fix& fix) {
-    // The angle of a view of 8 x 8 dots, the smallest, has a standard deviation in rad of sqrt(6) /
-    // 8 times the standard deviation of the position in spacings. More dots make the angle more
-    // accurate, so this value is an upper bound.
+    // For the smallest view, 8 x 8 dots, the standard deviation of the angle in rad is sqrt(6) / 8
+    // times that of the position in spacings. With more dots, the angle is more accurate, so this
+    // factor is an upper bound.
     constexpr float kAngleFromPosition = 0.306F;
-    constexpr float kThetaStep_rad = 9.6e-5F;  // one step of PosePacket::theta_bam16
+    constexpr float kThetaStep_rad = 9.6e-5F;  // one unit of PosePacket::theta_bam16
     const float sigma = std::max<float>(packet.deviation_q12, 1) / 4096;
     const float sigma_rad = kAngleFromPosition * sigma + kThetaStep_rad;
     fix.covariance[0][0] = fix.covariance[1][1] = sigma * sigma;
@@ -96,16 +95,16 @@ std::optional<Reading> PacketFollower::follow(const PosePacket& packet) {
     return reading;
 }
 
-/// Advances `time_us_` to the time of a packet. Returns false if the packet is not newer than the
-/// previous packet.
+/// Advances `time_us_` to the time of a packet. Returns false if the packet is not newer than all
+/// previous packets.
 bool PacketFollower::advance(const PosePacket& packet) {
     constexpr std::int64_t kRestart_us = 1'000'000;
     if (newest_) {
         const int step = packets_since(newest_->sequence, packet.sequence);
         if (is_late(step)) return false;
         const auto elapsed_us = static_cast<std::int32_t>(packet.time_us - newest_->time_us);
-        // If the clock of the device went back, the device was restarted. The time between the
-        // packets is then unknown, and is assumed to be kRestart_us.
+        // A clock that went backwards indicates a restart of the device. The time since the
+        // previous packet is then unknown and is assumed to be kRestart_us.
         time_us_ += elapsed_us > 0 ? elapsed_us : kRestart_us;
     }
     newest_ = packet;

@@ -1,4 +1,4 @@
-/// Follows a robot from the pose packets of its device.
+/// Follows a robot based on the pose packets from its device.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace dotpose::cli {
 
-/// Returns the number of packets from an earlier packet to a later packet, computed from their
-/// sequence numbers. The result is 0 or negative if the later packet is repeated or arrived late.
+/// Returns the difference between the sequence numbers of two packets. The result is 0 or negative
+/// if the second packet is a repetition or arrived late.
 inline int packets_since(std::uint16_t earlier, std::uint16_t later) {
     return static_cast<std::int16_t>(later - earlier);
 }
 
-/// Returns true if a packet is repeated or late. `packets` is the result of `packets_since` for the
-/// newest packet and this packet. If it is below -16, the device was restarted, and the packet is
-/// not late.
+/// Returns true if a packet is a repetition or arrived late. `packets` is the result of
+/// `packets_since` for the newest packet and this packet. A value below -16 indicates that the
+/// device was restarted, and the packet is then not late.
 inline bool is_late(int packets) {
     constexpr int kMaxLate = 16;
     return packets <= 0 && packets >= -kMaxLate;
@@ -28,17 +28,17 @@ inline bool is_late(int packets) {
 
 class PacketFollower {
   public:
-    /// `spacing_mm` is the spacing of the pattern. It is used only if there are no sheets, in which
+    /// `spacing_mm` is the spacing of the pattern. It is used only if `sheets` is empty, in which
     /// case the robot is followed in the pattern frame.
     PacketFollower(std::vector<SheetEntry> sheets, double spacing_mm);
 
     bool has_sheets() const { return !sheets_.empty(); }
 
-    /// Returns the record of a packet. It includes the place of the fix on the sheets.
+    /// Returns the record of a packet, including the place of the fix on the sheets.
     Record record_of(const PosePacket& packet) const;
 
-    /// Updates the track. Returns nullopt if the packet is repeated or is older than the newest
-    /// packet. The times of the readings begin at 0 and always increase, even if the clock of the
+    /// Updates the track. Returns none if the packet is a repetition or is older than the newest
+    /// packet. The times of the readings start at 0 and always increase, even when the clock of the
     /// device wraps around or the device is restarted.
     std::optional<Reading> follow(const PosePacket& packet);
 

@@ -1,4 +1,4 @@
-/// Command-line options of the web page that dotpose-live serves.
+/// Command-line options for the web page that dotpose-live serves.
 #pragma once
 
 #include <string>

@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the 90 % quantile of all grey levels. This is about the grey level of the paper if paper
-/// covers more than a tenth of the image and nothing else in the image is brighter.
+/// Returns the 90 % quantile of the grey levels. It approximates the grey level of the paper if the
+/// paper covers more than a tenth of the image and is the brightest object in it.
 int paper_level(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -34,9 +34,9 @@ int paper_level(ImageView image) {
     return level;
 }
 
-/// Resamples an image to `width_px` x `height_px` by bilinear interpolation. `in_image(u, v)`
-/// returns the point of the original image for pixel (u, v) of the result. Points outside the image
-/// are moved to its border.
+/// Resamples an image to `width_px` x `height_px` with bilinear interpolation. `in_image(u, v)`
+/// maps pixel (u, v) of the result to a point in the original image. Points outside the image are
+/// clamped to its border.
 template <typename InImage>
 GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage in_image) {
     GreyImage result{{}, width_px, height_px};
@@ -55,8 +55,8 @@ GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage
     return result;
 }
 
-/// Returns the centre of an image, enlarged by the factor `by`. Before the enlargement, the centre
-/// is at most `side_px` wide and high.
+/// Returns the central part of an image, at most `side_px` wide and high, enlarged by the factor
+/// `by`.
 GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     const int width_px = std::min(image.width_px, side_px) - 1;
     const int height_px = std::min(image.height_px, side_px) - 1;
@@ -68,8 +68,8 @@ GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     });
 }
 
-/// Returns the spacing of the dots in px if the pattern can be read only in an enlarged image,
-/// otherwise none.
+/// Returns the spacing of the dots in px if the pattern can only be read after enlarging the image,
+/// and none otherwise.
 std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
@@ -87,14 +87,14 @@ std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Enlarges an image along one direction by the factor `by`, to compensate for the foreshortening
+/// Stretches an image along one direction by the factor `by`, to compensate for the foreshortening
 /// of a tilted sheet.
 struct Stretch {
     double angle_rad = 0;
     double by = 1;
 
     /// Converts an offset from the centre of the stretched image to an offset from the centre of
-    /// the original image. Both offsets are in px.
+    /// the original image, both in px.
     PixelPoint in_image(PixelPoint step) const {
         const double c = std::cos(angle_rad);
         const double s = std::sin(angle_rad);
@@ -103,7 +103,7 @@ struct Stretch {
     }
 };
 
-/// Returns the centre of the stretched image. It is a square with sides of at most `side_px`, whose
+/// Returns the central part of the stretched image, a square with sides of at most `side_px`. Its
 /// corners may be outside the original image.
 GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& stretch) {
     const int side = std::min({image.width_px, image.height_px, side_px});
@@ -114,8 +114,8 @@ GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& s
     });
 }
 
-/// Returns the tilt of the sheet in degrees if the pattern can be read in a stretched image,
-/// otherwise none.
+/// Returns the tilt of the sheet in degrees if the pattern can only be read after stretching the
+/// image, and none otherwise.
 std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& options,
                                          LargeMemory& scratch) {
     constexpr int kMiddle_px = 480;
@@ -129,8 +129,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             const GreyImage straight = stretched_middle(image, kMiddle_px, stretch);
             const Fix fix = Locator(scratch, once).locate(straight.view());
             if (fix.status != Status::ok) continue;
-            // Maps a pixel of the original image to a cell. The stretch is applied first, then the
-            // fitted plane.
+            // Maps a pixel of the original image to a cell: first the stretch, then the fitted
+            // plane.
             const double c = std::cos(stretch.angle_rad);
             const double s = std::sin(stretch.angle_rad);
             const PlaneFromImage& plane = fix.pattern_from_image;
@@ -143,8 +143,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             };
             const auto a = seen(1, 0);
             const auto b = seen(0, 1);
-            // The singular values of the matrix (a b) are the sizes of a pixel on the paper along
-            // and across the tilt, in cells.
+            // The singular values of the matrix (a b) are the side lengths of a pixel on the paper,
+            // in cells, along the tilt and across it.
             const double sum = a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1];
             const double area = std::abs(a[0] * b[1] - a[1] * b[0]);
             const double root = std::sqrt(std::max(sum * sum - 4 * area * area, 0.0));
@@ -156,9 +156,9 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
 }
 
 /// Returns the mean squared second difference of the grey levels. A second difference is the
-/// difference between a pixel and the mean of two pixels at the distance `step_px` on opposite
-/// sides. Noise contributes equally at all distances, and a linear brightness gradient contributes
-/// nothing.
+/// difference between a pixel and the mean of the two pixels at a distance of `step_px` on opposite
+/// sides of it. The contribution of noise is the same for all distances, and linear brightness
+/// gradients contribute nothing.
 double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
     for (int v = step_px; v + step_px < image.height_px; ++v) {
@@ -173,12 +173,12 @@ double second_difference(ImageView image, int step_px) {
     return static_cast<double>(squares) / (4 * samples);
 }
 
-/// Returns true if the image contains only coarse details. Computes the ratio of the fine details,
-/// which are measured by the second difference over 2 px, to the coarse details, which are measured
-/// by the larger of those over 8 and 16 px. The second difference over 1 px estimates the noise and
-/// is subtracted from both. In a focused picture, the ratio is at least 1/6, even at a tilt of 70
-/// degrees. If the dots are too blurred to be read, the ratio is less than 1/20. Returns false if
-/// the image is too small for this comparison.
+/// Returns true if the image contains only coarse details. Compares the fine details, measured by
+/// the second difference over 2 px, with the coarse details, measured by the larger of the second
+/// differences over 8 and 16 px. The second difference over 1 px is an estimate of the noise and is
+/// subtracted from both. The ratio of fine to coarse details is at least 1/6 in a focused picture,
+/// even at a tilt of 70 degrees, and below 1/20 if the dots are too blurred to be read. Returns
+/// false if the image is too small for this test.
 bool is_out_of_focus(ImageView image) {
     constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;
@@ -190,7 +190,7 @@ bool is_out_of_focus(ImageView image) {
     return detail > kMinDetail && second_difference(image, 2) - noise < kFocused * detail;
 }
 
-/// Reduces the image by the factor `by`, by averaging squares of `by` x `by` pixels.
+/// Reduces the image by the factor `by` by averaging blocks of `by` x `by` pixels.
 GreyImage reduced_by(ImageView image, int by) {
     GreyImage small{{}, image.width_px / by, image.height_px / by};
     for (int v = 0; v < small.height_px; ++v) {
@@ -205,16 +205,16 @@ GreyImage reduced_by(ImageView image, int by) {
 }
 
 /// Reduces the image until its dots form a grid. Returns the spacing of these dots in px of the
-/// original image if it exceeds kMaxSpacing_px. Returns none if no reduced image has such a grid.
+/// original image if it exceeds kMaxSpacing_px, and none if no reduced image contains such a grid.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
-    // Minimum number of dots of the grid. It is small, because a camera that is too near to the
-    // paper shows only few dots.
+    // Minimum number of dots in the grid. It is small because a camera that is too close to the
+    // paper sees only a few dots.
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
-    blobs.effort = Effort::device;  // this effort stores the grid of its blobs in the trace
+    blobs.effort = Effort::device;  // `Effort::device` records the grid of its blobs in the trace
     blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
         if (std::min(image.width_px, image.height_px) / by < kMinFrameSide_px) break;
@@ -234,7 +234,8 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Returns true if the inverted image can be located, which means that the dots are white on black.
+/// Returns true if the inverted image can be located, which implies that the dots are white on
+/// black.
 bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     GreyImage inverted = reduced_by(image, 1);
     for (std::uint8_t& grey : inverted.pixels)
@@ -244,9 +245,9 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Returns advice to name the code if the position is certain in one of the codes alone, otherwise
-/// an empty string. If the code is not named, places in all codes are possible, and this alone may
-/// be the reason why the position is not certain.
+/// Returns the advice to specify the code if the position is certain in one of the codes. Returns
+/// an empty string otherwise. Without a given code, a position may be uncertain merely because
+/// places in all codes are possible.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
@@ -287,9 +288,8 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
             "the sheet is tilted too much, by about {:.0f} degrees: look straight down on it",
             *tilt_degrees);
     }
-    // A video with fewer bits per pixel is reported as compressed too much. In videos of sharp
-    // frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel (docs/live.md), so the limit
-    // has a margin.
+    // In videos with sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel
+    // (docs/live.md). The limit has a margin.
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(
@@ -323,8 +323,8 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
     if (is_inverted(image, options, scratch)) {
         return "the dots are white on black: locate with --inverted";
     }
-    // Minimum grey level of the paper. The contrast of a dot is at most this grey level. Blur may
-    // reduce it to a quarter, which must be at least min_contrast.
+    // Minimum grey level of the paper. The contrast of a dot is at most as large as this level.
+    // Blur may reduce the contrast to a quarter, which must still be at least min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(

@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the name of an image without its file extension. For example, returns drive-17 for
-/// drive.mp4#17, which is frame 17 of a video.
+/// Returns the name of an image without its file extension. For drive.mp4#17, which is frame 17 of
+/// a video, returns drive-17.
 std::string stem_of(const std::string& name) {
     const std::size_t mark = name.rfind('#');
     if (mark == std::string::npos ||
@@ -33,8 +33,8 @@ PictureFolder::PictureFolder(fs::path path, const RunFiles& files)
     : path_(std::move(path)), files_(files) {
     if (is_picture_name(path_)) return;
     std::error_code error;
-    // Creates only the last folder of the path, because the path is probably mistyped if its parent
-    // is missing.
+    // Creates only the last folder of the path. If its parent is missing, the path is probably
+    // mistyped.
     fs::create_directory(path_, error);
     if (!fs::is_directory(path_)) {
         throw Error(fmt::format("cannot create the folder {}: {}", path_.string(),

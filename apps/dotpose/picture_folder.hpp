@@ -1,4 +1,4 @@
-/// Pictures written by `--draw`: a folder with one picture per image, or NAME.svg for one image.
+/// Pictures written by `--draw`: a folder with one picture per image, or a single picture NAME.svg.
 #pragma once
 
 #include <filesystem>
@@ -12,21 +12,20 @@
 
 namespace dotpose::cli {
 
-/// Returns true if a path is the name of a picture, NAME.svg, and not of a folder.
+/// Returns true if the path names a picture, NAME.svg, rather than a folder.
 bool is_picture_name(const std::filesystem::path& path);
 
 class PictureFolder {
   public:
-    /// Creates the folder, unless `path` is the name of a picture. The parent folder must exist.
-    /// `files` contains the files of the run, which no picture may overwrite. Throws Error if the
-    /// folder cannot be created.
+    /// Creates the folder, unless `path` names a picture. The parent folder must exist. `files` are
+    /// the files of the run, which no picture may overwrite. Throws Error if the folder cannot be
+    /// created.
     PictureFolder(std::filesystem::path path, const RunFiles& files);
 
-    /// Writes a picture. In a folder, its name is STEM.svg, where STEM is the name of the image
-    /// without its file extension. For frame 17 of the video drive.mp4, which has the name
-    /// drive.mp4#17, STEM is drive-17. If an earlier image had the same stem, the name is
-    /// STEM-2.svg, and so on. The title in the options is replaced by the name of the image. Throws
-    /// Error if the picture cannot be written.
+    /// Writes a picture, with the name of the image as its title. In a folder, the file name is
+    /// STEM.svg, where STEM is the name of the image without its file extension: drive-17 for
+    /// drive.mp4#17, which is frame 17 of the video drive.mp4. If the name is already taken, it
+    /// becomes STEM-2.svg, and so on. Throws Error if the picture cannot be written.
     void add(const std::string& image_name, ImageView image, const Trace& trace,
              DrawOptions options);
 

@@ -17,7 +17,7 @@ std::string radians(double angle_rad) {
     return decimal(angle_rad, 8);
 }
 
-/// Returns the nine fields of a covariance whose rows and columns are multiplied by `factors`.
+/// Returns the nine fields of a covariance after scaling its rows and columns by `factors`.
 std::vector<Field> scaled(const std::string& name, const PoseCovariance& covariance,
                           const std::array<double, 3>& factors, bool is_known) {
     std::vector<Field> fields;
@@ -46,7 +46,7 @@ PlanePose pattern_pose(const Fix& fix, double spacing_mm) {
 }
 
 PlanePose with_other_y(const PlanePose& pose) {
-    // An angle of pi is kept, because -pi is the same direction but outside (-pi, pi].
+    // Keeps an angle of pi, because -pi is the same direction but outside the range (-pi, pi].
     const double angle_rad =
         pose.theta_rad == std::numbers::pi ? std::numbers::pi : -pose.theta_rad;
     return {pose.x_mm, -pose.y_mm, angle_rad, world_covariance(pose.covariance, 0)};

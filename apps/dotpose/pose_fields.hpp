@@ -1,4 +1,4 @@
-/// Poses as fields of output lines, in the selected units.
+/// Poses as fields of output lines, in the units selected by the user.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace dotpose::cli {
 
 /// Units and axes of poses in the output. World poses are always in metres and radians.
 enum class Units {
-    mm,   ///< mm and degrees, y down and angles clockwise, as seen on the paper
+    mm,   ///< mm and degrees, y down, clockwise, as seen on the paper
     ros,  ///< metres and radians, y up, z out of the paper, counter-clockwise (ROS REP 103)
 };
 
@@ -21,14 +21,14 @@ struct PlanePose {
     double x_mm = 0;
     double y_mm = 0;
     double theta_rad = 0;
-    /// Covariance of x, y and theta, in mm and rad. All elements are 0 if it is unknown.
+    /// Covariance of x, y and theta, in mm and rad, or all zeros if unknown.
     PoseCovariance covariance{};
 };
 
 /// Returns the pose of a fix in the pattern frame. The fix must be ok.
 PlanePose pattern_pose(const Fix& fix, double spacing_mm);
 
-/// Returns the pose with y and angle negated, to convert between y down and y up.
+/// Returns the pose with y and the angle negated, which converts between y down and y up.
 PlanePose with_other_y(const PlanePose& pose);
 
 /// Field names of a pose and its covariance, such as x_mm, y_mm, theta_deg and covariance_mm_deg.
@@ -46,8 +46,8 @@ PoseNames sheet_names(Units units);
 PoseNames track_names(Units units);
 
 /// Return the three fields of a pose, or the nine fields of its covariance in row-major order. All
-/// fields are empty if there is no pose, and the fields of the covariance also if it is unknown.
-/// The values are converted to the units of `units`, but not to its axes.
+/// fields are empty if there is no pose, and the covariance fields are also empty if the covariance
+/// is unknown. The values are converted to the units, but not to the axes, of `units`.
 std::vector<Field> pose_fields(const PoseNames& names, Units units,
                                const std::optional<PlanePose>& pose);
 std::vector<Field> covariance_fields(const PoseNames& names, Units units,
@@ -56,7 +56,7 @@ std::vector<Field> covariance_fields(const PoseNames& names, Units units,
 /// Returns the fields x_m, y_m, yaw_rad and covariance_m_rad.
 std::vector<Field> world_fields(const std::optional<WorldPlace>& place);
 
-/// Formats a length, given in mm, in metres.
+/// Formats a length in metres.
 std::string metres(double mm);
 
 void append(std::vector<Field>& fields, std::vector<Field> more);

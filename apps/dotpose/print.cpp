@@ -27,7 +27,7 @@ namespace {
 
 struct PrintArguments {
     std::string out;
-    std::string ending;  ///< file extension of --format, such as ".pdf", or empty if not given
+    std::string ending;  ///< file extension for --format, such as ".pdf", or empty
     std::string paper = "A4";
     bool landscape = false;
     SheetOptions sheet;
@@ -51,11 +51,10 @@ constexpr const char* kPrintExamples =
     "Print at 100 %, without \"fit to page\". Give each sheet its own origin, or let a sheet\n"
     "file do so: it is created if missing, and 'dotpose locate --sheets' reads it.\n";
 
-/// Formats, named by their file extensions.
+/// Output formats, as file extensions.
 const std::vector<std::string> kFormats = {"pdf", "svg", "png", "tif", "txt"};
 
-/// Returns the format of the output. Throws BadArgument if the format is unknown or contradicts the
-/// file name.
+/// Returns the output format. Throws BadArgument if it is unknown or contradicts the file name.
 PrintFormat format_of(const PrintArguments& arguments) {
     if (arguments.out == kStandardOutput) {
         if (arguments.ending.empty()) {
@@ -93,7 +92,7 @@ SheetPrint print_of(const PrintArguments& arguments) {
     return print;
 }
 
-/// Runs `write` and shows its progress on the terminal. Ctrl-C stops `write`.
+/// Runs `write` and shows its progress. Ctrl-C cancels it.
 template <typename Write>
 void with_progress(const PrintArguments& arguments, const Write& write) {
     catch_interrupts();

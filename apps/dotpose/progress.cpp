@@ -23,7 +23,7 @@ constexpr auto kBetween = 100ms;
 constexpr const char* kEraseLine = "\r\033[K";
 
 volatile std::sig_atomic_t signal_seen = 0;
-std::atomic<std::int64_t> signal_ns = 0;  ///< time of the first signal, on the monotonic clock
+std::atomic<std::int64_t> signal_ns = 0;  ///< time of the first signal on the monotonic clock
 std::atomic<bool> is_line_visible = false;
 
 /// Returns the time on the monotonic clock in ns. Safe to call from a signal handler.
@@ -33,9 +33,9 @@ std::int64_t now_ns() {
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-/// Stores the first signal. A second signal ends the program immediately, but only if it arrives
-/// more than 500 ms after the first. The program `timeout` sends two signals within this time, one
-/// to the program and one to its process group.
+/// Records the first signal. A second signal terminates the program immediately if it arrives more
+/// than 500 ms after the first. An earlier second signal is ignored, because the program `timeout`
+/// sends two signals in quick succession: one to the program and one to its process group.
 void on_signal(int signal_number) {
     constexpr std::int64_t kTwice_ns = 500'000'000;
     if (signal_seen == 0) {

@@ -7,39 +7,38 @@
 
 namespace dotpose::cli {
 
-/// Ignores SIGPIPE, so that writing to a closed output fails without ending the program.
+/// Ignores SIGPIPE. Writing to a closed output then fails instead of terminating the program.
 void ignore_broken_pipes();
 
-/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of ending the program, so that the
-/// program can remove its temporary files. A second signal ends the program if it arrives more than
+/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of terminating the program, which can
+/// then remove its temporary files. A second signal terminates the program if it arrives more than
 /// half a second after the first.
 void catch_interrupts();
 bool interrupted();
 
-/// Returns true if the first signal was SIGINT, the signal of Ctrl-C. In this case, also resets
-/// `interrupted`, so that the next signal counts as the first.
+/// Returns true if the first signal was SIGINT, the signal sent by Ctrl-C. In this case, also
+/// resets `interrupted`, which makes the next signal the first.
 bool take_ctrl_c();
 
-/// Formats a duration with at most two units, such as "12 s", "3 min 05 s" or "2 h 10 min". Rounds
-/// up.
+/// Formats a duration, rounded up, with at most two units, such as "12 s", "3 min 05 s" or "2 h 10
+/// min".
 std::string duration_text(double seconds);
 
 /// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". It appears
-/// only on a terminal, after a second of work, and is removed at the end. A message written by
-/// `tell` hides the line until the next update. There can be only one progress line at a time.
+/// only on a terminal, after one second of work, and is removed at the end. A message from `tell`
+/// hides the line until the next update. Only one progress line may exist at a time.
 class ProgressLine {
   public:
-    /// `out` is the file to which the work writes lines. Empty or "-" means standard output. If
-    /// standard output is a terminal, the progress line is not shown, because the lines of output
-    /// already show the progress.
+    /// `out` is the file to which the work writes its output lines, where empty or "-" means
+    /// standard output. If these lines appear on a terminal, they already indicate the progress,
+    /// and the progress line is not shown.
     ProgressLine(std::string what, const std::string& out);
     explicit ProgressLine(std::string what);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// Shows the number of finished items and, if `total` is known, the percentage. If `total` is
-    /// 0, it is not known.
+    /// Shows the number of completed items and, unless `total` is 0 (unknown), the percentage.
     void update(std::int64_t done, std::int64_t total);
 
   private:
@@ -49,7 +48,7 @@ class ProgressLine {
     std::chrono::steady_clock::time_point next_;
 };
 
-/// Removes the progress line from the terminal before a message is written.
+/// Removes the progress line from the terminal. Must be called before a message is written.
 void hide_progress();
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-/// Result of `dotpose watch` for one frame: the record of the frame, and the track up to the frame.
+/// Result of `dotpose watch` for one frame: the record of the frame and the updated track.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// Plane of the coordinates of a track: the pattern frame, or the world frame of a sheet file.
+/// Frame of reference of a track: the pattern frame, or the world frame of a sheet file.
 enum class Plane { pattern, sheet_world };
 Plane plane_of(const Follower& follower);
 
@@ -17,8 +17,7 @@ struct Reading {
     std::int64_t index = 0;
     std::int64_t time_us = 0;
     /// Result of the frame. If the fix was accepted only with the prior of the tracker
-    /// (`with_prior` in dotpose/track.hpp), `p_wrong` is the bound that was computed with this
-    /// prior.
+    /// (`with_prior` in dotpose/track.hpp), `p_wrong` is the bound that includes this prior.
     Record record;
     Track track;
     std::optional<SpaceTrack> space_track;  ///< see Followed

@@ -18,7 +18,7 @@ double deviation(const TrackedPose& pose, std::size_t i) {
     return std::sqrt(static_cast<double>(pose.covariance[i][i]));
 }
 
-/// Returns the pose of the track with the covariance of x, y and theta.
+/// Returns the pose of a track, with the covariance of x, y and theta.
 PlanePose plane_pose(const TrackedPose& pose) {
     PlanePose result{pose.x_mm(), pose.y_mm(), pose.theta_rad(), {}};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -28,9 +28,9 @@ PlanePose plane_pose(const TrackedPose& pose) {
     return result;
 }
 
-/// Returns the fields of the velocities and their standard deviations and, in mm and degrees, of
-/// the standard deviations of the pose. `is_flipped` is true if y points down in the track but up
-/// in the output, so that signs change.
+/// Returns the fields of the velocities and their standard deviations. In mm and degrees, also
+/// returns the standard deviations of the pose. `is_flipped` is true if y points down in the track
+/// and up in the output, which changes some signs.
 std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_flipped) {
     const double sign = is_flipped ? -1 : 1;
     const double vx_mm_s = static_cast<double>(pose.vx_mm_s);
@@ -60,7 +60,7 @@ std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_f
     };
 }
 
-/// Returns the fields of the tracker. The fields of the pose are empty while the robot is lost.
+/// Returns the fields of a track. The pose fields are empty while the robot is lost.
 std::vector<Field> track_fields(const Track& track, Plane plane, Units units) {
     const bool is_flipped = units == Units::ros && plane == Plane::pattern;
     std::optional<PlanePose> pose;

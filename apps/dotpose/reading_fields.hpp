@@ -1,4 +1,5 @@
-/// Fields of an output line of `dotpose watch`: the fields of `dotpose locate` and of the tracker.
+/// Fields of an output line of `dotpose watch`: the fields of `dotpose locate`, and the fields of
+/// the tracker.
 #pragma once
 
 #include <string>
@@ -11,7 +12,8 @@ namespace dotpose::cli {
 
 std::vector<Field> fields(const Reading& reading, Units units);
 
-/// Returns the CSV header of a run. `empty` is a record without a fix, with the fields of the run.
+/// Returns the CSV header of a run. `empty` is a record without a fix that has the fields of the
+/// run.
 std::string csv_header_of_readings(const Record& empty, Units units);
 
 }  // namespace dotpose::cli

@@ -1,6 +1,6 @@
-/// Publishes readings through a broker or on a web page. Only dotpose-live connects to brokers and
-/// serves pages. Therefore `dotpose` and dotpose-live define the functions that open a sink
-/// differently.
+/// Publishes readings through an MQTT broker or on a web page. `dotpose` and dotpose-live define
+/// the functions that open a sink differently, because only dotpose-live can connect to brokers and
+/// serve pages.
 #pragma once
 
 #include <memory>
@@ -20,18 +20,18 @@ class ReadingSink {
     virtual ~ReadingSink() = default;
 
     virtual void take(const Reading& reading) = 0;
-    /// Completes the output. Throws Error on failure.
+    /// Finishes the output. Throws Error on failure.
     virtual void finish() = 0;
 };
 
-/// Connects to the broker, or returns null if --mqtt is not given. `sheets` is the path of the
-/// sheet file. In `dotpose`, replaces this process with dotpose-live and the same command line.
+/// Connects to the broker. Returns null if --mqtt is not given. `sheets` is the path of the sheet
+/// file. In `dotpose`, replaces this process with dotpose-live, passing the same command line.
 /// Throws Error on failure.
 std::unique_ptr<ReadingSink> open_publisher(const PublishArguments& arguments,
                                             const std::string& sheets);
 
-/// Starts the page of `listen` for a robot, or returns null if --web is not given. In `dotpose`,
-/// replaces this process as `open_publisher` does. Throws Error on failure.
+/// Starts the web page of `listen` for a robot. Returns null if --web is not given. In `dotpose`,
+/// replaces this process like `open_publisher`. Throws Error on failure.
 std::unique_ptr<ReadingSink> open_page(const PageArguments& arguments, const std::string& robot,
                                        const std::string& sheets);
 

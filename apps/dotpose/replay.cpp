@@ -38,7 +38,7 @@ struct ReplayArguments {
     ReportArguments report;
 };
 
-/// Returns true if the output file (-o) is a recording, and not a report.
+/// Returns true if the output file (-o) is a recording rather than a report.
 bool is_recording(const std::string& out) {
     return print::lower_case(system::path_of(out).extension().string()) == ".mcap";
 }
@@ -54,7 +54,7 @@ double share(std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-/// Lists the frames of reference of the poses. Adds a remedy if the poses are not in the world.
+/// Lists the frames of reference of the poses, with advice if they are not in the world frame.
 std::string frames_of_poses(const RunStatistics& run) {
     std::string text;
     for (const std::string& plane : run.planes)
@@ -107,7 +107,7 @@ std::string json_report(const RunStatistics& run) {
            '\n';
 }
 
-/// Records the messages that the robot would have published.
+/// Records the messages that the robot would have published during the logged run.
 void record(const ReplayArguments& arguments) {
     LogReader log(system::path_of(arguments.log));
     ros::RobotMessenger messenger(arguments.robot, ros::with_prefix(arguments.frame_prefix));

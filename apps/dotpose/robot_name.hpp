@@ -1,5 +1,5 @@
-/// Options for the name of a robot and for its frames, which are part of MQTT topics and of ROS
-/// names.
+/// Options for the name of a robot and the prefix of its frames, which appear in MQTT topics and in
+/// ROS names.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@ namespace dotpose::cli {
 
 class Command;
 
-/// Adds --robot NAME. The option rejects names that are not valid in topics.
+/// Adds --robot NAME. Rejects names that are not valid in topics.
 void add_robot_option(Command& command, std::string& robot, const std::string& help);
 
-/// Adds --frame-prefix PREFIX. The value is not checked here. ros::with_prefix rejects prefixes
-/// that are not valid in ROS.
+/// Adds --frame-prefix PREFIX. The value is not validated here, but ros::with_prefix rejects
+/// prefixes that are not valid in ROS.
 void add_frame_prefix_option(Command& command, std::string& prefix);
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-/// Records the messages of a robot in an MCAP file, with the topic names that ROS uses.
+/// Records the messages of a robot to an MCAP file, using the topic names of ROS.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ struct RobotTopics {
     static constexpr const char* kTfStatic = "/tf_static";
 };
 
-/// Converts the name of a robot to a name that is valid in ROS topics. It consists of letters,
-/// digits and underscores, and does not begin with a digit.
+/// Converts the name of a robot to a valid ROS name, which consists of letters, digits and
+/// underscores and does not begin with a digit.
 std::string ros_name(const std::string& robot);
 
 class RobotRecording {
@@ -31,13 +31,13 @@ class RobotRecording {
     /// Throws Error if the file cannot be created.
     RobotRecording(const std::string& path, const std::string& robot);
 
-    /// Records the messages of a frame. Throws Error on failure.
+    /// Records the messages for a frame. Throws Error on failure.
     void take(const ros::RobotMessages& messages, std::int64_t time_ns);
-    /// Record the mount of the camera, and an image.
+    /// Record the camera mount, or an image.
     void take_mount(const ros::TransformStamped& mount, std::int64_t time_ns);
     void take_image(const ros::CompressedImage& image, std::int64_t time_ns);
 
-    /// Completes and closes the file. Throws Error on failure.
+    /// Finishes and closes the file. Throws Error on failure.
     void finish() { file_.finish(); }
 
   private:
@@ -47,7 +47,7 @@ class RobotRecording {
 
     McapFile file_;
     RobotTopics topics_;
-    // Each channel is created with its first message.
+    // Each channel is created when its first message is recorded.
     std::optional<McapChannel> poses_;
     std::optional<McapChannel> cameras_;
     std::optional<McapChannel> odometry_;

@@ -62,7 +62,7 @@ std::string label_of(const std::string& option, const std::string& path) {
     return option.empty() ? path : option + " " + path;
 }
 
-/// Returns the identity of a file that exists, or none for a device or a pipe.
+/// Returns the identity of an existing file, or none for a device or a pipe.
 std::optional<FileIdentity> identity_of(const std::optional<system::FileNumbers>& numbers) {
     if (!numbers || !numbers->is_regular) return std::nullopt;
     return FileIdentity{numbers->device, numbers->file, ""};

@@ -1,5 +1,5 @@
-/// Checks the files of one run: no output may be one of the inputs, and no two outputs may be the
-/// same file. Every command registers its files before it opens any of them.
+/// Checks the files of a run: no output may also be an input, and no two outputs may be the same
+/// file. Every command registers its files before it opens any of them.
 ///
 ///     RunFiles files;
 ///     files.reads("--sheets", arguments.sheets);
@@ -18,52 +18,52 @@
 
 namespace dotpose::cli {
 
-/// Kind of data in an output file. With `own`, the file extension determines the kind.
+/// Kind of data in an output file. `own` means that the file extension determines the kind.
 enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 
 Content content_of(RecordFormat format);
 Content content_of(const ReportArguments& report);
 
-/// Identity of a file. Two paths have equal identities if they refer to the same file, even through
-/// links or different folders. New files whose names differ only in case have equal identities,
-/// because some file systems ignore case.
+/// Identity of a file. Paths of the same file have equal identities, even through links or
+/// different folders. New files whose names differ only in case also have equal identities, because
+/// some file systems ignore case.
 struct FileIdentity {
     std::uint64_t device = 0;
-    std::uint64_t file = 0;  ///< number of the file, or of its folder if the file does not exist
+    std::uint64_t file = 0;  ///< number of the file or, if the file does not exist, of its folder
     std::string new_name;    ///< file name in lower case, or empty if the file exists
     auto operator<=>(const FileIdentity&) const = default;
 };
 
-/// Returns the identity of a file, or none for a device, a pipe, or a name in a nonexistent folder.
+/// Returns the identity of a file, or none for a device, a pipe, or a path in a nonexistent folder.
 std::optional<FileIdentity> identity_of(const std::string& path);
 
-/// The files of one run. An empty path means that there is no file. The functions throw BadArgument
-/// if a file is rejected. The message contains the names of both options.
+/// The files of a run. Empty paths are ignored. If a file is rejected, the functions throw
+/// BadArgument with a message that contains the names of both options.
 class RunFiles {
   public:
     /// Registers an input. `option` is the flag, or empty for a positional argument. The path "-"
-    /// is standard input.
+    /// means standard input.
     void reads(const std::string& option, const std::string& path);
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
-    /// Registers an output. Rejects a file extension of an image or video that does not match
-    /// `content`. For example, in `-o frames/*.png` the name of the output was forgotten, and the
-    /// shell inserts the first frame as the output, which would be overwritten. The path "-" is
-    /// standard output for `-o`, and is rejected for other options.
+    /// Registers an output. Rejects the file extension of an image or video if it does not match
+    /// `content`. This prevents an accident: in `-o frames/*.png`, the user forgot the output name,
+    /// and the shell expands the glob to the names of the frames, so the first frame would be
+    /// overwritten. The path "-" means standard output for `-o`, and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
-    /// Registers the output of lines: the file given by `-o`, or standard output without `-o`.
+    /// Registers the output of lines: the file of `-o`, or standard output if `-o` is not given.
     void writes_lines(const std::string& path, Content content);
 
     /// Registers a file that is read, changed and rewritten, or created if it does not exist.
     void updates(const std::string& option, const std::string& path, Content content);
 
-    /// Checks an input like `reads`, but does not store its name, because a run may have any number
-    /// of inputs.
+    /// Checks an input like `reads`, but does not store its path, because a run may have an
+    /// unlimited number of inputs.
     void require_not_written(const std::string& path) const;
 
-    /// Checks an output like `writes`, but does not store its name. Meant for generated names:
-    /// these differ from each other, so they need not be compared.
+    /// Checks an output like `writes`, but does not store its path. Use this function for generated
+    /// names, which are known to differ from each other.
     void require_free(const std::string& option, const std::string& path) const;
 
   private:
@@ -71,7 +71,8 @@ class RunFiles {
     void add_output(const std::string& label, const std::optional<FileIdentity>& identity);
     void require_free(const std::string& label, const FileIdentity& identity) const;
 
-    std::map<FileIdentity, std::string> inputs_;  ///< names as specified by the user
+    std::map<FileIdentity, std::string> inputs_;  ///< option and path of each input, for error
+                                                  ///< messages
     std::map<FileIdentity, std::string> outputs_;
 };
 

@@ -20,8 +20,8 @@ namespace {
 
 using csv::cells_of;
 
-/// Converts a number to an integer. Throws Error unless it is a whole number of at least 0 and
-/// below 2^53, the range in which a double represents all whole numbers exactly.
+/// Converts a number to an integer. Throws Error unless the number is an integer in [0, 2^53), the
+/// range in which a double represents all integers exactly.
 std::int64_t whole(double value, const char* column) {
     if (!(value >= 0 && value < 9007199254740992.0) || value != std::floor(value)) {
         throw Error(fmt::format("{} is not a whole number of at least 0", column));
@@ -112,7 +112,7 @@ std::optional<LogCells> LogReader::next_row() {
     std::string line;
     if (!files::next_line(file_, line)) return std::nullopt;
     ++line_;
-    if (file_.eof()) return std::nullopt;  // a last line without a line break is incomplete
+    if (file_.eof()) return std::nullopt;  // a line without a line break is incomplete
     if (is_json_) return row_of_json(line);
     auto cells = cells_of(line);
     if (cells.size() != width_) {
@@ -122,8 +122,8 @@ std::optional<LogCells> LogReader::next_row() {
 }
 
 /// Converts a JSON line to the cells of a CSV row. The elements of a 3 x 3 or 6 x 6 matrix become
-/// cells whose names end with the row and column index. The components of a quaternion become cells
-/// whose names end with x, y, z and w.
+/// cells whose names end in the row and column indices. The components of a quaternion become cells
+/// whose names end in x, y, z and w.
 LogCells LogReader::row_of_json(const std::string& line) {
     const nlohmann::json object = files::parse_json(line);
     if (!object.is_object()) throw Error("it is not an object");
@@ -199,7 +199,7 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const double step_s = row.t_s - before.t_s;
         if (row.state == "stationary") {
             run.stationary_s += step_s;
-            continue;  // the measured motion of a stationary robot is only noise
+            continue;  // ignore the measured motion of a stationary robot, which is only noise
         }
         moving_s += step_s;
         run.distance_mm += std::hypot(*row.x_mm - *before.x_mm, *row.y_mm - *before.y_mm);

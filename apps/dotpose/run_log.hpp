@@ -1,4 +1,4 @@
-/// Reads a log of `dotpose watch`, in the CSV format of `--log` or as JSON lines. The log has one
+/// Reads logs of `dotpose watch`, in the CSV format of `--log` or as JSON lines. A log contains one
 /// row for each frame, including frames without a fix.
 #pragma once
 
@@ -20,20 +20,20 @@
 
 namespace dotpose::cli {
 
-/// A row of a log, whose cells are accessed by column name.
+/// A row of a log, with access to its cells by column name.
 class LogCells {
   public:
-    /// Maps column names to indices of cells in a row.
+    /// Maps the name of each column to the index of its cell in a row.
     using Columns = std::map<std::string, std::size_t, std::less<>>;
 
     LogCells(const Columns& columns, std::vector<std::string> cells)
         : columns_(columns), cells_(std::move(cells)) {}
 
     bool has(std::string_view column) const { return columns_.contains(column); }
-    /// Returns the text of a cell, or an empty string if the log has no such column.
+    /// Returns the text in a cell, or an empty string if the column does not exist.
     std::string_view text(std::string_view column) const;
-    /// Returns the number in a cell, or none if the cell is empty or the log has no such column.
-    /// Throws Error if the cell is not a number.
+    /// Returns the number in a cell, or none if the cell is empty or the column does not exist.
+    /// Throws Error if the cell contains anything other than a number.
     std::optional<double> number(std::string_view column) const;
     double required(std::string_view column) const;
 
@@ -42,21 +42,21 @@ class LogCells {
     std::vector<std::string> cells_;
 };
 
-/// Reads a log row by row. If the file is not a valid log, the functions throw Error with the line
-/// number. An incomplete last line, which may be caused by a power failure, is ignored.
+/// Reads a log row by row. The functions throw Error, with the line number, if the file is not a
+/// valid log. An incomplete last line, which a power failure may cause, is ignored.
 class LogReader {
   public:
-    /// Columns that `log_row` needs. A log of `watch --log` contains them.
+    /// Columns that `log_row` needs. The logs of `watch --log` contain all of them.
     static constexpr std::array<const char*, 13> kWatchColumns = {
         "frame",   "t_s",   "status",     "dots_seen",  "p_wrong", "state",  "events",
         "verdict", "plane", "track_x_mm", "track_y_mm", "vx_mm_s", "vy_mm_s"};
 
-    /// Throws Error if a CSV file does not have all columns in `needed`.
+    /// Throws Error if the file is CSV and any of the columns in `needed` is missing.
     explicit LogReader(const std::filesystem::path& path,
                        std::span<const char* const> needed = kWatchColumns);
 
-    /// Returns `parse(next row)`, or none at the end of the file. If `parse` throws an Error, adds
-    /// the line number to it.
+    /// Returns `parse(next row)`, or none at the end of the file. Adds the line number to any Error
+    /// that `parse` throws.
     template <typename Parse>
     auto next(Parse parse) -> std::optional<decltype(parse(std::declval<const LogCells&>()))> {
         try {
@@ -78,7 +78,7 @@ class LogReader {
     int line_ = 0;
     bool is_json_ = false;
     std::size_t width_ = 0;
-    LogCells::Columns columns_;  ///< for JSON lines, the columns of the newest row
+    LogCells::Columns columns_;  ///< columns of the file or, for JSON lines, of the newest row
 };
 
 struct LogRow {
@@ -88,11 +88,11 @@ struct LogRow {
     std::string events;  ///< names of events, separated by spaces
     std::string verdict;
     std::string state;  ///< lost, moving or stationary
-    std::string plane;  ///< pattern or world, or empty while the robot is lost
+    std::string plane;  ///< pattern or world, or empty if the robot is lost
     int dots_seen = 0;
     std::optional<double> p_wrong;
-    // Pose of the track in mm and degrees, and its speed in mm/s. The pose is missing while the
-    // robot is lost.
+    // Pose of the track in mm and degrees, and speed in mm/s. There is no pose if the robot is
+    // lost.
     std::optional<double> x_mm;
     std::optional<double> y_mm;
     double speed_mm_s = 0;
@@ -107,23 +107,23 @@ struct RunStatistics {
     std::int64_t frames = 0;
     std::int64_t fixes = 0;
     double duration_s = 0;
-    std::map<std::string, std::int64_t> without_fix;  ///< number of frames by status
+    std::map<std::string, std::int64_t> without_fix;  ///< number of frames without a fix, by status
     std::map<std::string, std::int64_t> events;       ///< number of events by name
     std::map<std::string, std::int64_t> verdicts;
-    std::int64_t gaps = 0;  ///< number of gaps, which are sequences of frames without a fix
+    std::int64_t gaps = 0;  ///< number of sequences of consecutive frames without a fix
     double longest_gap_s = 0;
     double stationary_s = 0;
-    double distance_mm = 0;      ///< length of the path without jumps
-    double mean_speed_mm_s = 0;  ///< mean over the frames in which the robot is moving
+    double distance_mm = 0;      ///< length of the path, excluding jumps
+    double mean_speed_mm_s = 0;  ///< mean speed over the time in which the robot is moving
     double largest_speed_mm_s = 0;
     double largest_p_wrong = 0;
-    std::set<std::string> planes;  ///< frames of reference of the poses: pattern, world
+    std::set<std::string> planes;  ///< frames of reference of the poses: pattern or world, or both
 };
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);
 
-/// Draws an SVG of the path and of plots of speed, dots and certainty over time. Gaps are marked in
-/// the plots.
+/// Draws an SVG with the path, and with plots of speed, dots and certainty over time. The plots
+/// show gaps.
 std::string draw_run(const std::vector<LogRow>& rows, const std::string& title);
 
 }  // namespace dotpose::cli

@@ -25,8 +25,8 @@ bool jumps(const LogRow& row) {
            row.events.find("fix") != std::string::npos;
 }
 
-/// Returns the points of the path. A NaN point interrupts the path where the robot was lost or was
-/// moved by hand.
+/// Returns the points of the path. A NaN point marks an interruption where the robot was lost or
+/// was moved by hand.
 std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     std::vector<Point> path;
     for (const LogRow& row : rows) {
@@ -36,10 +36,10 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     return path;
 }
 
-/// Returns the number that is subtracted from the coordinates of an axis for its labels, in mm.
-/// This is the centre of the axis in whole mm if it exceeds 1000 times the reach of the axis, as in
-/// the pattern frame, because the labels would otherwise differ only in their last digits. If not,
-/// it is 0.
+/// Returns the offset, in mm, that is subtracted from the coordinates of an axis for its labels.
+/// The offset is 0 unless the centre of the axis exceeds 1000 times the reach of the axis, as in
+/// the pattern frame. The labels would then differ only in their last digits, so the offset is the
+/// centre in whole mm.
 double offset_mm(double middle_mm, double reach_mm) {
     constexpr double kMaxReaches = 1000;
     return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;
@@ -50,7 +50,7 @@ std::string axis_label(const char* name, double offset_mm) {
     return fmt::format("{} {} {:.0f} [mm]", name, offset_mm < 0 ? '+' : '-', std::abs(offset_mm));
 }
 
-/// Draws the path, with the same scale on both axes.
+/// Draws the path, with equal scales on both axes.
 void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     std::vector<Point> path = path_of(rows);
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
@@ -76,7 +76,7 @@ void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     axes.curve(path, {.colour = draw::colour::kWindow, .has_marks = false});
 }
 
-/// Draws a red stripe over each period without a fix.
+/// Draws a red stripe for each period without a fix.
 void draw_gaps(const Axes& axes, const std::vector<LogRow>& rows, double low, double high) {
     for (std::size_t i = 0; i < rows.size();) {
         std::size_t end = i;

@@ -1,4 +1,4 @@
-/// The options --sheets FILE, --name NAME and --wait SECONDS of commands that print pages and add
+/// The options --sheets FILE, --name NAME and --wait SECONDS, for commands that print pages and add
 /// them to a sheet file.
 #pragma once
 
@@ -14,41 +14,41 @@ namespace dotpose::cli {
 
 class SheetEntryArguments {
   public:
-    /// Adds the options. The command must already have the option --origin.
+    /// Adds the options. The option --origin must already have been added to the command.
     void add_to(Command& command);
 
-    /// Returns true if a sheet file is given. The functions below require a sheet file.
+    /// Returns true if a sheet file is given. All functions below require one.
     bool given() const { return !path_.empty(); }
     const std::string& path() const { return path_; }
     const std::string& name() const { return name_; }
 
     struct Page {
-        int number = 1;  ///< page number, counted from 1
+        int number = 1;  ///< page number, starting at 1
         bool is_only = true;
     };
 
-    /// Returns the name of a page in the file: NAME, or NAME-NUMBER if there are several pages.
+    /// Returns the sheet name of a page: NAME, or NAME-NUMBER if there are several pages.
     std::string page_name(Page page) const;
 
     /// Reserves the regions of all pages before any page is written. `enter_all` must call `enter`
-    /// for each page.
+    /// for every page.
     void reserve(const std::function<void(SheetFile&)>& enter_all,
                  std::optional<SheetReservation>& reservation) const;
 
-    /// Adds a page and its print settings to the file. If the user did not give --origin, the page
-    /// is placed in the next free region. `print.command` must not contain --origin, because this
-    /// function adds it. Returns the sheet with its new origin.
+    /// Adds a page and its print settings to the file. Places the page in the next free region
+    /// unless the user gave --origin. `print.command` must not contain --origin, which this
+    /// function appends. Returns the sheet with its new origin.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page, SheetPrint print) const;
 
-    /// Appends --origin to `command`, so that the command prints the dots of one page.
+    /// Appends --origin to `command`, which makes it print the dots of this page again.
     static std::string with_origin(const std::string& command, Cell origin);
 
-    /// Returns the options that must be omitted from a command that reprints a page. They concern
-    /// the entry in the sheet file, which already exists: with them, the command would try to add
-    /// the page again, under a name that is in use.
+    /// Returns the options to omit from a command that reprints a page. These options would make
+    /// the command add the page to the sheet file again, under a name that is already in use.
     static std::set<std::string> options_of_entering();
 
-    /// Marks the reserved pages as written to `out`. Throws Error if the file cannot be changed.
+    /// Records that the reserved pages have been written to `out`. Throws Error if the sheet file
+    /// cannot be changed.
     void confirm(SheetReservation& reservation, const std::string& out) const;
 
     /// Returns ", sheet 'NAME' of FILE", or an empty string if there is no sheet file.

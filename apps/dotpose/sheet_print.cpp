@@ -20,7 +20,7 @@ Sheet layout_of(const NewPage& page) {
     return make_sheet(options);
 }
 
-/// Returns a command that prints the same page, without --origin.
+/// Returns the command that prints the page, without --origin.
 std::string command_of(const NewPage& page) {
     std::string command = fmt::format("dotpose print -o {} --paper {}", pdf_name(page.name),
                                       quoted_for_shell(page.paper));
@@ -47,7 +47,7 @@ std::string pdf_name(const std::string& sheet) {
     for (std::size_t at = name.find_first_not_of(kPlain); at != std::string::npos;
          at = name.find_first_not_of(kPlain, at))
         name[at] = '_';
-    // A leading hyphen would make the name an option.
+    // A name that starts with a hyphen would be parsed as an option.
     if (name.starts_with('-')) name.front() = '_';
     return name + ".pdf";
 }

@@ -8,22 +8,22 @@
 
 namespace dotpose::cli {
 
-/// Returns the default margin in mm. A PDF has a wider margin than the printer requires, because
-/// the margin contains labels and rulers.
+/// Returns the default margin in mm. The margin of a PDF is wider than the printer requires,
+/// because it contains labels and rulers.
 double default_margin_mm(PrintFormat format, const Paper& paper);
 
-/// Returns the file name for the PDF of a sheet. It contains no special characters.
+/// Returns the file name for the PDF of a sheet, without special characters.
 std::string pdf_name(const std::string& sheet);
 
-/// A page to be printed as PDF.
+/// A page to be printed as a PDF.
 struct NewPage {
     std::string name;           ///< name of the sheet
-    std::string paper = "A4";   ///< name or size of the paper, as for `paper_by_name`
+    std::string paper = "A4";   ///< name or size of the paper, as in `paper_by_name`
     bool is_landscape = false;  ///< true if the longer side is horizontal
     double spacing_mm = kDefaultSpacing_mm;
 };
 
-/// Adds a page with its print settings to a free region of a sheet file. Returns the new entry.
+/// Adds a page and its print settings to a free region of a sheet file. Returns the new entry.
 /// Throws BadArgument like `make_sheet` and `SheetFile::allocate`.
 SheetEntry enter_page(SheetFile& file, const NewPage& page);
 

@@ -22,7 +22,7 @@ PrintOptions options_of(const SheetPrint& print) {
     return options;
 }
 
-/// Returns the most likely print options of a page whose entry contains none.
+/// Returns the most likely print options for a page whose entry contains no options.
 PrintOptions likely_options(const SheetEntry& entry) {
     PrintOptions options;
     options.name = entry.name;

@@ -12,8 +12,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Formats a number with at most `decimals` decimal places, without trailing zeros. Converts -0 to
-/// 0.
+/// Formats a number with at most `decimals` decimal places and without trailing zeros. Converts -0
+/// to 0.
 std::string short_number(double value, int decimals) {
     std::string text = fmt::format("{:.{}f}", value, decimals);
     text.erase(text.find_last_not_of('0') + 1);

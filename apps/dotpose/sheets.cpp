@@ -1,4 +1,4 @@
-// `dotpose sheets`: shows and modifies a sheet file.
+// `dotpose sheets`: displays and modifies a sheet file.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -72,7 +72,7 @@ struct SheetsArguments {
     SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
 };
 
-/// Throws Error if the sheet file does not exist, because SheetFile would create it.
+/// Throws Error if the sheet file does not exist. SheetFile would create it.
 void require_there(const SheetsArguments& arguments) {
     std::error_code error;
     if (std::filesystem::exists(system::path_of(arguments.sheets), error)) return;
@@ -87,7 +87,7 @@ std::vector<SheetEntry> sheets_of(const SheetsArguments& arguments) {
     return read_sheets(system::path_of(arguments.sheets));
 }
 
-/// Locks the sheet file, calls `change` with the entry of the given sheet, and saves the file.
+/// Locks the sheet file, calls `change` with the entry of the selected sheet, and saves the file.
 template <typename Change>
 void change_sheet(const SheetsArguments& arguments, const Change& change) {
     require_there(arguments);
@@ -177,7 +177,7 @@ void add_out_option(Command& command, const Arguments& arguments, const std::str
     command.add_option("-o,--out", arguments->out, help)->type_name("FILE")->required();
 }
 
-/// Adds a subcommand with the options shared by all subcommands.
+/// Adds a subcommand with the options that all subcommands share.
 Command& add_command(Command& sheets, const Arguments& arguments, const char* name,
                      const char* what, void (*run)(const SheetsArguments&)) {
     Command* command = sheets.add_subcommand(name, what)->group("Commands");
@@ -186,7 +186,7 @@ Command& add_command(Command& sheets, const Arguments& arguments, const char* na
     return *command;
 }
 
-/// Adds a subcommand that operates on one sheet, whose name is an argument.
+/// Adds a subcommand that operates on a single sheet, whose name is an argument.
 Command& add_command_of_one(Command& sheets, const Arguments& arguments, const char* name,
                             const char* what, void (*run)(const SheetsArguments&)) {
     Command& command = add_command(sheets, arguments, name, what, run);

@@ -40,7 +40,7 @@ constexpr const char* kSimulateExamples =
     "  dotpose simulate -o foreign --scene plain_grid\n"
     "  dotpose simulate -o drive.mp4 --drive --sheets sheets.json --speed 200 --size 320x240\n";
 
-// A numeric imperfection and its option.
+// An imperfection with a numeric value, and its option.
 struct NumberOption {
     const char* flag;
     const char* unit;
@@ -69,7 +69,7 @@ constexpr NumberOption kNumberOptions[] = {
      &Imperfections::texture},
 };
 
-// Two numbers in a single argument, "A,B".
+// Two numbers in one argument, "A,B".
 struct Pair {
     std::vector<double> values;
     bool given() const { return values.size() == 2; }
@@ -103,7 +103,7 @@ Vec2 to_vec(const Pair& pair) {
     return {pair.values[0], pair.values[1]};
 }
 
-// Returns the shot of a frame. Values given on the command line replace the random values.
+// Returns the shot of a frame. Values from the command line replace random values.
 Shot shot_of(const SimulateArguments& arguments, int index) {
     Shot shot = draw_shot(arguments.setup, static_cast<std::uint64_t>(index));
     Imperfections& seen = shot.imperfections;
@@ -119,7 +119,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
 
     CameraPose& pose = shot.pose;
     if (arguments.angle_deg) {
-        // Converts the angle to (-180, 180] degrees.
+        // The range of the angle is (-180, 180] degrees.
         pose.theta_rad = -std::remainder(-*arguments.angle_deg, 360) / kDegrees;
     }
     if (arguments.tilt_deg.given()) {
@@ -146,13 +146,13 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
     return shot;
 }
 
-/// True pose and pattern of a simulated frame.
+/// True pose of a simulated frame, and the pattern that it shows.
 struct Truth {
-    std::optional<CameraPose> pose;  ///< none for scenes and for the table between the sheets
+    std::optional<CameraPose> pose;  ///< none for scenes, and between the sheets
     Pattern pattern;
 };
 
-/// Returns a row of truth.csv. The pose columns are empty for a frame without a pose.
+/// Returns a row of truth.csv. The pose columns of a frame without a pose are empty.
 std::string truth_row(const SimulateArguments& arguments, const std::string& file,
                       const Truth& truth) {
     const Pattern& pattern = truth.pattern;
@@ -216,7 +216,7 @@ std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
     return frames;
 }
 
-/// Returns the drive over the sheets of the file, or none if --drive is not given. All frames have
+/// Returns the drive over the sheets in the file, or none if --drive is not given. All frames have
 /// the imperfections of the first shot.
 std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
     if (!arguments.drives) return std::nullopt;
@@ -228,8 +228,8 @@ std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_le
     return drive;
 }
 
-/// Sets the image size and the scale to those of a mouse sensor: 36 x 36 px, and 6 px per spacing.
-/// A value given on the command line is kept.
+/// Sets the image size and the scale to those of a mouse sensor, 36 x 36 px and 6 px per spacing,
+/// unless they are given on the command line.
 void use_mouse_sensor(const Command& command, Setup& setup) {
     constexpr int kSide_px = 36;
     constexpr double kSpacing_px = 6;
@@ -266,8 +266,8 @@ void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
     int done = 0;
     {
         ProgressLine line("simulating " + arguments.out);
-        // The batches are small, so that the file of true poses is up to date after each of them,
-        // and Ctrl-C takes effect quickly.
+        // Small batches keep the file of true poses up to date and make the program respond quickly
+        // to Ctrl-C.
         const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         while (done < arguments.frames && truth && !interrupted()) {
             const int end = std::min(arguments.frames, done + batch);
@@ -312,7 +312,7 @@ void add_camera_options(Command& command, CameraModel& camera) {
         ->capture_default_str();
 }
 
-// Adds an option for each value that is otherwise random in each frame.
+// Adds the options that replace random values of each frame with fixed values.
 void add_overrides(Command& command, SimulateArguments& arguments) {
     command.add_option("--angle", arguments.angle_deg, "Angle of the camera on the page")
         ->type_name("DEG");

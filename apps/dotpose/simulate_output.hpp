@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// Header line of a file of true poses.
+/// Header line of the file of true poses.
 inline constexpr const char* kTruthHeader =
     "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,code,spacing_mm,px_per_spacing,"
     "preset,seed\n";
@@ -20,18 +20,18 @@ class SimulateOutput {
 
     /// Returns the path of the file of true poses.
     virtual std::filesystem::path truth_path() const = 0;
-    /// Returns the name of a frame in the file of true poses.
+    /// Returns the name of a frame, as used in the file of true poses.
     virtual std::string name(int index) const = 0;
     /// Writes the next frame. Throws Error on failure.
     virtual void write(int index, const GreyImage& image) = 0;
-    /// Completes the output. Throws Error on failure.
+    /// Finishes the output. Throws Error on failure.
     virtual void finish() = 0;
 };
 
 bool is_video_name(const std::string& out);
 
-/// Opens a video or a folder. A missing folder is created, and frames of an earlier run are removed
-/// from an existing one. Throws Error if the folder contains frames from another source.
+/// Opens a video or a folder. Creates the folder if it does not exist, and otherwise removes the
+/// frames of earlier runs from it. Throws Error if the folder contains frames from another source.
 std::unique_ptr<SimulateOutput> open_simulate_output(const std::string& out, double fps);
 
 }  // namespace dotpose::cli

@@ -9,10 +9,11 @@ namespace {
 
 constexpr double kMm_per_m = 1000;
 constexpr double kExposure_s = 1e-4;
-/// Number of steps into which a full turn of the phase of the path is divided.
+/// Number of steps in a full cycle of the phase along the path.
 constexpr int kSteps = 4096;
 
-/// Converts a point of the world to page coordinates: mm from the top left corner, with y down.
+/// Converts a point in the world to page coordinates, which are in mm from the top left corner of
+/// the page, with y down.
 Vec2 on_page(const SheetEntry& entry, Vec2 world_mm) {
     const WorldPose& pose = *entry.world;
     const double x = world_mm.x - pose.x_m * kMm_per_m;
@@ -30,13 +31,13 @@ Vec2 in_world(const SheetEntry& entry, Vec2 page_mm) {
             pose.y_m * kMm_per_m + s * page_mm.x - c * page_mm.y};
 }
 
-/// Returns the distance of a point from the page in mm, or 0 if the point is on the page.
+/// Returns the distance between a point and the page in mm, or 0 if the point is on the page.
 double distance_mm(const Sheet& sheet, Vec2 page_mm) {
     return std::hypot(std::max({-page_mm.x, page_mm.x - sheet.width_mm, 0.0}),
                       std::max({-page_mm.y, page_mm.y - sheet.height_mm, 0.0}));
 }
 
-/// Returns the offset, in grid spacings, of a point on the page from the first intersection.
+/// Returns the offset of a point on the page from the first intersection, in spacings.
 Vec2 from_origin(const SheetEntry& entry, Vec2 page_mm) {
     const Sheet& sheet = entry.sheet;
     return {(page_mm.x - sheet.origin_x_mm) / (sheet.pattern.spacing_mm * entry.print_scale_x),
@@ -51,7 +52,7 @@ PageArea page_area(const SheetEntry& entry) {
             (last.x - first.x) / 2, (last.y - first.y) / 2, 0};
 }
 
-/// Returns the radius, in mm, of the circle around the image centre that encloses the view.
+/// Returns the radius in mm of the circle around the image centre that encloses the view.
 double reach_mm(const CameraModel& camera) {
     return std::hypot(camera.width_px, camera.height_px) / 2 * camera.mm_per_px;
 }
@@ -69,15 +70,14 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
         sheets_.push_back(sheets.front());
         sheets_.front().world = WorldPose{};
     }
-    // The direction of travel is the x axis of the image, so the scene moves in the direction of
-    // -x.
+    // The robot moves along the x axis of the image, so the scene moves along -x.
     imperfections_.motion_px = {-options.speed_mm_s * kExposure_s / camera.mm_per_px, 0};
     lay_path();
 }
 
 void SimulatedDrive::lay_path() {
     constexpr double kMargin_mm = 5;
-    constexpr double kMinFraction = 0.25;  // minimum amplitude, relative to the width or height
+    constexpr double kMinFraction = 0.25;  // minimum amplitude, relative to the side of the area
     Vec2 low{1e9, 1e9};
     Vec2 high{-1e9, -1e9};
     for (const SheetEntry& entry : sheets_) {
@@ -162,7 +162,7 @@ GreyImage SimulatedDrive::image(int frame) const {
     for (const SheetEntry& entry : sheets_) {
         const Vec2 place = on_page(entry, {now.x_mm, now.y_mm});
         if (&entry == main.entry || distance_mm(entry.sheet, place) > reach_mm(camera_)) continue;
-        // Pixels that show another page are copied from the view of that page.
+        // Pixels that show another page are copied from a view of that page.
         const Vec2 offset = from_origin(entry, place);
         CameraPose its_pose = main.pose;
         its_pose.cell = entry.sheet.origin;

@@ -1,4 +1,4 @@
-/// A simulated robot with a camera that drives over the sheets of a sheet file.
+/// A simulated robot with a camera, which drives over the sheets of a sheet file.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,17 @@ struct DriveOptions {
 struct PoseOnSheet {
     const SheetEntry* entry = nullptr;
     CameraPose pose;          ///< pose in the pattern frame of the sheet
-    bool is_on_page = false;  ///< false if the image centre shows the table beside the page
+    bool is_on_page = false;  ///< false if the image centre shows the table
 };
 
-/// A robot that repeatedly drives a figure of eight at constant speed. The x axis of its camera is
-/// the direction of travel. The path fills the bounding rectangle of all sheets with a world pose
-/// or, if there are none, the first sheet. The table between the sheets is dark. Frames are
-/// independent of each other and may be rendered in several threads.
+/// A robot that repeatedly drives a figure of eight at a constant speed. The x axis of its camera
+/// points in the direction of travel. The path fills the bounding rectangle of all sheets that have
+/// a world pose or, if there are none, the first sheet. The table between the sheets is dark.
+/// Frames are independent of each other and may be rendered in parallel.
 class SimulatedDrive {
   public:
-    /// `imperfections` applies to all frames, except that the motion blur is computed from the
-    /// speed. Throws BadArgument if there are no sheets.
+    /// `imperfections` apply to all frames, except that the motion blur is computed from the speed.
+    /// Throws BadArgument if there are no sheets.
     SimulatedDrive(const std::vector<SheetEntry>& sheets, const DriveOptions& options,
                    const CameraModel& camera, const Imperfections& imperfections,
                    std::uint64_t seed);
@@ -39,7 +39,7 @@ class SimulatedDrive {
     GreyImage image(int frame) const;
 
   private:
-    /// A point of the path in mm, with y up, and the direction of travel in rad.
+    /// A point on the path in mm, with y up, and the direction of travel in rad.
     struct Waypoint {
         double x_mm = 0;
         double y_mm = 0;
@@ -51,15 +51,15 @@ class SimulatedDrive {
     Waypoint waypoint(int frame) const;
     GreyImage view(const SheetEntry& entry, const CameraPose& pose, int frame) const;
 
-    std::vector<SheetEntry> sheets_;  ///< all sheets with a world pose
+    std::vector<SheetEntry> sheets_;  ///< sheets on which the robot drives
     DriveOptions options_;
     CameraModel camera_;
     Imperfections imperfections_;
     std::uint64_t seed_;
     Vec2 centre_mm_;
     Vec2 amplitude_mm_;
-    bool is_upright_ = false;         ///< true if the path is higher than wide
-    std::vector<double> lengths_mm_;  ///< path length from the start of the path to each step
+    bool is_upright_ = false;         ///< true if the path is higher than it is wide
+    std::vector<double> lengths_mm_;  ///< path length from the start to each step
 };
 
 }  // namespace dotpose::cli

@@ -9,21 +9,21 @@
 
 namespace dotpose::cli {
 
-/// Returns names one by one. The names of the command line and of a list file are known immediately
-/// and come first. The names from a pipe follow as they arrive.
+/// Iterates over the names of the sources: first the names from the command line and from a list
+/// file, which are known immediately, then the names from a pipe as they arrive.
 class SourceNames {
   public:
-    /// `list` is a file with one name per line. "-" means standard input, and an empty string means
-    /// no list. Throws Error if the list cannot be read or contains a line that is too long.
+    /// `list` is the path of a file with one name per line, "-" for standard input, or empty for no
+    /// list. Throws Error if the list cannot be read or contains a line that is too long.
     SourceNames(std::vector<std::string> names, const std::string& list);
 
     const std::vector<std::string>& known() const { return known_; }
 
-    /// Returns true if a pipe may still deliver names.
+    /// Returns true if a pipe may deliver further names.
     bool has_pipe() const { return is_pipe_; }
 
-    /// Returns the next name. Returns none after the last name, and in all calls after an error.
-    /// Throws Error like the constructor.
+    /// Returns the next name, or none after the last name. Throws Error like the constructor, and
+    /// returns none in all calls after an error.
     std::optional<std::string> next();
 
   private:

@@ -13,11 +13,11 @@
 namespace dotpose::cli {
 namespace {
 
-/// Axes of the position in space, as in the names of its fields.
+/// Axes of the position in space, as they appear in field names.
 constexpr std::array kAxes = {"x", "y", "z"};
 constexpr std::array kComponents = {"x", "y", "z", "w"};
 
-/// Fields of the brief CSV format.
+/// Fields of the CSV format `Columns::brief`.
 constexpr std::array<std::string_view, 19> kBrief = {
     "camera_x_mm",        "camera_y_mm",       "camera_z_mm",        "camera_tilt_deg",
     "camera_azimuth_deg", "camera_turn_deg",   "camera_x_pattern_m", "camera_y_pattern_m",
@@ -25,15 +25,15 @@ constexpr std::array<std::string_view, 19> kBrief = {
     "camera_x_sheet_m",   "camera_y_sheet_m",  "camera_z_sheet_m",   "camera_x_m",
     "camera_y_m",         "camera_z_m",        "camera_is_ambiguous"};
 
-/// A pose in the frame of reference and the units of the output.
+/// A pose in the axes and units of the output.
 struct OutputPose {
     std::array<double, 3> position{};
     Quaternion rotation;
     SpaceCovariance covariance{};
 };
 
-/// Returns a pose in the units and axes of the output: in mm with unchanged axes, or in metres with
-/// y up and z out of the paper.
+/// Converts a pose to the units and axes of the output: mm with unchanged axes, or metres with y up
+/// and z out of the paper.
 OutputPose in_units(Units units, const CameraInSpace& camera, const SpaceCovariance& covariance) {
     if (units == Units::mm)
         return {{camera.x_mm, camera.y_mm, camera.z_mm}, camera.rotation, covariance};
@@ -58,8 +58,7 @@ void append_rotation(const std::string& name, const Quaternion& q, std::vector<F
     }
 }
 
-/// Appends the 36 fields of a covariance. `angle` is the number of output units of an angle per
-/// radian.
+/// Appends the 36 fields of a covariance. `angle` is the size of a radian in output units.
 void append_covariance(const std::string& name, double angle, const SpaceCovariance& covariance,
                        std::vector<Field>& fields) {
     for (std::size_t i = 0; i < 6; ++i) {
@@ -71,7 +70,7 @@ void append_covariance(const std::string& name, double angle, const SpaceCovaria
     }
 }
 
-/// Returns the fields, without values if `is_known` is false.
+/// Returns the fields, with empty values if `is_known` is false.
 std::vector<Field> if_known(bool is_known, std::vector<Field> fields) {
     if (is_known) return fields;
     for (Field& field : fields)
@@ -79,7 +78,7 @@ std::vector<Field> if_known(bool is_known, std::vector<Field> fields) {
     return fields;
 }
 
-/// Returns the position, rotation and covariance of a pose in the pattern. The names of the fields
+/// Returns the fields of position, rotation and covariance in the pattern frame. The field names
 /// begin with `prefix`.
 std::vector<Field> pattern_fields(const std::string& prefix, const CameraInSpace& camera,
                                   const SpaceCovariance& covariance, Units units) {
@@ -97,7 +96,8 @@ std::vector<Field> pattern_fields(const std::string& prefix, const CameraInSpace
     return fields;
 }
 
-/// Returns the tilt, azimuth and turn of a pose, which are only output with `Units::mm`.
+/// Returns the tilt, azimuth and turn of a pose. Only the output with `Units::mm` contains these
+/// fields.
 std::vector<Field> lean_fields(const Quaternion& rotation) {
     const CameraLean lean = lean_of(rotation);
     return {{"camera_tilt_deg", degrees(lean.tilt_rad)},
@@ -137,14 +137,15 @@ std::vector<Field> world_fields_of(const std::string& prefix, const CameraInWorl
     return fields;
 }
 
-/// Returns the largest standard deviation of the three coordinates from `first` on.
+/// Returns the largest of the standard deviations of three consecutive coordinates, starting at
+/// `first`.
 double largest_sigma(const SpaceCovariance& covariance, std::size_t first) {
     return std::sqrt(std::max({covariance[first][first], covariance[first + 1][first + 1],
                                covariance[first + 2][first + 2]}));
 }
 
-/// Returns the velocities along the axes of the world or the pattern, and the angular velocities
-/// about the axes of the camera.
+/// Returns the velocities along the axes of the world or the pattern frame, and the angular
+/// velocities about the axes of the camera.
 std::vector<Field> velocity_fields(const CameraMotion& motion, bool is_in_world, Units units) {
     const bool is_ros = units == Units::ros;
     const double length = is_ros ? 1 : 1000;
@@ -216,7 +217,7 @@ bool is_brief_space_field(const std::string& name) {
 std::string space_text(const SpacePose& pose, const std::optional<SheetPlace>& place, Units units) {
     const bool is_ros = units == Units::ros;
     const CameraInSpace camera = place ? on_sheet(pose.camera, *place->entry) : pose.camera;
-    const double sign = is_ros ? -1 : 1;  // y and z have the opposite directions in the output
+    const double sign = is_ros ? -1 : 1;  // y and z point in opposite directions in ROS output
     const std::array values = {camera.x_mm, sign * camera.y_mm, sign * camera.z_mm};
     const double per_mm = is_ros ? 1e-3 : 1;
     std::string text = "camera";

@@ -13,21 +13,21 @@
 
 namespace dotpose::cli {
 
-/// Returns the fields of a pose in space and of its second solution. Their names begin with
+/// Returns the fields of a pose in space and of its second solution, all of whose names begin with
 /// `camera_`. If `has_sheets` is true, also returns the fields of the pose on the sheet and in the
-/// world. The fields have no values if there is no pose.
+/// world. If there is no pose, the values are empty.
 std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 const std::optional<SheetPlace>& place, bool has_sheets,
                                 Units units);
 
-/// Returns the fields of the track of a camera in space. Fields of the pose in the world are only
-/// contained if `has_sheets` is true. If `is_in_world` is true, the fields of the pose in the
-/// pattern are empty. Otherwise, those of the pose in the world are empty. While the camera is
-/// lost, only the verdict has a value.
+/// Returns the fields of the track of a camera in space. The result includes the pose in the world
+/// only if `has_sheets` is true. If `is_in_world` is true, only the pose in the world has values.
+/// Otherwise, only the pose in the pattern frame has values. While the camera is lost, only the
+/// verdict has a value.
 std::vector<Field> space_track_fields(const SpaceTrack& track, bool is_in_world, bool has_sheets,
                                       Units units);
 
-/// Returns true if the brief CSV format contains the field.
+/// Returns true if the CSV format `Columns::brief` contains the field.
 bool is_brief_space_field(const std::string& name);
 
 /// Returns the position and the angles as text, such as "camera x 65.61 ± 0.002 mm, ...".

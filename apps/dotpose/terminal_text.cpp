@@ -17,7 +17,7 @@ constexpr std::string_view kYellow = "\033[33m";
 constexpr std::string_view kGreen = "\033[32m";
 constexpr std::string_view kPlain = "\033[0m";
 
-/// A beginning of report lines, and the colour in which it is printed.
+/// A prefix of report lines and the colour in which it is printed.
 struct Beginning {
     std::string_view text;
     std::string_view colour;
@@ -33,7 +33,7 @@ constexpr std::array kBeginnings = {
     Beginning{"verdict", kRed},
 };
 
-/// Returns the line. Its beginning is coloured if it is an element of kBeginnings.
+/// Returns the line. If it starts with one of kBeginnings, this prefix is coloured.
 std::string coloured(std::string_view line) {
     for (const Beginning& beginning : kBeginnings) {
         if (!line.starts_with(beginning.text)) continue;

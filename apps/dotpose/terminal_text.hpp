@@ -1,5 +1,5 @@
-/// Messages and colour on the terminal. Messages may contain untrusted text from files, file names
-/// or networks, so unprintable characters are replaced.
+/// Messages and colours on the terminal. Unprintable characters in messages are replaced, because
+/// messages may contain untrusted text from files, file names or networks.
 #pragma once
 
 #include <cstdio>
@@ -13,24 +13,25 @@ namespace dotpose::cli {
 using base::printable;
 using base::with_escaped_controls;
 
-/// Flushes standard output, then writes to standard error. Unlike fmt::print, does not throw if the
-/// stream is closed.
+/// Flushes standard output, then writes to standard error. Does not throw if the stream is closed,
+/// unlike fmt::print.
 void write_to_stderr(const std::string& text);
 
 /// Writes "dotpose: MESSAGE" to standard error as one printable line.
 void tell(std::string_view message);
 
-/// Writes the reason for which the program ends. Like `tell`, but in red if colour is enabled.
+/// Writes the reason why the program ends, in the format of `tell`, but in red if colours are
+/// enabled.
 void tell_failure(std::string_view message);
 
-/// Returns true if the stream is a terminal with colours, unless NO_COLOR (no-color.org) is set or
-/// TERM is "dumb".
+/// Returns true if the stream is a terminal that supports colours, unless NO_COLOR (no-color.org)
+/// is set or TERM is "dumb".
 bool wants_colour(std::FILE* stream);
 
-/// Colours the beginning of each line of a report that states a fault, a note or a good result.
+/// Colours the beginning of each report line that states a fault, a note or a good result.
 std::string in_colour(const std::string& report);
 
-/// Returns the report, in colour if standard output supports it.
+/// Returns the report, with colours if standard output supports them.
 std::string for_standard_output(const std::string& report);
 
 }  // namespace dotpose::cli

@@ -7,7 +7,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Formats a length in mm, or in metres for ROS.
+/// Formats a length in mm, or in metres for `Units::ros`.
 std::string length(double mm, Units units) {
     return units == Units::ros ? metres(mm) : decimal(mm, 6);
 }
@@ -16,8 +16,8 @@ TipPose tip_on(const TipPose& tip, const std::optional<SheetPlace>& place) {
     return place ? on_sheet(tip, *place->entry) : tip;
 }
 
-/// Returns the world coordinates x and y of the tip as text, in metres. Both strings are empty if
-/// the world pose of the page is not known.
+/// Returns the world coordinates x and y of the tip as text, in metres. Returns empty strings if
+/// the world pose of the page is unknown.
 std::array<std::string, 2> world_texts(const TipPose& tip, const std::optional<SheetPlace>& place) {
     if (!place || !place->entry->world) return {};
     const TipPose on_page = tip_on(tip, place);

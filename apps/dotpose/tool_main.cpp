@@ -24,13 +24,13 @@ namespace {
 
 constexpr const char* kVersion = "dotpose " DOTPOSE_VERSION;
 
-/// Commands that the help suggests to a new user.
+/// Commands that the help suggests to new users.
 constexpr const char* kFirstSteps =
     "  dotpose print -o sheet.pdf   a sheet of dots; print it at 100 %\n"
     "  dotpose locate photo.jpg     the position of a photo on the sheet\n"
     "  dotpose watch 0              the position of a camera on the sheet, live\n";
 
-/// Returns a text that names the folder of the documents installed with the tool.
+/// Returns text that states where the documents installed with the tool are.
 std::string places_of_documents() {
     std::error_code failed;
     const auto folder = (system::program_folder() / DOTPOSE_DOCUMENTS_FROM_TOOL).lexically_normal();
@@ -40,8 +40,8 @@ std::string places_of_documents() {
                        folder.string());
 }
 
-/// Adds the commands `help` and `version`. For example, `help locate` stores the words of `locate
-/// --help` in `help_words`, in reverse order. `help_words` must outlive the app.
+/// Adds the commands `help` and `version`. `help locate` stores the words of `locate --help` in
+/// `help_words`, in reverse order. `help_words` must outlive the app.
 void add_help_and_version(Command& app, std::vector<std::string>& help_words) {
     std::vector<std::string> names;
     for (const Command* command : app.get_all_subcommands())

@@ -15,7 +15,7 @@ bool is_option(std::string_view word) {
     return word.size() > 1 && word[0] == '-';
 }
 
-/// Returns an option without its value. For example, returns "--format" for "--format=csv".
+/// Returns an option without its value, such as "--format" for "--format=csv".
 std::string without_value(const std::string& word) {
     return word.substr(0, word.find('='));
 }
@@ -36,7 +36,7 @@ std::vector<std::string> long_options(const Command& command) {
     return names;
 }
 
-/// Returns the unknown words of a command line. Those that look like options come first.
+/// Returns the unknown words on a command line, starting with the words that look like options.
 std::vector<std::string> unknown_words(const Command& command) {
     std::vector<std::string> words = command.remaining();
     std::erase(words, "--");
