@@ -51,8 +51,8 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
 
 /// Adds the fitted offsets to the cells.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
-    // `AffineFitInt32` expects coordinates in 1/8 px, but here they are whole cells, so the slopes
-    // are divided by 8.
+    // `AffineFitInt32` expects coordinates in 1/8 px, but these coordinates are whole cells. The
+    // slopes are therefore divided by 8.
     constexpr int kShift = 24 + 3 - 16;
     const FixedVec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
     const FixedVec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};

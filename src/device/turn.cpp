@@ -12,11 +12,11 @@ namespace {
 
 /// Maximum number of rings of cells that are measured around the middle cell.
 constexpr int kRounds = 4;
-/// At least kMinDots dots must agree with the code, and at least the fraction kMinFraction_q3 / 8
-/// of the measured dots.
+/// Minimum number of dots that agree with the code, and minimum fraction of the measured dots that
+/// agree with the code, in units of 1/8.
 constexpr int kMinDots = 12;
 constexpr int kMinFraction_q3 = 6;
-/// Minimum number of measured dots at which the fraction is tested.
+/// Minimum number of measured dots from which the fraction is tested.
 constexpr int kMinMeasured = 8;
 
 /// A shift, a rotation and a stretch of the pattern: a cell at c, relative to the middle cell,
@@ -99,7 +99,7 @@ class Rounds {
     /// neighbours. These dots need not agree with the code.
     void recentre();
     void measure(int i, int j);
-    /// Moves the cells to the fitted place.
+    /// Applies the fitted similarity to the cells.
     void lay_cells() {
         similarity_ = fit_.solve();
         tracking_.cells = changed(before_, middle_, similarity_);
