@@ -11,8 +11,8 @@ set(DOTPOSE_PARTS ${default} CACHE STRING
 set_property(CACHE DOTPOSE_PARTS PROPERTY STRINGS CORE FOUND ALL)
 
 # dotpose_dependency(TARGET DEBIAN package (PACKAGE name | MODULES module... | FILE file)): declares
-# a library that parts may need, and how to find it: by find_package, by pkg-config, or by a file of
-# cmake/ that defines the target.
+# a library that parts may need, and how to find it: with find_package, with pkg-config, or with a
+# file in cmake/ that defines the target.
 macro(dotpose_dependency target)
     set(dotpose_how_${target} ${ARGN})
 endmacro()

@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parents[1]
 PROGRAM = "import dotpose; print(dotpose.__file__, dotpose.Locator().locate(dotpose.simulate(1)[0].image))"
 
 
-# Libraries that a wheel for Linux may need, by the policy manylinux_2_28.
+# Libraries that a wheel for Linux may need under the manylinux_2_28 policy.
 PERMITTED = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "libgcc_s.so.1", "libstdc++.so.6",
              "ld-linux-x86-64.so.2"}
 ONLY_LOCATES = """

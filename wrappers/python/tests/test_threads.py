@@ -72,7 +72,7 @@ def test_the_interpreter_goes_on_while_a_thread_locates():
         noted.clear()
     stop.set()
     noter.join()
-    # If locate held the GIL, times would be recorded only before and after it.
+    # If `locate` held the GIL, the other thread would record times only before and after the call.
     assert sum(0.2 < share < 0.8 for share in shares) >= 5
 
 
