@@ -1,5 +1,5 @@
-# Registers a GoogleTest program with CTest, with one test per suite. One process per test case would load the
-# libraries of the program a thousand times.
+# Registers a GoogleTest program with CTest, with one test per suite. With one test per case, the
+# libraries of the program would be loaded a thousand times.
 
 # dotpose_discover_suites(TARGET PREFIX [FILTER filter] [LABELS label...] [FIXTURE name]): adds the
 # tests PREFIX.SUITE. The suites are listed when ctest runs, because a program that crashes while it

@@ -131,7 +131,7 @@ void set_up() {
     set_up_dma();
 }
 
-/// Stops the previous frame and discards the rest of its data.
+/// Stops the capture of the previous frame and discards its remaining data.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
     // Aborting one channel may start the other, so both channels are aborted together, and twice.

@@ -38,8 +38,8 @@ std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_acros
 }
 
 /// Sum of the odds of alternatives to a given place. The alternatives are other places on the known
-/// sheets that agree with the given place on one axis. The lines of the other axis distinguish such
-/// an alternative from the given place.
+/// sheets whose lines on one axis are the same as at the given place. Only the lines of the other
+/// axis distinguish them from the given place.
 class OddsOfOthers {
   public:
     OddsOfOthers(CodeVariant code, int odds_per_bit_q8)

@@ -112,7 +112,8 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// Clears the means around a shift that `next` returned, so that later results are not next to it.
+/// Clears the means around a shift that `next` returned, which excludes adjacent shifts from later
+/// results.
 void Shifts::forget_around(FixedVec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);

@@ -10,8 +10,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the number of bits by which masses and mass-weighted sums must be shifted right so that
-/// the total mass is less than 2^16. All sums are then less than 2^31, because cell coordinates are
+/// Returns the number of bits by which masses and mass-weighted sums must be shifted right for the
+/// total mass to be less than 2^16. All sums are then less than 2^31, because cell coordinates are
 /// at most 16 from the middle and offsets are at most 448/256 px, which is an eighth of the maximum
 /// spacing of 14 px.
 int excess_bits(const Tracking& tracking) {

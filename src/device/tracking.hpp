@@ -15,7 +15,7 @@
 namespace dotpose::core {
 
 /// Map from the cells of a grid to the image: cell (i, j) is at origin + i along_x + j along_y. The
-/// axes of the cells are those of the upright pattern, unlike the axes of a Lattice.
+/// axes of the cells are the axes of the upright pattern, unlike the axes of a Lattice.
 struct CellMap {
     FixedVec origin_q16;  ///< in 2^-16 px
     FixedVec along_x_q16;

@@ -88,7 +88,7 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
 
 /// Workspace of a DeviceLocator on a small microcontroller, for frames of one size: about 12 KB for
 /// 188 x 120 px. Stages share memory, so after a frame only the results of the last stage are left.
-/// The stages use spans, so they are compiled only once for all sizes.
+/// The stages access this memory through spans, so they are compiled only once for all sizes.
 template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public DeviceWorkspace {
   public:

@@ -522,9 +522,9 @@ dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* p
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Returns the likeliest code, and in `p_wrong` the probability that the sheet is printed in another
- * code. Without evidence, all codes are equally probable: the result is anoto, and `p_wrong` is
- * 2/3. */
+/* Returns the most likely code, and in `p_wrong` the probability that the sheet is printed in
+ * another code. Without evidence, all codes are equally probable: the result is anoto, and
+ * `p_wrong` is 2/3. */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
 
@@ -650,9 +650,9 @@ dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t ti
                                             const dotpose_measured_motion* motion,
                                             dotpose_track* track);
 
-/* Predicts where the pattern is in the frame at `time_us`, from the newest fix and the sighting of
- * this fix. `locator` must be the locator that will locate the frame, because the prediction
- * depends on its code and reference point. Returns NO_FIX if the fix is not ok. */
+/* Predicts the pose of the frame at `time_us`, from the newest fix and its sighting. `locator` must
+ * be the locator that will locate the frame, because the prediction depends on its code and
+ * reference point. Returns NO_FIX if the fix is not ok. */
 dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t time_us,
                                        const dotpose_fix* newest, const dotpose_sighting* seen,
                                        const dotpose_locator* locator,

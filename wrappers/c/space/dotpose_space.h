@@ -76,7 +76,7 @@ typedef struct dotpose_space_pose {
     double tilt_rad;           /* 72: angle between the optical axis and the normal of the paper */
     /* Direction on the paper in which the camera leans, clockwise from +x. */
     double azimuth_rad; /* 80 */
-    /* Angle of the image x axis before the camera leans, clockwise from +x. */
+    /* Angle of the image x axis on the paper after removal of the tilt, clockwise from +x. */
     double turn_rad; /* 88 */
     /* Covariance of the position, in mm, and of a small rotation vector in the CAMERA frame, in
      * radians, row by row. */

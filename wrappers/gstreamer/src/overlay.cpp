@@ -64,7 +64,7 @@ void draw_arrow(const Canvas& canvas, Point from, Point direction, double length
             canvas.line(to, to - 0.3 * length * direction + side * 0.2 * length * across, radius,
                         grey);
     };
-    // A light outline makes the arrow visible on dots and in shadows.
+    // The light outline keeps the arrow visible on dots and in shadows.
     draw(2.5, kWhite);
     draw(1, kBlack);
 }

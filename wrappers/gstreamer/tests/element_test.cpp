@@ -94,7 +94,7 @@ TEST_F(GstreamerElement, FollowsAnewAfterAJumpBack) {
     start("");
     EXPECT_EQ(locate(frame(170, 10 * GST_SECOND))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 10 * GST_SECOND + 5 * GST_MSECOND))["attempt"], "tracked");
-    // The time goes backwards, as after a seek. If tracking were not restarted, the tracker would
+    // The time goes backwards, as after a seek. Without a restart of tracking, the tracker would
     // ignore all frames for ten seconds.
     EXPECT_EQ(locate(frame(170, 0))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 5 * GST_MSECOND))["verdict"], "accepted");

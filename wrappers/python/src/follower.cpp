@@ -15,7 +15,8 @@
 namespace dotpose::python {
 namespace {
 
-/// Result for an image: the Python class Located. `track` is empty if the image was located alone.
+/// Result for an image: the Python class Located. `track` is empty if the image is not part of a
+/// sequence.
 struct SeenLocated {
     SeenFix fix;
     std::optional<SeenPlace> place;

@@ -85,7 +85,7 @@ void define_space(py::module_& module) {
             "Direction on the paper in which the camera leans, clockwise, in rad.")
         .def_property_readonly(
             "turn_rad", [](const SpacePose& p) { return lean_of(p.camera.rotation).turn_rad; },
-            "Angle of the image x axis before the camera leans, clockwise, in rad.")
+            "Angle of the image x axis on the paper after removal of the tilt, clockwise, in rad.")
         .def_property_readonly(
             "covariance", [](const SpacePose& p) { return array_of(p.covariance); },
             "Covariance of the position, in mm, and of a small rotation vector in the camera "

@@ -92,7 +92,7 @@ def test_a_wheel_of_the_core_needs_numpy_only(tmp_path):
     pytest.importorskip("build")
     if not os.environ.get("DOTPOSE_BUILD"):
         pytest.skip("compiles the core, as the nightly tests do")
-    # Builds a copy, because setuptools writes beside the sources.
+    # Builds a copy, because setuptools writes files next to the sources.
     copy = tmp_path / "checkout" / "wrappers" / "python"
     shutil.copytree(HERE, copy, ignore=shutil.ignore_patterns("build", "dist", "*.egg-info", "__pycache__"))
     os.symlink(HERE.parents[1], copy / "source")

@@ -1,4 +1,5 @@
-"""Tests threads that run concurrently with one locator each, or sequentially with a shared locator."""
+"""Tests threads that each have a locator and run concurrently, and threads that share a locator and
+run one after another."""
 
 import os
 import threading

@@ -25,9 +25,9 @@ export interface Image {
 /** Options of a locator. The defaults suit any camera. */
 export interface LocatorOptions {
     /**
-     * Code of the sheets. The default "auto" detects the code from the frames. If a frame is
-     * ambiguous, further frames of the same locator resolve the ambiguity. Until then, frames have
-     * the status "ambiguous_code".
+     * Code of the sheets. The default "auto" detects the code from the frames. While the code is
+     * ambiguous, frames have the status "ambiguous_code", until further frames of the same locator
+     * resolve the ambiguity.
      */
     code?: Code | "auto";
     /** Spacing of the printed grid. Default: 0.508. */
@@ -46,11 +46,12 @@ export interface LocatorOptions {
      * located again. Default: 2.
      */
     attempts?: 1 | 2;
-    /** Maximum probability of a wrong position. Other positions are refused. Default: 1e-9. */
+    /** Maximum probability that a position is wrong. Less certain positions are refused. Default:
+     * 1e-9. */
     max_p_wrong?: number;
     /**
-     * Sheets that may be in view. Views of about 30 dots, in images of at least 24 x 24 px, are
-     * then sufficient. Default: none, which makes all places possible.
+     * Sheets that may be in view. About 30 dots in view, in images of at least 24 x 24 px, are then
+     * enough for a fix. Default: none, which makes all places possible.
      */
     sheets?: readonly KnownRegion[];
     /** True if only places on `sheets` are possible. Default: false. */
@@ -70,16 +71,18 @@ export interface LocatorOptions {
      * `space`, this option makes the locator use the larger module. Default: none.
      */
     print_map?: Uint8Array;
-    /** The core module, as a URL, bytes or a compiled module. Default: the file beside this one. */
+    /** The core module, as a URL, bytes or a compiled module. Default: the file next to this
+     * one. */
     wasm?: WasmSource;
 }
 
 /** Options of one frame. */
 export interface FrameOptions {
     /**
-     * Fix of the previous frame, or the prediction of a tracker. The search starts at the expected
-     * position of the pattern, which takes a fraction of the time. If the frame does not confirm
-     * the prediction, or if the fix is not ok, the frame is located without a prediction.
+     * Fix of the previous frame, or the prediction of a tracker. Locating then starts at the
+     * expected position of the pattern, and takes only a fraction of the time. If the frame does
+     * not confirm the prediction, or if the fix is not ok, the frame is located without a
+     * prediction.
      */
     prediction?: Fix | Prediction | null | undefined;
     /**

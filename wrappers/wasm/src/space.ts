@@ -37,7 +37,7 @@ export interface SpacePose extends PoseInSpace {
     tilt_rad: number;
     /** Direction on the paper in which the camera leans, clockwise from +x. */
     azimuth_rad: number;
-    /** Angle of the image x axis before the camera leans, clockwise from +x. */
+    /** Angle of the image x axis on the paper after removal of the tilt, clockwise from +x. */
     turn_rad: number;
     /**
      * Covariance of the position, in mm, and of a small rotation vector in the camera frame, in

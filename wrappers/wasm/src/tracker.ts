@@ -73,9 +73,9 @@ export interface Track {
     events: TrackEvent[];
     /** Upper bound of the probability that the pose is wrong, given the previous frames. */
     p_wrong: number;
-    /** Position in the pattern, to the right. */
+    /** x in the pattern, to the right. */
     x_mm: number;
-    /** Position in the pattern, DOWN the page. */
+    /** y in the pattern, DOWN the page. */
     y_mm: number;
     /** Angle of the image x axis, from +x towards +y, in [-pi, pi). */
     theta_rad: number;

@@ -21,8 +21,8 @@
 
 namespace dotpose_ros {
 
-/// Converts a stamp to nanoseconds. Stamps may be negative, unlike those of rclcpp::Time, which
-/// throws an exception.
+/// Converts a stamp to nanoseconds. Unlike rclcpp::Time, which throws an exception, accepts
+/// negative stamps.
 std::int64_t nanoseconds(std::int32_t sec, std::uint32_t nanosec);
 
 /// Members of a sensor_msgs/CameraInfo that describe the lens.
