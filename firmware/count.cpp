@@ -132,7 +132,7 @@ const Markers* markers = &kThumbMarkers;
 
 const Marker* marker_at(const qemu_plugin_insn* instruction) {
     const std::size_t size = qemu_plugin_insn_size(instruction);
-    // The bytes are copied unchanged, because targets and host are little-endian.
+    // The bytes need not be swapped, because targets and host are little-endian.
     std::uint32_t encoding = 0;
     std::memcpy(&encoding, qemu_plugin_insn_data(instruction), std::min(size, sizeof encoding));
     const auto found = std::ranges::find_if(

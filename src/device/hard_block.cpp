@@ -89,8 +89,8 @@ HardBlock::HardBlock(const Grid& grid, const GridRegion& region)
 }
 
 HardLines HardBlock::lines(Axis axis, int quarters) const {
-    // After a quarter turn, the last row is the first column, with the same bits. The first column
-    // is the first row, with its bits inverted and in reverse order.
+    // After a quarter turn, the last row has become the first column, with the same bits. The first
+    // column has become the first row, with its bits inverted and in reverse order.
     const bool is_sideways = quarters % 2 == 1;
     const bool are_columns = (axis == Axis::x) != is_sideways;
     const bool is_upside_down = axis == Axis::x ? quarters >= 2 : quarters == 1 || quarters == 2;

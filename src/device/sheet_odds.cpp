@@ -47,10 +47,10 @@ class OddsOfOthers {
           odds_per_bit_q8_(odds_per_bit_q8),
           max_lost_(kNegligible_q8 / odds_per_bit_q8) {}
 
-    /// Adds the alternatives in a region that have the same lines as the given place on one axis.
-    /// `same` contains the lines of this axis at the given place, and `other` those of the other
-    /// axis. The region has the section `same_section` and the positions `same_range` on the axis
-    /// of `same`, and `section` and `range` on the other axis.
+    /// Adds the alternatives in one region. `same` contains the lines of the axis on which the
+    /// alternatives agree with the given place, and `other` contains the lines of the other axis.
+    /// `same_section` and `same_range` are the section and the positions of the region on the axis
+    /// of `same`. `section` and `range` are the section and the positions on the axis of `other`.
     void add(const PlacedLines& same, std::uint32_t same_section, const PositionRange& same_range,
              const PlacedLines& other, std::uint32_t section, const PositionRange& range) {
         if (!same_range.contains(same.position)) return;

@@ -19,9 +19,9 @@ constexpr int kMinFraction_q3 = 6;
 /// Minimum number of measured dots from which the fraction is tested.
 constexpr int kMinMeasured = 8;
 
-/// A shift, a rotation and a stretch of the pattern: a cell at c, relative to the middle cell,
-/// moves by shift + stretch c + turn J c, where J is a rotation by 90 degrees. The shear of a
-/// rolling shutter is part of the cell map, so the rotation does not change it.
+/// A small similarity transform of the cells: shift, rotation and scale. A cell at c, relative to
+/// the middle cell, moves by shift + stretch c + turn J c, where J is a rotation by 90 degrees. The
+/// shear of a rolling shutter is part of the cell map, so the rotation does not change it.
 struct Similarity {
     std::int32_t stretch_q20 = 0;
     std::int32_t turn_q20 = 0;
