@@ -12,5 +12,5 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE NEVER)
 set(CMAKE_ASM_FLAGS_INIT "${machine}")
 set(CMAKE_CXX_FLAGS_INIT "${machine}")
 
-# There is no C library, and therefore no mathematical functions.
+# There is no C library, and therefore there are no mathematical functions.
 set(DOTPOSE_FIRMWARE_LIBRARIES -lgcc)

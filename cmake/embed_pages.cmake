@@ -1,5 +1,5 @@
-# Writes a C++ source with a function that returns the files of a page (serve::Page). Runs while dotpose is
-# built:
+# Writes a C++ source with a function that returns the files of a web page (serve::Page). Runs while
+# dotpose is built:
 #
 #   cmake -D OUT=FILE -D FUNCTION=NAME -D "PAGES=PATH|TYPE|FILE;..." -P cmake/embed_pages.cmake
 set(arrays)

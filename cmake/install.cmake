@@ -80,7 +80,7 @@ if(TARGET dotpose_cli)
 endif()
 if(TARGET dotpose_live_cli)
     install(TARGETS dotpose_live_cli dotpose_video_module DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dotpose)
-    # Alert rules of Prometheus and dashboard of Grafana for `dotpose fleet --metrics`.
+    # Prometheus alert rules and Grafana dashboard for `dotpose fleet --metrics`.
     install(DIRECTORY packaging/monitoring DESTINATION ${CMAKE_INSTALL_DATADIR}/dotpose)
 endif()
 

@@ -14,7 +14,7 @@ endif()
 string(REGEX MATCHALL "(^|\n)[A-Za-z0-9_/]+\\." suites "${lines}")
 list(TRANSFORM suites STRIP)
 list(REMOVE_DUPLICATES suites)
-# The exclusions of the filter also apply within the suites.
+# The exclusions in the filter also apply to the cases of each suite.
 string(REGEX MATCH "-.*" excluded "${filter}")
 foreach(suite IN LISTS suites)
     string(REPLACE "." "" name ${suite})

@@ -24,6 +24,6 @@ set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -no-pie")
 set(CMAKE_PCH_WARN_INVALID OFF)
 
 set(DOTPOSE_FIRMWARE mips32r2)
-# No library is linked, because Debian's libraries are plain MIPS32 code for an FPU. A program that needs a
-# library fails to link.
+# Links no library, because Debian's libraries are plain MIPS32 code that requires an FPU. Programs
+# that need a library therefore fail to link.
 set(DOTPOSE_FIRMWARE_LIBRARIES)

@@ -1,5 +1,5 @@
-# Uses only the parts of OpenCV that live use requires. OpenCV's CMake files are only in Debian's package of
-# the complete OpenCV, which is ten times larger.
+# Uses only the modules of OpenCV that dotpose-live requires. OpenCV's CMake files are only in
+# Debian's package of the complete OpenCV, which is ten times larger.
 find_path(DOTPOSE_OPENCV_INCLUDE opencv2/videoio.hpp PATH_SUFFIXES opencv4)
 set(libraries)
 foreach(part IN ITEMS videoio highgui imgproc core)

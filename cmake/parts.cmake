@@ -1,5 +1,5 @@
-# The parts of dotpose other than the core, and the libraries that they need. Only this file searches for
-# libraries. A library is searched for only if a part needs it.
+# Declares the parts of dotpose other than the core, and the libraries that they need. Only this
+# file searches for libraries, and only for those that a part needs.
 
 if(PROJECT_IS_TOP_LEVEL)
     set(default FOUND)
@@ -11,8 +11,8 @@ set(DOTPOSE_PARTS ${default} CACHE STRING
 set_property(CACHE DOTPOSE_PARTS PROPERTY STRINGS CORE FOUND ALL)
 
 # dotpose_dependency(TARGET DEBIAN package (PACKAGE name | MODULES module... | FILE file)): declares
-# a library that parts may need, and how to find it: by find_package, by pkg-config, or by a file of
-# cmake/ that defines the target.
+# a library that parts may need, and how to find it: with find_package, with pkg-config, or with a
+# file in cmake/ that defines the target.
 macro(dotpose_dependency target)
     set(dotpose_how_${target} ${ARGN})
 endmacro()
@@ -81,7 +81,8 @@ macro(dotpose_part name what)
     list(APPEND parts ${name})
 endmacro()
 
-# dotpose_decide(NAME): sets DOTPOSE_HAS_NAME for a part. If the part is left out, prints the reason.
+# dotpose_decide(NAME): sets DOTPOSE_HAS_NAME for a part. If the part is not built, prints the
+# reason.
 macro(dotpose_decide name)
     set(missing)
     foreach(needed IN LISTS ${name}_PARTS)
@@ -141,7 +142,8 @@ dotpose_part(DDS       "dotpose watch --dds" SETUP robots
              PARTS LIVE NEEDS CycloneDDS::ddsc CycloneDDS::idlc)
 dotpose_part(WEB       "the page of dotpose watch --web" SETUP live
              PARTS LIVE NEEDS PkgConfig::Websockets esbuild)
-# The fuzz preset excludes calibration and live use. Both take minutes to build and have no fuzz target.
+# The fuzz preset excludes the parts for calibration and live use, which take minutes to build and
+# have no fuzz targets.
 set(tested LIVE)
 if(DOTPOSE_SANITIZE MATCHES "fuzzer")
     set(tested TIFF PDF FILES EVALUATE)

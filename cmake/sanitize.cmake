@@ -5,8 +5,8 @@ if(DOTPOSE_SANITIZE)
     # fuzzer-no-link only instruments the code. Each fuzz target links libFuzzer's main itself.
     add_link_options(-fsanitize=${DOTPOSE_SANITIZE})
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        # Suppresses false positives in the standard library. GCC's manual mentions them for instrumented
-        # code.
+        # Suppresses false positives in the standard library. According to GCC's manual, they are to
+        # be expected in instrumented code.
         add_compile_options(-Wno-maybe-uninitialized)
     endif()
     # Enables the index checks of std::span.

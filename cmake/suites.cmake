@@ -1,11 +1,12 @@
-# Registers a GoogleTest program with CTest, with one test per suite. One process per test case would load the
-# libraries of the program a thousand times.
+# Registers a GoogleTest program with CTest, with one test per suite. With one test per case, the
+# libraries of the program would be loaded a thousand times.
 
-# dotpose_discover_suites(TARGET PREFIX [FILTER filter] [LABELS label...] [FIXTURE name]): adds the tests
-# PREFIX.SUITE. The suites are listed when ctest runs, because a program that crashes while it lists them must
-# not fail the build. Suites in DOTPOSE_SLOW_SUITES also have the label `slow`. Suites named ...AtLength have
-# the label `nightly`, because they take a long time. Shorter suites test the same code during the day. The
-# longest suites run first, to keep all cores busy until the end.
+# dotpose_discover_suites(TARGET PREFIX [FILTER filter] [LABELS label...] [FIXTURE name]): adds the
+# tests PREFIX.SUITE. The suites are listed when ctest runs, because a program that crashes while it
+# lists them must not fail the build. Suites in DOTPOSE_SLOW_SUITES also have the label `slow`.
+# Suites named ...AtLength have the label `nightly`, because they take a long time. Shorter suites
+# test the same code in daily builds. The longest suites run first, to keep all cores busy until the
+# end.
 function(dotpose_discover_suites target prefix)
     cmake_parse_arguments(PARSE_ARGV 2 arg "" "FILTER;FIXTURE" "LABELS")
     set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)

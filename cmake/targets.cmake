@@ -37,7 +37,7 @@ function(dotpose_layer name)
         dotpose_allow_promotion(${target})
         if(TARGET dotpose_base_layer AND NOT name STREQUAL "base")
             dotpose_share_headers(${target} dotpose_base_layer)
-            # fmt is among the precompiled headers.
+            # The precompiled headers include fmt.
             target_link_libraries(${target} PRIVATE fmt::fmt)
         endif()
         if(NOT EMSCRIPTEN)
@@ -154,13 +154,13 @@ endfunction()
 
 function(dotpose_allow_array_bounds target)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-        # GCC 12 suppresses false alarms in the standard library only outside of precompiled headers.
+        # GCC 12 reports false positives for the standard library if its headers are precompiled.
         target_compile_options(${target} PRIVATE -Wno-array-bounds)
     endif()
 endfunction()
 
-# dotpose_compile_light(TARGET): compiles with less optimization, in half the time. Intended for programs that
-# spend most of their time in the libraries.
+# dotpose_compile_light(TARGET): compiles a target with less optimization, which halves the compile
+# time. Intended for programs that spend most of their run time in the libraries.
 function(dotpose_compile_light target)
     if(DOTPOSE_SANITIZE)
         target_compile_options(${target} PRIVATE -O0)
@@ -185,8 +185,9 @@ function(dotpose_use_internals name)
     dotpose_allow_promotion(${name})
 endfunction()
 
-# dotpose_allow_promotion(TARGET): disables clang's warning about promotions to double, which are harmless
-# outside of the core. GCC warns only about unintended promotions, but clang warns about all promotions.
+# dotpose_allow_promotion(TARGET): disables clang's warning about promotions to double, which are
+# harmless outside the core. GCC warns only about unintended promotions, but clang warns about all
+# promotions.
 function(dotpose_allow_promotion target)
     if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
         target_compile_options(${target} PRIVATE -Wno-double-promotion)

@@ -1,4 +1,5 @@
-# Defines TIFF::TIFF. A static libtiff also needs the libraries that it uses, which CMake does not know.
+# Defines TIFF::TIFF. CMake's module does not list the libraries that a static libtiff requires, so
+# they are added here.
 find_package(TIFF QUIET)
 if(TARGET TIFF::TIFF AND TIFF_LIBRARY MATCHES "[.]a$")
     find_package(JPEG QUIET)

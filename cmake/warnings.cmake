@@ -1,6 +1,6 @@
 # Promotions to double would link soft-float code into a core that must run without an FPU. Silent
-# narrowing would break the bounds of fixed-point numbers. Both are warnings here, and errors in
-# `dev`.
+# narrowing would break the bounds of fixed-point numbers. Both are reported as warnings, and as
+# errors in the preset `dev`.
 add_compile_options(
     -Wall -Wextra -Wpedantic
     -Wconversion -Wdouble-promotion -Wshadow

@@ -1,7 +1,7 @@
 # Toolchain: WebAssembly, with Debian's emscripten.
 include(/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
 
-# By default, emscripten disables inlining with -Oz, which makes modules a tenth larger.
+# With -Oz, emscripten disables inlining by default, which makes modules a tenth larger.
 set(CMAKE_CXX_FLAGS_INIT "-sINLINING_LIMIT=0")
 
 option(DOTPOSE_WASM_SIMD "Use vectors of 16 bytes, which browsers have since about 2022" OFF)

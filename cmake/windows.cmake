@@ -5,9 +5,9 @@ set(CMAKE_SYSTEM_PROCESSOR AMD64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
-# Links the libraries of the compiler statically, because Wine does not find their DLLs. The stack is 8 MB, as
-# on Linux. Multiple definitions are allowed because GCC 12 stores an inline constant in .data for one source and
-# in .rdata for another.
+# Links the libraries of the compiler statically, because Wine does not find their DLLs. The stack
+# is 8 MB, as on Linux. Multiple definitions are allowed, because GCC 12 stores an inline constant
+# in .data for one source and in .rdata for another.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--stack,8388608 -Wl,--allow-multiple-definition")
 set(CMAKE_CROSSCOMPILING_EMULATOR wine)
 # Libraries of the host cannot be linked. scripts/windows-libraries creates the folder of the

@@ -1,13 +1,13 @@
-/// The interface between main.cpp and a board. It consists of three functions, which each port in
-/// boards/ implements. docs/porting.md describes how to write a port.
+/// Interface between main.cpp and a board: three functions, which each port in boards/ implements.
+/// docs/porting.md describes how to write a port.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-// Maximum frame size, for which the memory is dimensioned: 36 x 36 (only with known sheets), 160 x
-// 120, 188 x 120 or 320 x 240 px. Change it here, or define the two macros on the command line of
-// the compiler.
+// Maximum frame size, which determines the size of the memory: 36 x 36 (only with known sheets),
+// 160 x 120, 188 x 120 or 320 x 240 px. Change it here, or define both macros on the compiler's
+// command line.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120
@@ -25,14 +25,14 @@ struct Frame {
     std::int64_t time_us = 0;  ///< middle of the exposure, on a monotonic clock
 };
 
-/// Waits until `not_before_us` on the clock of Frame::time_us, or not at all if it is 0, and starts
-/// a frame. The camera then fills one of two row buffers by DMA while the program reads the other.
-/// The first call also initialises the camera and the serial line.
+/// Waits until `not_before_us` on the clock of Frame::time_us, and then starts a frame. Does not
+/// wait if `not_before_us` is 0. The camera then fills one of two row buffers by DMA while the
+/// program reads the other. The first call also initialises the camera and the serial line.
 Frame start_frame(std::int64_t not_before_us);
 
-/// Waits for the next row of the frame, from top to bottom, and returns its grey values. They are
-/// valid until the next call. The caller must read a row before the camera has delivered the next
-/// one.
+/// Waits for the next row of the frame, from top to bottom, and returns its grey values. The grey
+/// values are valid until the next call. The caller must read each row before the camera has
+/// delivered the following row.
 const std::uint8_t* next_row();
 
 /// Sends bytes over the serial line or radio. The implementation may copy the bytes and return

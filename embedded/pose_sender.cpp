@@ -14,8 +14,8 @@ TrackOptions PoseSender::device_tracking() {
 }
 
 /// Begins a frame with the prediction of the tracker. After a frame without a pose, begins without
-/// a prediction, because a frame that does not confirm its prediction is lost: its rows are not
-/// stored.
+/// a prediction, because a frame that does not confirm its prediction is lost, since its rows are
+/// not stored.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =
@@ -28,7 +28,7 @@ Fix PoseSender::locate(const board::Frame& frame) {
     // If the prediction cannot be used, for example because the robot was lifted, the frame is
     // located without it.
     if (begun == Status::not_tracked) begun = locator_.begin(frame.width_px, frame.height_px);
-    // All rows are read, even if the frame was refused, to stay synchronised with the camera.
+    // Reads all rows even if the frame was refused, to stay synchronised with the camera.
     for (int row = 0; row < frame.height_px; ++row) {
         const std::uint8_t* pixels = board::next_row();
         if (begun == Status::ok) locator_.push_row(pixels);

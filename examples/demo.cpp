@@ -1,5 +1,5 @@
 // Demonstrates the whole library: prints a sheet, drives a simulated camera over it, locates every
-// frame and compares the poses with the true poses. Run by `make demo`.
+// frame, and compares the measured poses with the true poses. Run by `make demo`.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

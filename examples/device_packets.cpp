@@ -1,5 +1,5 @@
-// Runs the program of a microcontroller on a desktop. It takes the image row by row, as from a
-// camera, and writes each pose as a packet of 32 bytes.
+// Runs the program of a microcontroller on a desktop. It processes the image row by row, as a
+// camera delivers it, and writes each pose as a packet of 32 bytes.
 //
 //     dotpose_device_packets frames/*.pgm > packets.bin
 //     dotpose listen packets.bin

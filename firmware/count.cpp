@@ -3,10 +3,11 @@
 //   qemu-... -plugin ./libdotpose_count.so,stages=FILE,out=FILE
 //
 // The plugin counts the instructions between the markers `resume` and `pause` of markers.hpp,
-// without the markers. The stage file consists of lines "ADDRESS NAME" with hexadecimal addresses.
-// The stage NAME begins at the instruction at ADDRESS and ends when the next stage begins.
-// Instructions between `resume` and the first stage belong to the stage "other". The output has one
-// line with the names of the stages, and one line of counts for each marker `end_frame`.
+// excluding the markers themselves. The stage file consists of lines "ADDRESS NAME" with
+// hexadecimal addresses. The stage NAME begins at the instruction at ADDRESS and ends when the next
+// stage begins. Instructions between `resume` and the first stage belong to the stage "other". The
+// output has one line with the names of the stages, and one line of counts for each marker
+// `end_frame`.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -20,8 +21,8 @@
 #include <string>
 #include <string_view>
 
-// The functions and types for version 1 of the interface are declared here ("QEMU TCG Plugins" in
-// QEMU's documentation), because Debian has no package with the plugin header.
+// Declarations for version 1 of the plugin interface ("QEMU TCG Plugins" in QEMU's documentation).
+// Debian has no package with the plugin header.
 extern "C" {
 
 using qemu_plugin_id_t = std::uint64_t;
@@ -131,7 +132,7 @@ const Markers* markers = &kThumbMarkers;
 
 const Marker* marker_at(const qemu_plugin_insn* instruction) {
     const std::size_t size = qemu_plugin_insn_size(instruction);
-    // The bytes are copied unchanged, because targets and host are little-endian.
+    // The bytes need not be swapped, because targets and host are little-endian.
     std::uint32_t encoding = 0;
     std::memcpy(&encoding, qemu_plugin_insn_data(instruction), std::min(size, sizeof encoding));
     const auto found = std::ranges::find_if(

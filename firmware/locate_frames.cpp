@@ -7,7 +7,7 @@
 #include "markers.hpp"
 #include "number.hpp"
 
-// Maximum frame size, for which the memory is dimensioned.
+// Maximum frame size, which determines the size of the memory.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120
@@ -22,7 +22,7 @@ using namespace dotpose;
 constexpr int kMaxWidth_px = DOTPOSE_FRAME_WIDTH_PX;
 constexpr int kMaxHeight_px = 9999;
 constexpr bool kNeedsSheet = kMaxWidth_px < kMinFrameSide_px;
-/// A page of A4 with a spacing of 0.508 mm, in flash memory.
+/// The known sheet: an A4 page with a spacing of 0.508 mm. Stored in flash memory.
 constexpr KnownRegion kSheets[] = {
     {.section = {}, .first = {1024, 1024}, .columns = 393, .rows = 564}};
 

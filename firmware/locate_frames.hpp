@@ -2,7 +2,7 @@
 
 #include <dotpose/locate.hpp>
 
-/// Returns the options of the program. They accept dots of a single pixel if the frames are small.
+/// Returns the options of the program. For small frames, they accept dots of a single pixel.
 dotpose::DeviceOptions program_options();
 /// Passes a known sheet to the locator if the frames of the program are so small that they can only
 /// be located on known sheets.

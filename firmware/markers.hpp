@@ -1,4 +1,4 @@
-/// Instructions without effect that mark the code whose instructions firmware/count.cpp counts.
+/// Markers: no-op instructions that delimit the code measured by firmware/count.cpp.
 #pragma once
 
 namespace markers {

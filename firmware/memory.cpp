@@ -1,6 +1,6 @@
 // C library functions that compilers call implicitly. The programs do not link a C library, because
-// Debian's library for MIPS needs an FPU, and because the number of instructions would depend on
-// the version of the library.
+// Debian's library for MIPS requires an FPU, and because the instruction counts would depend on the
+// library version.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

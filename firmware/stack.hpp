@@ -1,4 +1,4 @@
-/// Measures the stack usage. At the start, the stack is filled with a pattern. A word that no
+/// Measures the stack usage. At the start, `paint` fills the stack with a pattern. A word that no
 /// longer contains the pattern has been used.
 #pragma once
 
@@ -14,7 +14,8 @@ inline constexpr std::uint32_t kPaint = 0x5AFEC0DE;
 
 /// Fills the unused stack below the caller's frame with the pattern. Must be called first.
 [[gnu::always_inline]] inline void paint() {
-    // Number of words that are not filled, because they contain the variables of this function.
+    // Number of words below the frame address that are not filled, because they contain the
+    // variables of this function.
     constexpr std::size_t kOwnWords = 16;
     auto* const end = static_cast<std::uint32_t*>(__builtin_frame_address(0)) - kOwnWords;
     for (volatile std::uint32_t* word = stack_bottom; word < end; ++word)
@@ -29,7 +30,7 @@ inline std::size_t high_water_bytes() {
     return static_cast<std::size_t>(stack_top - word) * sizeof *word;
 }
 
-/// Returns true if the stack was completely used, so that it may have overflowed into the
+/// Returns true if the stack was used completely, and may therefore have overflowed into the
 /// variables.
 inline bool has_overflown() {
     return *static_cast<volatile std::uint32_t*>(stack_bottom) != kPaint;

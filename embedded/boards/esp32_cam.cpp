@@ -23,8 +23,8 @@ constexpr int kWidth_px = board::kMaxWidth_px;
 constexpr int kHeight_px = board::kMaxHeight_px;
 /// A short, fixed exposure avoids motion blur. Try 20 to 200 sensor rows.
 constexpr int kExposure_rows = 60;
-/// Approximate number of sensor rows per frame in the mode for QVGA (CIF), with those between
-/// frames.
+/// Approximate number of sensor rows per frame in the mode for QVGA (CIF), including the blanking
+/// rows between frames.
 constexpr int kRowsPerFrame = 336;
 
 camera_fb_t* frame = nullptr;
@@ -52,13 +52,13 @@ camera_config_t wiring() {
     return config;
 }
 
-/// Returns the driver's time stamp, which is the start of the frame on the clock of esp_timer.
+/// Returns the driver's time stamp of a frame: the start of the frame, on the clock of esp_timer.
 std::int64_t stamp_us(const camera_fb_t& of) {
     return of.timestamp.tv_sec * std::int64_t{1'000'000} + of.timestamp.tv_usec;
 }
 
-/// Returns the time from one frame to the next: the shortest of a few, because the driver may skip
-/// frames.
+/// Returns the time from one frame to the next. This is the shortest of several measured times,
+/// because the driver may skip frames.
 std::int64_t frame_period_us() {
     std::int64_t shortest_us = 1'000'000;
     std::int64_t last_us = 0;
@@ -85,14 +85,14 @@ void set_up() {
     config.fb_count = 2;
     // QVGA frames fit into the internal RAM, which is faster than external PSRAM.
     config.fb_location = CAMERA_FB_IN_DRAM;
-    // After a pause, the newest frame is returned, and not the oldest queued frame.
+    // After a pause, the driver returns the newest frame instead of the oldest queued frame.
     config.grab_mode = CAMERA_GRAB_LATEST;
     while (esp_camera_init(&config) != ESP_OK)
         vTaskDelay(pdMS_TO_TICKS(500));
     sensor_t* sensor = esp_camera_sensor_get();
     sensor->set_exposure_ctrl(sensor, 0);
     sensor->set_aec_value(sensor, kExposure_rows);
-    // The time stamp is that of VSYNC. The exposure of the middle row ends about half a frame
+    // The time stamp is the time of VSYNC. The exposure of the middle row ends about half a frame
     // later, when this row is read.
     middle_of_exposure_us =
         frame_period_us() * (kRowsPerFrame - kExposure_rows) / (2 * kRowsPerFrame);
@@ -130,7 +130,7 @@ void send(const std::uint8_t* bytes, std::size_t count) {
 
 }  // namespace board
 
-// ESP-IDF calls app_main. It replaces main.cpp, which must not be compiled.
+// Entry point of ESP-IDF programs. It replaces main.cpp, which must not be compiled.
 extern "C" void app_main() {
     static PoseSender sender;
     for (;;)

@@ -1,10 +1,10 @@
 // Port for a Raspberry Pi Pico (RP2040) with the Pico SDK and an ADNS-3080, the sensor of an
-// optical mouse with 30 x 30 px, which is read by SPI. The port was compiled against replacements
-// of the SDK, but never run.
+// optical mouse with 30 x 30 px, which is read by SPI. The port was compiled against stubs of the
+// SDK, but never run.
 //
-// The sensor sees about 5 x 5 cells. This is enough for a fix only on known sheets, and rarely in a
-// single frame. Add `locator_.set_known(kSheets, OtherSheets::impossible)` to PoseSender, with the
-// regions of your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36
+// The sensor sees about 5 x 5 cells. This is enough for a fix only if sheets are known, and even
+// then rarely in a single frame. Add `locator_.set_known(kSheets, OtherSheets::impossible)` to
+// PoseSender, with the regions of your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36
 // -DDOTPOSE_FRAME_HEIGHT_PX=36. A lens must show the pattern at 5 to 6 px per spacing
 // (docs/hardware.md). Link with pico_stdlib hardware_spi.
 //
@@ -39,8 +39,8 @@ constexpr std::uint8_t kCapture = 0x83;
 constexpr std::uint64_t kReadDelay_us = 50;
 constexpr std::uint64_t kWriteDelay_us = 50;
 constexpr std::uint64_t kBetweenPixels_us = 10;
-/// Time from the command to the end of the capture. It is the time of three frames at the lowest
-/// rate, 2000 per second.
+/// Time from the command to the end of the capture: three frames at the lowest frame rate, 2000 per
+/// second.
 constexpr std::uint64_t kCapture_us = 1510;
 
 std::uint8_t pixels[kSide_px][kSide_px];
@@ -80,7 +80,7 @@ void set_up() {
 }
 
 /// Reads the pixels of the captured frame, column by column from the lower left corner. Each byte
-/// contains six bits of the grey level. The order of the pixels was not verified on a sensor. If
+/// contains six bits of the grey level. This order has not been verified on a real sensor. If
 /// frames have the status `mirrored`, reverse the columns.
 void read_pixels() {
     gpio_put(kSelect, false);
@@ -108,8 +108,8 @@ Frame start_frame(std::int64_t not_before_us) {
         sleep_until(from_us_since_boot(static_cast<std::uint64_t>(not_before_us)));
     write(kFrameCapture, kCapture);
     sleep_us(kCapture_us);
-    // The sensor captures the third frame after the command. The exposure of this frame ends about
-    // here.
+    // The sensor captures the third frame after the command. The exposure of that frame ends at
+    // about this point.
     const auto time_us = static_cast<std::int64_t>(time_us_64());
     read_pixels();
     next = 0;

@@ -46,8 +46,8 @@ struct Setting {
     std::uint8_t value;
 };
 
-// Settings from the OV7670 implementation guide for QVGA as YUYV with 15 frames per second at 12.5
-// MHz, and for a short, fixed exposure.
+// Settings from the OV7670 implementation guide: QVGA in YUYV format at 15 frames per second with a
+// 12.5 MHz clock, and a short, fixed exposure.
 constexpr Setting kSettings[] = {
     {0x12, 0x10},                                            // COM7: QVGA, YUV
     {0x0C, 0x04}, {0x3E, 0x19}, {0x70, 0x3A}, {0x71, 0x35},  // scaling by 2, which also halves PCLK
@@ -102,12 +102,12 @@ void set_up_pio() {
     pio_sm_init(pio0, machine, program, &config);
 }
 
-/// Sets up the two DMA channels. When one of them has filled its row buffer, it starts the other.
+/// Sets up the two DMA channels. Each channel starts the other when it has filled its row buffer.
 void set_up_dma() {
     for (int& channel : channels)
         channel = dma_claim_unused_channel(true);
-    // The state machine shifts to the right, so each byte is the most significant byte of a FIFO
-    // word.
+    // The state machine shifts to the right, so each grey byte is the most significant byte of its
+    // FIFO word.
     const volatile void* source = reinterpret_cast<volatile std::uint8_t*>(&pio0->rxf[machine]) + 3;
     for (int i = 0; i < 2; ++i) {
         const auto channel = static_cast<uint>(channels[i]);
@@ -131,11 +131,10 @@ void set_up() {
     set_up_dma();
 }
 
-/// Stops the previous frame and discards the rest of its data.
+/// Stops the capture of the previous frame and discards its remaining data.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
-    // Aborting one channel may start the other. Therefore both channels are aborted together, and
-    // twice.
+    // Aborting one channel may start the other, so both channels are aborted together, and twice.
     const std::uint32_t both = 1U << channels[0] | 1U << channels[1];
     for (int i = 0; i < 2; ++i) {
         dma_hw->abort = both;
@@ -170,8 +169,8 @@ Frame start_frame(std::int64_t not_before_us) {
     pio_sm_set_enabled(pio0, machine, true);
     for (int row = 0; row < kTop; ++row)
         next_row();
-    // A row arrives at about the end of its exposure. The time of the frame is that of the middle
-    // row, which arrives half a frame after the first row.
+    // A row arrives at about the end of its exposure. The time of the frame is the time of its
+    // middle row, which arrives half a frame after the first row.
     constexpr std::int64_t kRow_us = 66'667 / 510;
     return {kWidth_px, kHeight_px,
             static_cast<std::int64_t>(time_us_64()) + kRow_us * kHeight_px / 2};
@@ -180,8 +179,7 @@ Frame start_frame(std::int64_t not_before_us) {
 const std::uint8_t* next_row() {
     const auto channel = static_cast<uint>(channels[newest]);
     dma_channel_wait_for_finish_blocking(channel);
-    // The write address is reset, because the channel starts again when the other row buffer is
-    // full.
+    // Resets the write address, because the channel starts again when the other row buffer is full.
     dma_channel_set_write_addr(channel, rows[newest], false);
     const std::uint8_t* row = rows[newest] + kLeft;
     newest = 1 - newest;

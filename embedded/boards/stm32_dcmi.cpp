@@ -3,9 +3,9 @@
 // have been configured by I2C.
 //
 // DCMI crops the frame to its central part and writes it by DMA to two row buffers in turn.
-// Settings in CubeMX: DCMI with 8 bits and its interrupt enabled; circular DMA of DCMI, words to
-// words; TIM2 running and counting microseconds with 32 bits; USART2 at 115200 baud. Call
-// run_device() in place of the main loop of the generated program, and compile main.cpp with
+// Settings in CubeMX: DCMI with 8 bits and its interrupt enabled; circular DMA of DCMI with
+// word-sized transfers; TIM2 running as a 32-bit microsecond counter; USART2 at 115200 baud. Call
+// run_device() instead of the main loop of the generated program, and compile main.cpp with
 // -Dmain=run_device. On chips with a data cache (F7, H7), `rows` must be in uncached memory.
 #include "board.hpp"
 
@@ -23,8 +23,8 @@ constexpr std::uint32_t kCameraWidth_px = 376;
 constexpr std::uint32_t kCameraHeight_px = 240;
 constexpr std::uint32_t kWidth_px = board::kMaxWidth_px;
 constexpr std::uint32_t kHeight_px = board::kMaxHeight_px;
-/// Time from the end of VSYNC to the middle of the exposure. It is negative for global shutters,
-/// because their exposure is before the readout.
+/// Time from the end of VSYNC to the middle of the exposure. Negative for global shutters, whose
+/// exposure precedes the readout.
 constexpr std::int64_t kMiddleOfExposure_us = -500;
 
 alignas(4) std::uint8_t rows[2][kWidth_px];
@@ -44,7 +44,7 @@ std::int64_t now_us() {
 }
 
 void set_up() {
-    // The HAL expects sizes minus one.
+    // The HAL expects each size minus one.
     HAL_DCMI_ConfigCrop(&hdcmi, (kCameraWidth_px - kWidth_px) / 2,
                         (kCameraHeight_px - kHeight_px) / 2, kWidth_px - 1, kHeight_px - 1);
     HAL_DCMI_EnableCrop(&hdcmi);

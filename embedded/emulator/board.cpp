@@ -1,5 +1,5 @@
-// Port for an emulated board: qemu-system-arm -M microbit (nRF51822) with its serial line. The
-// camera is replaced by a file of frames that the emulator opens for the program.
+// Port for an emulated board: qemu-system-arm -M microbit (nRF51822) with its serial line. A file
+// of frames, which the emulator opens for the program, replaces the camera.
 //
 // The file is a sequence of binary PGM images (P5, 8 bits, no comments). The simulated camera
 // delivers a frame every 20 ms, even if the program does not read it.
@@ -56,7 +56,7 @@ bool read(void* bytes, std::size_t count) {
     return semihosting::transfer(semihosting::Call::read, camera, bytes, count) == 0;
 }
 
-/// Reads a number of a header and the character after it.
+/// Reads a number of an image header and the character after it.
 int read_number() {
     int number = 0;
     for (char byte = '0'; byte >= '0' && byte <= '9';) {

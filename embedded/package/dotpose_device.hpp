@@ -1,5 +1,5 @@
-/// All parts of dotpose that a microcontroller needs, in C++20: locating frames row by row,
-/// tracking, packets and the pacing of frames. `dotpose.h` is the equivalent in C.
+/// Everything that a microcontroller needs from dotpose, in C++20: locating frames row by row,
+/// tracking, packets and frame pacing. `dotpose.h` is the equivalent in C.
 ///
 ///     static dotpose::DeviceMemory memory;
 ///     static dotpose::DeviceLocator locator(memory);
@@ -9,7 +9,7 @@
 /// known sheets.
 ///
 /// Include this header before all other dotpose headers, because Arduino finds the library only by
-/// the name of this header.
+/// this header name.
 #pragma once
 
 #include "dotpose/frame_pacer.hpp"

@@ -1,6 +1,5 @@
-// Runs the firmware program on a desktop, as the reference for the devices, which must print the
-// same lines. With --predict, adds predictions to a file of frames, for the tracked attempt on the
-// devices.
+// Runs the firmware program on a desktop. The devices must print the same lines. With --predict,
+// adds predictions to a file of frames, which the devices then track.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-/// Linux system calls with the o32 ABI, which QEMU's user mode provides. The programs use them in
-/// place of the devices of a board.
+/// Linux system calls with the o32 ABI, which QEMU provides in user mode. The programs use them
+/// instead of the peripherals of a board.
 #pragma once
 
 #include <cstddef>

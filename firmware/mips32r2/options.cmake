@@ -9,11 +9,11 @@ compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp device/locate.cp
              core/pose/subgrid.cpp device/tracked_pose.cpp)
 # -Os saves 32 bytes in each of these short functions.
 compile_core(-Os device/near_dot.cpp device/coded_cells.cpp)
-# With -fivopts, GCC would use one pointer per array instead of one index for all arrays. This would take 48
-# bytes more.
+# With -fivopts, GCC would use one pointer per array instead of one index for all arrays. This takes
+# 48 bytes more.
 compile_core("-Os;-fno-ivopts" core/decode/search.cpp)
 compile_core(-O3 core/decode/correlation.cpp core/detect/blobs.cpp core/detect/runs.cpp)
 # -fno-tree-pre keeps constants in registers.
 compile_core(-fno-tree-pre device/read_dots.cpp core/detect/tiles.cpp)
-# -fno-tree-pre keeps GCC from computing expressions early, which would take 32 bytes more.
+# -fno-tree-pre saves 32 bytes, because it keeps GCC from moving computations to earlier code.
 compile_core(-fno-tree-pre device/grow.cpp)

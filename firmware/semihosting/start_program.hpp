@@ -1,4 +1,5 @@
-/// Start of the program, which the start-up code calls after it has set up the stack.
+/// Initialises the memory and runs the program. Called by the start-up code after it has set up the
+/// stack.
 #pragma once
 
 #include <array>

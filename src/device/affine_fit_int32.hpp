@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Accumulates image points with their grid coordinates, and solves for the affine map.
+/// Accumulates image points and their grid coordinates, and solves for the affine map between them.
 class AffineFitInt32 {
   public:
     template <typename Int>

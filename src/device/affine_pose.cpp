@@ -68,15 +68,15 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     const auto squared_residual_q16 = [&](FixedVec offset, Symbol symbol) {
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
-    // Dots are excluded if their squared residual exceeds 12 times the median. For a
-    // two-dimensional Gaussian, the median squared residual is 1.39 sigma^2, so the limit of the
-    // residual is 4.1 sigma, which one dot in 4,000 exceeds by chance.
+    // Upper limit of the squared residual: 12 times the median. For a two-dimensional Gaussian, the
+    // median is 1.39 sigma^2, so residuals of up to 4.1 sigma are accepted. One dot in 4,000
+    // exceeds this limit by chance.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +
                                    1;
 
-    // Number of fractional bits of the targets, which are the printed places of the dots. With 6
+    // Number of fractional bits of the targets, which are the printed positions of the dots. With 6
     // bits, the coordinates of targets are less than 2^15 in magnitude, as `AffineFitInt32`
     // requires.
     constexpr int kTargetBits = 6;

@@ -13,7 +13,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of dots from which the grid is found. It bounds the time of the search
+/// Maximum number of dots used to find the grid. This number bounds the search time
 /// (docs/firmware.md).
 constexpr int kSeeds = 64;
 
@@ -56,8 +56,8 @@ Status read_bits(Workspace& w) {
                                      w.known.any() ? kMinKnownSide : kWindowSide);  // II-B.4
 }
 
-/// Finds the place in the code: first on the known sheets, then in the whole code, unless only
-/// known sheets are read.
+/// Finds the place in the code. Searches the known sheets first, and then the whole code unless the
+/// view must be on a known sheet.
 Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->read(options, w)) return Status::ok;

@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-/// The columns or rows around a pixel that are in the image, from `first` to `last`.
+/// Range of columns or rows around a pixel, clipped to the image. `last` is inclusive.
 struct Range {
     int first;
     int last;
@@ -17,7 +17,7 @@ struct Range {
         : first(std::max(middle - half, 0)), last(std::min(middle + half, side_px - 1)) {}
 };
 
-/// The surroundings of a pixel near the border.
+/// A pixel near the image border, and its neighbours that are inside the image.
 class AtBorder {
   public:
     AtBorder(const Tracking& tracking, int u, int v)
@@ -29,8 +29,8 @@ class AtBorder {
           here_(kept_row(tracking, v)[u]) {}
 
     int darkness_below(int level) const { return level - here_; }
-    /// Returns true if no adjacent pixel is darker. Of several adjacent pixels that are equally
-    /// dark, only the last one in row-major order counts as the darkest.
+    /// Returns true if no adjacent pixel is darker. If adjacent pixels are equally dark, only the
+    /// last one in row-major order is the darkest.
     bool is_darkest() const {
         for (int v = rows_.last; v >= rows_.first; --v) {
             const std::uint8_t* const row = kept_row(tracking_, v);
@@ -77,8 +77,8 @@ DarkSums AtBorder::sums(int level) const {
             sums.y += (v - v_) * darkness;
         }
     }
-    // If the darkest pixel is on the border, a third of the square is outside of the image. Without
-    // correction, the centroid would then be wrong by about a quarter of a pixel.
+    // If the darkest pixel is on the border, a third of the square is outside the image. Without a
+    // correction, the centroid would be wrong by about a quarter of a pixel.
     const auto correction = [mass = sums.mass](int at, int side_px) {
         if (at == 0) return -mass / 4;
         return at == side_px - 1 ? mass / 4 : 0;
@@ -97,7 +97,8 @@ DOTPOSE_NOINLINE void add_if_dot(int u, int v, Tracking& tracking) {
     if (pixel.darkness_below(level) <= 0 || pixel.darkness_below(paper) < tracking.min_contrast)
         return;
     DarkSums sums = pixel.sums(level);
-    // The square has only 3 x 3 pixels, which contain about two thirds of the mass.
+    // Scales the sums by 3/2, because the 3 x 3 pixels contain only about two thirds of the mass of
+    // a dot.
     sums = {sums.mass * 3 / 2, sums.x * 3 / 2, sums.y * 3 / 2};
     add_fine_dot({u, v}, sums, tracking);
 }

@@ -1,5 +1,6 @@
 // Border dots: finds the dots whose darkest pixels are so close to the border of the image that
-// `find_fine_dots` cannot measure them. Small frames have up to a quarter of their dots there.
+// `find_fine_dots` cannot measure them. In small frames, up to a quarter of the dots are this close
+// to the border.
 #pragma once
 
 #include "device/tracking.hpp"

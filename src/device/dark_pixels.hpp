@@ -8,12 +8,13 @@
 
 namespace dotpose::core {
 
-/// Size of the parts of the image in which the paper level is estimated, in px.
+/// Width and height of a part of the image, in px. The paper level is estimated separately for each
+/// part.
 inline constexpr int kPartWidth_px = 16;
 inline constexpr int kPartHeight_px = 8;
 
-/// Returns the level below which pixels are dark. This level is close to the paper level, because
-/// dots are pale.
+/// Returns the level below which a pixel is dark. This level is close to the paper level, because
+/// dots may be pale.
 constexpr int paper_edge(int paper) {
     return paper - (paper >> 4);
 }
@@ -22,7 +23,7 @@ constexpr int paper_edge(int paper) {
 /// pixels are dark, so the mean is only slightly below the paper level.
 int sampled_mean(const std::uint8_t* row, int stride);
 
-/// Returns the next pixel below `level`, or `end`.
+/// Returns the first pixel in [at, end) that is darker than `level`, or `end` if there is none.
 const std::uint8_t* next_dark(const std::uint8_t* at, const std::uint8_t* end, int level);
 
 /// A rectangle of pixels. `end_u` and `end_v` are exclusive.

@@ -12,11 +12,11 @@ namespace {
 
 /// Half side of the square in which a dot is measured, in px.
 constexpr int kHalf_px = 2;
-/// Minimum mass, for which `Inverse` is exact enough.
+/// Minimum mass of a dot. `Inverse` is not accurate enough for smaller masses.
 constexpr int kMinMass = 16;
 
-/// Returns true if no pixel around `at` is darker. Of several adjacent pixels that are equally
-/// dark, only the last one in row-major order counts as the darkest.
+/// Returns true if no pixel around `at` is darker. If adjacent pixels are equally dark, only the
+/// last one in row-major order is the darkest.
 DOTPOSE_NOINLINE bool is_darkest(const std::uint8_t* at, int stride) {
     const int here = *at;
     const std::uint8_t* const above = at - stride;
@@ -44,8 +44,8 @@ DOTPOSE_NOINLINE void measure_dot(const std::uint8_t* at, int u, int v, Tracking
     const int stride = tracking.stride_px;
     const std::uint8_t* const first = at - kHalf_px * (stride + 1);
     const std::uint8_t* const last = first + 2 * kHalf_px * stride;
-    // Another dot may darken at most one corner on each diagonal, so the brighter corner of each
-    // diagonal shows the paper.
+    // A neighbouring dot can cover at most one of the two corners on each diagonal, so the brighter
+    // corner has the level of the paper.
     const int paper = (std::max<int>(first[0], last[2 * kHalf_px]) +
                        std::max<int>(first[2 * kHalf_px], last[0])) >>
                       1;

@@ -10,13 +10,13 @@ namespace dotpose::core {
 /// First row in which dots can be measured.
 inline constexpr int kFirstFineRow = 2;
 
-/// Adds the dots in the stored rows to `Tracking::found`, without those whose darkest pixel is
-/// in the last two rows. Starts at `Tracking::next_reading`, and updates this row. If the memory
-/// is full, ignores further dots.
+/// Adds the dots in the stored rows to `Tracking::found`, except dots whose darkest pixel is in the
+/// last two rows. Starts at row `Tracking::next_reading`, and updates this member. Ignores further
+/// dots when the memory is full.
 void find_fine_dots(Tracking& tracking);
 
-/// Adds a dot to `Tracking::found`, if there is memory left and its mass is not too small. `pixel`
-/// is its darkest pixel, and `sums` are the sums around it.
+/// Adds a dot to `Tracking::found`, unless the memory is full or the mass of the dot is too small.
+/// `pixel` is the darkest pixel of the dot, and `sums` are the sums over the pixels around it.
 void add_fine_dot(FixedVec pixel, const DarkSums& sums, Tracking& tracking);
 
 /// Removes the dots whose masses are far from the mean mass.

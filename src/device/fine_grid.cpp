@@ -15,11 +15,12 @@ namespace {
 
 constexpr int kMinDots = 12;
 constexpr std::int32_t kOneCell_q24 = 1 << 24;
-/// Maximum distance of a dot from its fitted place along each axis: an eighth of the spacing.
+/// Maximum offset of a dot from its expected centre along each axis: an eighth of the spacing.
 constexpr std::int32_t kMaxOffset_q24 = kOneCell_q24 / 8;
 
-/// Mean phase of coordinates in their cells. Instead of cosine and sine, uses triangle waves, which
-/// need neither a table nor a multiplication.
+/// Circular mean of the fractional parts of coordinates, which are their phases within the cells.
+/// Uses triangle waves instead of cosine and sine, because they need neither a table nor a
+/// multiplication.
 class MeanPhase {
   public:
     /// Adds a coordinate, in 2^-8 cells.
@@ -42,8 +43,8 @@ class MeanPhase {
     int sine_ = 0;
 };
 
-/// Phases along one axis, separately for the two halves of the view on both sides of the middle. A
-/// turn of the grid moves the dots of the two halves in opposite directions.
+/// Phases along one axis, averaged separately over the two halves of the view. A rotation of the
+/// grid changes the phases of the two halves in opposite directions.
 class PhasesOfAxis {
   public:
     /// Adds a dot. `across_q8` is its distance from the middle on the other axis, in 2^-8 cells.
@@ -58,7 +59,7 @@ class PhasesOfAxis {
     Line fit(int dots) const {
         const int first_q8 = halves_[0].q8();
         const int rise_q8 = static_cast<std::int8_t>(halves_[1].q8() - first_q8);
-        // The middles of the halves are twice the mean distance apart.
+        // The centres of the halves are twice the mean distance of a dot from the middle apart.
         return {static_cast<std::int8_t>(first_q8 + rise_q8 / 2),
                 (rise_q8 * dots * (1 << 15)) / std::max<std::int32_t>(across_q8_, 1)};
     }
@@ -68,7 +69,7 @@ class PhasesOfAxis {
     std::int32_t across_q8_ = 0;
 };
 
-/// The cell of a dot, and the place of the dot relative to its intersection, in 2^-24 cells.
+/// A dot with its cell, its offset from the intersection in 2^-24 cells, and its symbol.
 struct ReadDot {
     FixedVec cell;
     FixedVec from_intersection_q24;
@@ -84,13 +85,13 @@ class FineGrid {
     }
 
     int dots() const { return tracking_.dots_measured; }
-    /// Shifts and turns the plane by the phases of the dots near the middle.
+    /// Shifts and rotates the plane to match the phases of the dots near the middle.
     void fit_phases();
-    /// Fits the plane roughly to the offsets of dots from their places.
+    /// Improves the plane with a fit to every second dot.
     void fit_roughly();
-    /// Reads the bits of all dots, and fits the plane. Until the code is compared,
-    /// ComparedLine::wrong contains the bits themselves. Returns the number of dots in the fit, or
-    /// 0 if the dots do not determine a plane.
+    /// Reads the bits of all dots, and fits the plane. Stores the bits in ComparedLine::wrong until
+    /// they are compared with the code. Returns the number of dots in the fit, or 0 if the dots do
+    /// not determine a plane.
     int read_and_fit();
 
     /// Returns the phases at the middle, in 2^-8 cells.
@@ -111,7 +112,7 @@ class FineGrid {
                 du_q16_.y * dot.centre_q8.x + dv_q16_.y * dot.centre_q8.y};
     }
     ReadDot read(const DetectedDot& dot) const;
-    /// Returns the offset of a dot from its place.
+    /// Returns the offset of a dot from the expected centre of its symbol.
     FixedVec offset_q24(const ReadDot& dot) const {
         return dot.from_intersection_q24 -
                FixedVec{dx(dot.symbol) * displacement_q24_, dy(dot.symbol) * displacement_q24_};
@@ -131,8 +132,9 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     PhasesOfAxis along_x;
     PhasesOfAxis along_y;
     const FixedVec middle_q8{at_q24_.x >> 16, at_q24_.y >> 16};
-    // Maximum distance of the used dots from the middle. The predicted places of farther dots may
-    // be wrong by more than half a spacing, because the predicted rotation is inaccurate.
+    // Maximum distance along each axis between the middle and the dots that are used: 3.5 cells.
+    // The predicted centres of dots farther out may be wrong by more than half a spacing, because
+    // the predicted rotation is inaccurate.
     constexpr std::int32_t kNear_q8 = 7 * 128;
     int count = 0;
     for (const DetectedDot& dot : all()) {
@@ -168,7 +170,7 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
 }
 
 DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
-    // Every second dot is enough, because the scatter of the dots is much smaller than their
+    // Half of the dots are enough, because the scatter of the dots is much smaller than their
     // displacement.
     OffsetFit fit;
     for (std::size_t i = 0; i < all().size(); i += 2) {
@@ -179,7 +181,8 @@ DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
     if (fit.count() >= kMinDots / 2 && fit.correct(plane_)) take_slopes();
 }
 
-/// Records the bits of a dot. Ignores a dot that is about equally close to two of its four places.
+/// Records the bits of a dot. Ignores the dot if two of its four possible centres are almost
+/// equally close, or if its cell is outside the tracked range.
 DOTPOSE_NOINLINE void FineGrid::note(const ReadDot& dot) {
     const auto [cell, from_q24, symbol] = dot;
     const int first = tracking_.first_cell;
@@ -215,15 +218,16 @@ DOTPOSE_NOINLINE int FineGrid::read_and_fit() {
     return fit.count();
 }
 
-/// Returns the bits of the code in a line of one axis, for a place that is `line_shift` lines and
-/// `cell_shift` cells further. Each shift is at most one.
+/// Returns the code bits of a line after the corner has moved by `line_shift` lines across the line
+/// and by `cell_shift` cells along it. Each shift is -1, 0 or 1.
 std::uint32_t code_at(std::span<const ComparedLine> lines, int line, int line_shift,
                       int cell_shift) {
     const std::uint32_t bits = lines[static_cast<std::size_t>(line + line_shift)].code;
     return cell_shift >= 0 ? bits >> cell_shift : bits << 1;
 }
 
-/// Returns the number of bits of an axis that contradict the code at a shift.
+/// Returns the number of bits of an axis that contradict the code after the corner has moved by the
+/// given shift.
 int wrong_bits(const Tracking& tracking, std::span<const ComparedLine> lines, int line_shift,
                int cell_shift) {
     int wrong = 0;
@@ -236,7 +240,8 @@ int wrong_bits(const Tracking& tracking, std::span<const ComparedLine> lines, in
     return wrong;
 }
 
-/// Returns true if at most a quarter of the bits of all dots contradict the code at a shift.
+/// Returns true if at most a quarter of the bits of all dots contradict the code after the corner
+/// has moved by `shift` cells.
 bool agrees(const Tracking& tracking, FixedVec shift) {
     const int wrong =
         wrong_bits(tracking, tracking.lines.first(kMaxComparedLines), shift.x, shift.y) +
@@ -244,13 +249,14 @@ bool agrees(const Tracking& tracking, FixedVec shift) {
     return 2 * wrong <= tracking.dots_measured;
 }
 
-/// Moves the corner to the place whose code agrees with the bits, and marks the bits that
-/// contradict the code there. The place is at most one cell from the predicted place along each
-/// axis. Returns false if there is no such place. `phase_q8` is the shift of the grid relative to
-/// the prediction.
+/// Moves the corner to the place at which the code agrees with the bits, and marks the bits that
+/// contradict the code there. The new corner is at most one cell from the predicted corner along
+/// each axis. Returns false if there is no such place. `phase_q8` is the shift of the grid relative
+/// to the prediction.
 DOTPOSE_NOINLINE bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
-    // If the phase is at least this number of cells, the shift of the pattern may also be the phase
-    // minus or plus one cell. The magnitude of this shift is then at most 3/5 of a cell.
+    // The phase determines the shift of the pattern only up to whole cells. If the magnitude of the
+    // phase is at least kLarge_q8, the shift may also be one cell smaller or larger, because the
+    // magnitude of this second shift is at most 3/5 of a cell.
     constexpr int kLarge_q8 = 256 * 2 / 5;
     const auto other = [](int phase) {
         return magnitude(phase) < kLarge_q8 ? 0 : phase > 0 ? 1 : -1;

@@ -56,8 +56,8 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // The cells that are within reach and at most as far from cell (0, 0) as the farthest dot so
-    // far. Most dots are in these cells and need no further test.
+    // The cells that are within reach and no farther from cell (0, 0) than the farthest dot so far.
+    // Most dots are in these cells and need no further tests.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
@@ -79,7 +79,7 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     return found;
 }
 
-/// The cell of a dot, packed into one word. `no` means that the fit does not use the dot.
+/// The cell of a dot, packed into one word, or `no` if the fit does not use the dot.
 enum class Used : std::uint32_t { no = 0x80808080 };
 
 Used used(FixedVec rounding_q16) {
@@ -172,7 +172,7 @@ class Fits {
     Square near_;
     AffineFitInt32 sums_;
     /// Cell of each dot in the previous fit. If there are more dots than elements, the array is not
-    /// used, and each fit sums up all dots.
+    /// used, and each fit recomputes the sums over all dots.
     std::array<Used, 384> before_;
 };
 

@@ -54,8 +54,8 @@ int HardLines::wrong_with(const std::uint8_t* rolls, std::uint32_t added, int li
 }
 
 int HardLines::wrong_at(const code::RollsAhead& rolls, std::uint32_t added, int limit) const {
-    // In a rotated view, the first and last lines have few bits. The count begins with the middle
-    // lines, which have more bits, so that it exceeds `limit` sooner.
+    // In a rotated view, the first and last lines have few bits. Counting begins with the middle
+    // lines, which have more bits, because the result then exceeds `limit` sooner.
     const int begin = count / 4;
     int wrong = 0;
     int i = begin;
@@ -89,8 +89,8 @@ HardBlock::HardBlock(const Grid& grid, const GridRegion& region)
 }
 
 HardLines HardBlock::lines(Axis axis, int quarters) const {
-    // A quarter turn makes the last row the first column, with the same bits. The first column
-    // becomes the first row, with its bits inverted and in reverse order.
+    // After a quarter turn, the last row has become the first column, with the same bits. The first
+    // column has become the first row, with its bits inverted and in reverse order.
     const bool is_sideways = quarters % 2 == 1;
     const bool are_columns = (axis == Axis::x) != is_sideways;
     const bool is_upside_down = axis == Axis::x ? quarters >= 2 : quarters == 1 || quarters == 2;

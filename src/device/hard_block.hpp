@@ -16,7 +16,8 @@
 
 namespace dotpose::core {
 
-/// The bits of a column or row. Each word has one bit per cell. Bit 0 belongs to the first cell.
+/// The bits of a column or row, with one bit per cell in each word. Bit 0 belongs to the first
+/// cell.
 struct HardLine {
     std::uint32_t bits = 0;
     std::uint32_t seen = 0;  ///< a bit is 1 if the bit of its cell was read
@@ -26,7 +27,7 @@ struct HardLine {
     int wrong_at(std::size_t roll) const { return bits_in((code::kMainWords[roll] ^ bits) & seen); }
 };
 
-/// The lines of one axis of a block in one orientation, from the first to the last line.
+/// All lines of one axis of a block, in one orientation.
 struct HardLines {
     const HardLine* first = nullptr;
     int step = 1;  ///< index step from one line to the next in memory: 1 or -1

@@ -1,4 +1,4 @@
-// Reads the bits of a frame as a place in the whole code.
+// Whole code: finds and verifies the place of a frame in the whole code.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -8,8 +8,8 @@ namespace dotpose::core {
 
 struct DeviceWorkspace;
 
-/// Functions for the whole code. DeviceWorkspace calls these functions through a pointer. A program
-/// whose frames are so small that only known sheets are read therefore does not contain them.
+/// Functions that search the whole code. DeviceWorkspace calls them through a pointer, so they are
+/// not linked into programs whose frames are so small that only known sheets can be read.
 struct WholeCodeFunctions {
     /// Finds the place of a frame without a prediction, and verifies it. Sets the place and the
     /// orientation in the decoding (paper, section II-B.5-7).

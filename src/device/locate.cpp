@@ -1,4 +1,4 @@
-// Implements DeviceLocator. This file does not use the desktop attempts, because
+// Implements DeviceLocator. This file must not depend on the desktop attempts, because
 // scripts/export-device omits them.
 #include "device/locate.hpp"
 

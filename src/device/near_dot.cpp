@@ -13,14 +13,14 @@ void set_half_side(int half_px, Tracking& tracking) {
 bool lay_dot_pixels(Tracking& tracking) {
     int half_px = kSmallHalf_px;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-        // Centre of a quarter of a pixel, relative to the upper left corner of the pixel. All
-        // intersections in the same quarter use the same pixels.
+        // Centre of a quadrant of a pixel, relative to the upper left corner of the pixel. All
+        // intersections in the same quadrant use the same pixels.
         const FixedVec in_pixel_q16{quarter % 2 == 0 ? 16384 : 49152, quarter < 2 ? 16384 : 49152};
         for (std::size_t s = 0; s < 4; ++s) {
             const FixedVec displaced_q16 = tracking.displaced_q16[s];
-            // The four pixels in which a dot is read must be inside the square around the
-            // intersection. Because of rounding, the offset of the first of these pixels differs
-            // from the displacement by at most 3/4 of a pixel.
+            // The four pixels that are read for a dot must be inside the square around the
+            // intersection. Rounding changes the offset of the first pixel by at most 3/4 of a
+            // pixel.
             if (!is_within(displaced_q16, half_px * 65536 - 49153)) half_px = kHalf_px;
             if (!is_within(displaced_q16, kHalf_px * 65536 - 49153)) return false;
             const FixedVec place_q16 = in_pixel_q16 + displaced_q16;

@@ -1,6 +1,6 @@
-// Near dot: measures the dot near an intersection whose place in the image is known. The
-// measurement does not depend on the code, so it can confirm or contradict the code. Most functions
-// are inline, because calls would take a third of the time per dot on small processors.
+// Near dot: measures the dot near an intersection whose image point is known. The measurement does
+// not depend on the code, so it can confirm or contradict the code. Most functions are inline,
+// because calls would account for a third of the time per dot on small processors.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace dotpose::core {
 
-/// Half sides of the squares in which dots are read, in px. A square with the half side n has 2 n +
-/// 1 px per side. The square of kHalf_px is around an intersection and contains the dot at any of
-/// its four places, at spacings of 7 to 14 px. If the dots are displaced by little, symbols are
-/// read in the square of kSmallHalf_px, so that more dots near the image border are read. The
-/// square of kDotHalf_px is around the centre of a dot.
+/// Half sides of the squares in which dots are read, in px. A square with half side n has 2 n + 1
+/// px per side. The square of kHalf_px is centred on an intersection and, at spacings of 7 to 14
+/// px, contains the dot whatever its symbol. If the displacement of the dots is small, symbols are
+/// read in the square of kSmallHalf_px, which allows dots closer to the image border to be read.
+/// The square of kDotHalf_px is centred on the dot itself.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kSmallHalf_px = 3;
 inline constexpr int kDotHalf_px = 2;
@@ -26,12 +26,13 @@ inline constexpr int kDotHalf_px = 2;
 /// Sets the half side of the square in which symbols are read.
 void set_half_side(int half_px, Tracking& tracking);
 
-/// Returns the pixel nearest to a place.
+/// Returns the pixel nearest to an image point.
 constexpr FixedVec pixel_at(FixedVec place_q16) {
     return {(place_q16.x + 32768) >> 16, (place_q16.y + 32768) >> 16};
 }
 
-/// Returns true if all pixels of the square with the half side `half` around `pixel` are stored.
+/// Returns true if all pixels of the square around `pixel` are stored. `half` is the half side of
+/// the square.
 [[gnu::always_inline]] inline bool is_kept(const Tracking& tracking, FixedVec pixel, int half) {
     return static_cast<unsigned>(pixel.x - half) <
                static_cast<unsigned>(tracking.width_px - 2 * half) &&
@@ -49,20 +50,20 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
     return (top[0] + top[side_px] + bottom[0] + bottom[side_px]) >> 2;
 }
 
-/// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads, and the square of the
-/// intersection, which contains them. Returns false if any of these pixels is outside the square of
-/// kHalf_px.
+/// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads, and the size of the square
+/// around an intersection that contains these pixels. Returns false if any of these pixels is
+/// outside the square of kHalf_px.
 bool lay_dot_pixels(Tracking& tracking);
 
-/// The symbol read at an intersection and the threshold of its dot. Both are packed into one
-/// register.
+/// The symbol read at an intersection and the threshold of its dot, packed into one register.
 class ReadSymbol {
   public:
     static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
     /// Constructs a clear reading. Pixels below `level`, from 0 to 255, belong to the dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
-    /// Returns true if one of the four places was clearly the darkest, and dark enough for a dot.
+    /// Returns true if one of the four possible centres of the dot was clearly the darkest, and
+    /// dark enough for a dot.
     bool is_clear() const { return bits_ >= 0; }
     int symbol() const { return bits_ & 3; }
     std::int32_t level() const { return bits_ >> 2; }
@@ -72,10 +73,11 @@ class ReadSymbol {
     std::int32_t bits_;
 };
 
-/// Reads the symbol of the dot at an intersection: the darkest of its four possible places. The
-/// result is unclear if no place is clearly the darkest and dark enough for a dot. Requires that
-/// the square around the intersection and a border of one pixel are stored. This function is not
-/// inlined, because small processors would otherwise not have enough registers.
+/// Reads the symbol of the dot at an intersection, by finding the darkest of the four possible
+/// centres of the dot. The result is unclear if none of the centres is clearly the darkest and dark
+/// enough for a dot. Requires that the square around the intersection and a border of one pixel are
+/// stored. This function is not inlined, because small processors would otherwise not have enough
+/// registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
@@ -83,8 +85,8 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
     const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
     const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
-    // `darkest` and `second` contain 4 * (sum of four pixels) + symbol, to keep each sum together
-    // with its symbol.
+    // `darkest` and `second` contain 4 * (sum of four pixels) + symbol, which keeps each sum
+    // together with its symbol.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
 #pragma GCC unroll 4
@@ -102,10 +104,10 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     }
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
-    // `depth` is a level difference of one pixel, and the sums are over four pixels. At a clear
-    // dot, the sum is below that of paper by at least 2 times `depth`, and below the sum at every
-    // other place by at least `depth`. The expected differences are about 6 and 4 times `depth`,
-    // because a dot also reduces the sums at the adjacent places by about 2 times `depth`.
+    // `depth` is the contrast of one pixel, but each sum is over four pixels. The sum of a clear
+    // dot is at least 2 `depth` below the sum of four paper pixels, and at least `depth` below the
+    // sums at the other three centres. The expected differences are about 6 `depth` and 4 `depth`,
+    // because a dot also reduces the sums at the adjacent centres by about 2 `depth`.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();
@@ -117,9 +119,9 @@ struct NearDot {
     std::int32_t mass = 0;
 };
 
-/// Measures the centroid of the pixels darker than `level` in a square around a place. The square
-/// has 2 Half + 1 px per side. Returns false if the square is not stored completely, or if the mass
-/// is not from Tracking::min_mass to Tracking::max_mass.
+/// Measures the centroid of the pixels darker than `level` in a square around an image point. The
+/// square has 2 Half + 1 px per side. Returns false if any pixel of the square is not stored, or if
+/// the mass is not between Tracking::min_mass and Tracking::max_mass.
 template <int Half>
 [[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, FixedVec place_q16,
                                                   std::int32_t level, NearDot& dot) {
@@ -135,7 +137,7 @@ template <int Half>
     return true;
 }
 
-/// Measures the dot in the whole square around an intersection, with the threshold
+/// Measures the dot in the square of kHalf_px around an intersection, with the threshold
 /// `Tracking::cut_q8`. Returns false if `measure_square` returns false or if the paper level is 0.
 bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot);
 

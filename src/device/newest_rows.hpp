@@ -5,17 +5,17 @@
 
 namespace dotpose::core {
 
-/// Number of the newest rows that are still needed after the dots in the stored rows were read: the
-/// rows of a square around an intersection (see `kHalf_px`), and one row above and below it.
+/// Number of rows that must be kept after the dots in the stored rows have been read: the rows of a
+/// square around an intersection (see `kHalf_px`), plus one row above and one below.
 inline constexpr int kRowsNeeded = 11;
 
-/// Returns the stride of stored rows, in bytes: the width rounded up to whole 32-bit words.
+/// Returns the stride of stored rows, in bytes: the width rounded up to a multiple of 4.
 constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
 }
 
 /// Stores a row as image row `Tracking::rows_taken`, and increments this number. The memory must
-/// have room for the row.
+/// have room for this row.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
 /// If the memory does not have room for `rows` more rows, discards all but the newest

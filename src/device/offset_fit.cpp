@@ -6,7 +6,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of bits to which sums are reduced before they are multiplied with each other.
+/// Number of bits to which sums are reduced before two of them are multiplied.
 constexpr int kBits = 14;
 
 /// Returns the number of bits by which a number must be shifted right to fit in kBits bits.
@@ -19,7 +19,7 @@ int excess_bits(std::int32_t magnitude) {
 
 bool OffsetFit::correct(PlaneFromImage& plane) const {
     // Moves the origin to the mean of the dots, truncated to 1/4 px, and subtracts the mean offset.
-    // The slopes and the mean offset then hardly depend on each other.
+    // This decouples the slopes from the mean offset.
     const FixedVec mean{p_.x / count_, p_.y / count_};
     const FixedVec rest{p_.x - count_ * mean.x, p_.y - count_ * mean.y};
     const std::int32_t xx = xx_ - mean.x * (p_.x + rest.x);
@@ -38,8 +38,8 @@ bool OffsetFit::correct(PlaneFromImage& plane) const {
     const std::int32_t b = xy >> excess;
     const std::int32_t c = yy >> excess;
     const std::int32_t determinant = a * c - b * b;
-    // The dots count as collinear if their standard deviation across the best line is less than
-    // about 1/16 of their standard deviation along it.
+    // The dots are considered collinear if their standard deviation across the best line is less
+    // than about 1/16 of their standard deviation along it.
     if (determinant <= (a + c) * ((a + c) >> 8)) return false;
 
     const int own = excess_bits(std::max(larger_component(of_x), larger_component(of_y)));
@@ -58,7 +58,7 @@ bool OffsetFit::correct(PlaneFromImage& plane) const {
     const FixedVec of_i = slopes(of_x.x, of_y.x);
     const FixedVec of_j = slopes(of_x.y, of_y.y);
     const auto at_centre_q16 = [&](std::int32_t there_q16, FixedVec slope) {
-        // `add` rounds each offset down, by half a unit on average.
+        // Adds half a unit, because `add` rounds each offset down by half a unit on average.
         return there_q16 + 8 - ((slope.x * mean.x + slope.y * mean.y) >> 10);
     };
     plane.at_centre_q16 = plane.at_centre_q16 - FixedVec{at_centre_q16(offset_q16.x, of_i),

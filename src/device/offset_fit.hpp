@@ -1,4 +1,5 @@
-// Offset fit: corrects a plane by the offsets of dots from their places, in 32-bit arithmetic.
+// Offset fit: corrects a plane, given the offsets of dots from their expected centres. Uses 32-bit
+// arithmetic.
 #pragma once
 
 #include "core/math/fixed.hpp"

@@ -9,23 +9,23 @@ namespace dotpose::core {
 struct DeviceWorkspace;
 struct Tracking;
 
-/// Functions for known sheets. DeviceWorkspace calls them through a pointer, so that a program
-/// without known sheets does not contain them.
+/// Functions that search known sheets. DeviceWorkspace calls them through a pointer, so they are
+/// not linked into programs that never set known sheets.
 struct SheetFunctions {
-    /// Searches the known sheets for the grid of a frame without a prediction. If a place is
-    /// certain, sets the place and the orientation in the decoding, and returns true. Otherwise
+    /// Searches the known sheets for the bits of a frame without a prediction. If a place is
+    /// certain, sets the place and the orientation in the decoding, and returns true. Otherwise,
     /// returns false.
     bool (*read)(const DeviceOptions& options, DeviceWorkspace& w);
     /// Returns true if the predicted place of a tracked frame is on the known sheets and its bits
     /// make it certain (see `is_certain_place`).
     bool (*verify)(const DeviceOptions& options, DeviceWorkspace& w);
-    /// Starts to store the rows of a small frame (see `begin_small_frame`).
+    /// Prepares for storing the rows of a small frame (see `begin_small_frame`).
     bool (*begin_small)(int width_px, int height_px, const DeviceOptions& options,
                         DeviceWorkspace& w);
     /// Finds the dots of a small frame (see `find_dots_of_small_frame`).
     Status (*find_dots_of_small)(const DeviceOptions& options, DeviceWorkspace& w);
-    /// Finds the dots of a fine grid in the rows of a tracked frame (see `find_fine_dots`). Only
-    /// locators that know sheets track fine grids.
+    /// Finds the dots of a fine grid in the rows of a tracked frame (see `find_fine_dots`). Fine
+    /// grids are tracked only if sheets are known.
     void (*find_dots)(Tracking& tracking);
     /// Fits a fine grid and reads its bits. Returns the result of `fit_fine_grid`. If it is not 0,
     /// also sets `pattern_from_image` and the displacement of the fix.

@@ -8,8 +8,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Range of grid spacings that can be tracked, in px. The square in which a dot is read contains
-/// the dot only at these spacings. Spacings below kFine_px are tracked only if sheets are known.
+/// Range of grid spacings that can be tracked, in px. From kFine_px to kCoarsest_px, each dot is
+/// read in the square around its intersection. Smaller spacings are tracked as fine grids
+/// (device/fine_grid.hpp), and only if sheets are known.
 constexpr int kFinest_px = 5;
 constexpr int kFine_px = 7;
 constexpr int kCoarsest_px = 14;
@@ -17,8 +18,8 @@ constexpr int kCoarsest_px = 14;
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
 
-/// Returns true if the values of the prediction are in the ranges that can be tracked, in which no
-/// stage overflows.
+/// Returns true if all values of the prediction are in the ranges that can be tracked. Within these
+/// ranges, no stage overflows.
 bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
@@ -47,7 +48,8 @@ std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_p
     if (det_q24 < kOne_q24 / (kCoarsest_px * kCoarsest_px) ||
         det_q24 > kOne_q24 / (finest_px * finest_px))
         return 0;
-    // Motion during the readout of a rolling shutter shears and stretches the cells.
+    // Some shear and stretch must be accepted, because motion during the readout of a rolling
+    // shutter deforms the cells.
     const FixedVec x{du.x >> 8, dv.x >> 8};
     const FixedVec y{du.y >> 8, dv.y >> 8};
     const std::int32_t skew_q24 = (x.x * x.y + y.x * y.y) >> 8;
@@ -97,8 +99,8 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     }
 }
 
-/// Sets the members that depend on the spacing. Returns false if the memory is too small, or if the
-/// part of the image whose cells fit in the memory is too small.
+/// Sets the members that depend on the spacing. Returns false if the memory is too small for the
+/// rows, or if the image must be cropped too much for its cells to fit in the memory.
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;
@@ -109,9 +111,9 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
     set_half_side(kHalf_px, tracking);
     if (2 * kRowsNeeded + kRowsAtOnce > tracking.rows_kept) return false;
-    // If the memory has room for all rows, the error of the prediction is measured from the whole
-    // frame. Otherwise, it is measured from rows with a height of 13/4 spacings. At least 5/2
-    // spacings are needed.
+    // If the memory has room for all rows, the prediction error is measured from the whole frame.
+    // Otherwise, it is measured from the first rows, up to a height of 13/4 spacings. At least 5/2
+    // spacings are required.
     const bool keeps_frame = tracking.height_px <= tracking.rows_kept;
     tracking.first_rows =
         keeps_frame ? tracking.height_px
@@ -140,7 +142,7 @@ std::int32_t fine_spacing_q8(std::int32_t det_q24) {
 bool lay_cells(const Prediction& prediction, const PlaneFromImage& plane, std::int32_t det_q24,
                Tracking& tracking) {
     invert(plane, det_q24, tracking.cells);
-    // The side of a square with the area of a cell.
+    // The spacing is the side of a square with the area of a cell.
     const std::int64_t area_q32 = cross(tracking.cells.along_x_q16, tracking.cells.along_y_q16);
     const auto spacing_q8 =
         static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(area_q32)) >> 8);

@@ -11,9 +11,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Direction along a row of cells in which the image coordinate v does not decrease. `step_q16` is
-/// the step from one cell to the next in the image, and `i_step` is the step of the column, 1 or
-/// -1.
+/// Direction in which a row of cells is read. Along it, the image coordinate v does not decrease.
+/// `step_q16` is the step from one cell to the next in the image, and `i_step` is the step of the
+/// column, 1 or -1.
 struct RowDirection {
     FixedVec step_q16;
     int i_step;
@@ -24,7 +24,7 @@ RowDirection row_direction(const Tracking& tracking) {
 }
 
 TrackedView view_of(const Tracking& tracking) {
-    // The square around the pixel of an intersection must be in the image.
+    // The whole square around the pixel of an intersection must be in the image.
     const int half_px = tracking.half_side_px;
     const std::int32_t min_q16 = half_px * 65536;
     const auto extent_q16 = [&](int side_px) {

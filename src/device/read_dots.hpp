@@ -9,7 +9,7 @@ namespace dotpose::core {
 /// false if the displacement of dots is too large for the squares around intersections.
 bool begin_reading(Tracking& tracking);
 
-/// Reads all dots that have not been read and whose pixels have arrived completely. If a dot agrees
+/// Reads all dots that have not been read yet and whose pixels have all arrived. If a dot agrees
 /// with the code, adds its offset from the predicted centre to the sums.
 void read_ready_dots(Tracking& tracking);
 

@@ -31,15 +31,15 @@ struct PlacedLines {
     int wrong;  ///< number of bits that contradict the code
 };
 
-/// Returns the number, modulo 63, that is added to the rolls of an axis in section 0. It is the sum
-/// of the section of the axis and the position on the other axis.
+/// Returns the number that must be added, modulo 63, to the rolls in section 0 of the lines of an
+/// axis. This number is the section of the axis plus the position on the other axis.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
 
 /// Sum of the odds of alternatives to a given place. The alternatives are other places on the known
-/// sheets that agree with the given place on one axis. The lines of the other axis distinguish such
-/// an alternative from the given place.
+/// sheets whose lines on one axis are the same as at the given place. Only the lines of the other
+/// axis distinguish them from the given place.
 class OddsOfOthers {
   public:
     OddsOfOthers(CodeVariant code, int odds_per_bit_q8)
@@ -47,10 +47,10 @@ class OddsOfOthers {
           odds_per_bit_q8_(odds_per_bit_q8),
           max_lost_(kNegligible_q8 / odds_per_bit_q8) {}
 
-    /// Adds the alternatives in a region that have the same lines as the given place on one axis.
-    /// `same` contains the lines of this axis at the given place, and `other` those of the other
-    /// axis. The region has the section `same_section` and the positions `same_range` on the axis
-    /// of `same`, and `section` and `range` on the other axis.
+    /// Adds the alternatives in one region. `same` contains the lines of the axis on which the
+    /// alternatives agree with the given place, and `other` contains the lines of the other axis.
+    /// `same_section` and `same_range` are the section and the positions of the region on the axis
+    /// of `same`. `section` and `range` are the section and the positions on the axis of `other`.
     void add(const PlacedLines& same, std::uint32_t same_section, const PositionRange& same_range,
              const PlacedLines& other, std::uint32_t section, const PositionRange& range) {
         if (!same_range.contains(same.position)) return;
@@ -64,8 +64,8 @@ class OddsOfOthers {
         for (; i < range.count; i += kSections, rolls.advance()) {
             const std::uint32_t position = range.first + i;
             if (is_same_section && position == other.position) continue;
-            // Stops counting wrong bits once the odds are negligible. Wrong bits that are not
-            // counted only make the odds larger, so the sum remains an upper bound.
+            // Stops counting wrong bits once the odds are negligible. Each omitted wrong bit can
+            // only increase the odds, so the sum remains an upper bound.
             const int lost =
                 other.lines.wrong_at(rolls, added, other.wrong + max_lost_) - other.wrong;
             log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);
@@ -74,7 +74,7 @@ class OddsOfOthers {
     int log2_q8() const { return log2_q8_; }
 
   private:
-    /// Odds below 2^-48 count as negligible.
+    /// Odds below 2^-48 are negligible.
     static constexpr int kNegligible_q8 = 48 * 256;
     CodeVariant code_;
     int odds_per_bit_q8_;
@@ -82,7 +82,7 @@ class OddsOfOthers {
     int log2_q8_ = kNever_q8;
 };
 
-/// Returns log2 of the number of places that a view may show, in units of 2^-8. The number includes
+/// Returns log2 of the number of places that may be in view, in units of 2^-8. The number includes
 /// all four orientations and places at which the block extends beyond a region. It is at least
 /// 2^10, because a tracked attempt tests a single place but chooses among up to 2^10 planes.
 int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
@@ -121,8 +121,8 @@ int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const Pla
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options) {
     // Maximum number of wrong bits to test. Only in large views can a place with more wrong bits be
-    // certain. For such views, the function returns the number of all bits, so that no place is
-    // excluded.
+    // certain. For such views, the function returns the total number of bits, which excludes no
+    // place.
     constexpr int kMaxTested = 8;
     const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);
     for (int wrong = 0; wrong <= std::min(kMaxTested, 2 * dots); ++wrong) {

@@ -49,9 +49,9 @@ struct LinePair {
     AgreeingRolls second;
 };
 
-/// Returns the first line of the pair of adjacent lines that has the most bits. The number of bits
-/// of a pair is the number of bits in the line that has fewer bits. Skips the lines in the bit set
-/// `tried`, and adds the pair to this set. Returns nullopt if no pair with bits is left.
+/// Returns the first line of the pair of adjacent lines with the most bits. A pair has as many bits
+/// as the shorter of its lines. Skips the lines in the bit set `tried`, and adds the pair to this
+/// set. Returns nullopt if no pair with bits is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -112,7 +112,7 @@ struct RegionAxis {
           section(axis == Axis::x ? region.section.u : region.section.v) {}
 };
 
-/// Consecutive positions of an axis, with the rolls that they have in section 0.
+/// Rolls, in section 0, of the lines at consecutive positions of an axis.
 struct Rolls {
     std::uint32_t first;
     std::array<std::uint8_t, 128> all;
@@ -125,18 +125,19 @@ class SheetSearch {
     SheetSearch(const HardBlock& block, CodeVariant code, int max_wrong)
         : block_(block), code_(code), max_wrong_(max_wrong) {}
 
-    /// Tests each place on a region at which all bits of a pair of lines agree with the code.
+    /// Tests each place in a region at which all bits of a pair of lines agree with the code.
     void search(const KnownRegion& region, const PairsOfLines& pairs);
 
     const std::optional<SheetPlace>& best() const { return best_; }
 
   private:
-    /// Tests the places at which the first line of a pair is at `position` and has an agreeing
-    /// roll. `step` is the roll of the next line minus this roll.
+    /// Tests the places at which the first line of a pair is at `position` and all bits of the pair
+    /// agree with the code. `step` is the roll of the second line minus the roll of the first line.
     void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
                    const Rolls& rolls, std::uint32_t position, std::uint32_t step);
-    /// Tests the places at which the first line of an axis is at `position`. `wrong` bits of this
-    /// axis contradict the code there. The roll of each line is its roll in section 0 plus `added`.
+    /// Tests the places at which the first line of an axis is at `position`. `wrong` is the number
+    /// of bits of this axis that contradict the code there. The roll of each line is its roll in
+    /// section 0 plus `added`.
     void test_crossing(const KnownRegion& region, Axis axis, int quarters, std::uint32_t position,
                        std::uint32_t added, int wrong);
 
@@ -151,7 +152,7 @@ void SheetSearch::search(const KnownRegion& region, const PairsOfLines& pairs) {
     const RegionAxis along(region, pairs.axis());
     const auto margin = static_cast<std::uint32_t>(
         std::max(block_.lines(pairs.axis(), 0).count, block_.lines(pairs.axis(), 1).count));
-    // Positions of the first line of a pair at which a part of the block may be on the region.
+    // Range of positions of the first line of a pair at which the block may overlap the region.
     const std::uint32_t begin = along.first < margin ? 0 : along.first - margin;
     const std::uint32_t end = along.first + along.size + margin;
     Rolls rolls;

@@ -29,7 +29,7 @@ Shifts::Shifts(const Tracking& tracking) {
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
     measure_paper(tracking);
-    // Pixels below this level count as dark. It is close to the paper level, because the dots of
+    // Level below which pixels are dark. It is close to the paper level, because the dots of
     // blurred frames are pale.
     cut_ = paper_ - paper_ / 16;
     add_dots(tracking);
@@ -100,9 +100,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum number by which a sum of darkness is divided. Sums over fewer dots are also divided
-    // by this number, which reduces their means, because a mean over a few dots may be large by
-    // chance.
+    // Minimum divisor of a sum of darkness. Dividing sums over fewer dots by this number reduces
+    // their means. This is intended, because the mean over a few dots may be large by chance.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);
@@ -113,7 +112,8 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// Clears the means around a shift that `next` returned, so that later results are not next to it.
+/// Clears the means around a shift that `next` returned, which excludes adjacent shifts from later
+/// results.
 void Shifts::forget_around(FixedVec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);

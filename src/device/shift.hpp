@@ -8,18 +8,17 @@
 namespace dotpose::core {
 
 /// Mean darkness of the pixels at the predicted dots near the middle column of the image, for each
-/// shift in the search range. The mean is largest at the correct shift, because there all dots are
-/// at their predicted places. If few dots are in view, it may be nearly as large at a shift that is
-/// wrong by one spacing.
+/// shift in the search range. The mean is largest at the correct shift, at which all dots coincide
+/// with their predicted centres. If few dots are in view, the mean may be nearly as large at a
+/// shift that is wrong by one spacing.
 class Shifts {
   public:
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
     /// Sets `shift_q8` to the shift from the predicted to the measured position with the largest
-    /// mean darkness, in 2^-8 px, and returns true. Excludes shifts that are, along both axes,
-    /// within two steps of an earlier result. Returns false if there is no darkness at any other
-    /// shift.
+    /// mean darkness, in 2^-8 px, and returns true. Excludes shifts that are within two steps of an
+    /// earlier result along both axes. Returns false if all remaining shifts have no darkness.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
@@ -28,7 +27,7 @@ class Shifts {
     int depth() const { return depth_; }
 
   private:
-    /// Distance between sampled pixels. Less than half the diameter of a dot.
+    /// Distance between tested shifts, in px. It is less than half the diameter of a dot.
     static constexpr int kStep_px = 2;
     /// Maximum number of steps in each direction from the middle of the search range.
     static constexpr int kMaxSteps = 8;

@@ -11,17 +11,17 @@ namespace dotpose::core {
 
 struct DeviceWorkspace;
 
-/// Maximum width and height of small frames. In a frame of this size, enough dots are in view at
-/// spacings of up to 15 px.
+/// Maximum width and height of small frames. In larger frames, enough dots are in view for blob
+/// detection, at spacings of up to 15 px.
 inline constexpr int kMaxSmallSide_px = 80;
 
-/// Starts to store the rows of a frame. Returns false if the frame is not small, or if the memory
-/// has no room for all of its rows.
+/// Prepares for storing the rows of a frame. Returns false if the frame is not small, or if the
+/// memory has no room for all of its rows.
 bool begin_small_frame(int width_px, int height_px, const DeviceOptions& options,
                        DeviceWorkspace& w);
 
-/// Finds the dots in the stored rows. If rows are missing, the last stored row counts as the border
-/// of the image. Errors: no_contrast, too_few_dots.
+/// Finds the dots in the stored rows. If rows are missing, the last stored row is treated as the
+/// lower border of the image. Errors: no_contrast, too_few_dots.
 Status find_dots_of_small_frame(const DeviceOptions& options, DeviceWorkspace& w);
 
 }  // namespace dotpose::core

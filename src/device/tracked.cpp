@@ -63,8 +63,8 @@ Status read_rows(DeviceWorkspace& w) {
     return Status::ok;
 }
 
-/// Verifies the predicted place with the bits of the dots. If sheets are known, first tests whether
-/// the place is certain on these sheets. Error: not_certain.
+/// Verifies the predicted place against the bits of the dots. If sheets are known, first tests
+/// whether the place is certain on these sheets. Error: not_certain.
 Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->verify(options, w)) return Status::ok;
@@ -73,8 +73,8 @@ Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
     return w.in_whole_code->verify(options, w);
 }
 
-/// Verifies the place with the bits of the dots, and fits the plane. Returns the number of dots in
-/// the fit, or 0 if the frame is not tracked.
+/// Verifies the place against the bits of the dots, and fits the plane. Returns the number of dots
+/// in the fit, or 0 if the frame is not tracked.
 int verify_and_fit(const DeviceOptions& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     const int in_fine_grid = t.is_fine ? w.on_sheets->fit_grid(options, w) : 0;
@@ -133,7 +133,7 @@ Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w) {
     const bool is_tracked =
         static_cast<unsigned>(t.rows_taken) < static_cast<unsigned>(t.height_px);
     if (t.status != Status::ok || !is_tracked) {
-        // The row is outside the tracked part, or tracking has failed.
+        // Ignores the row, which is outside the tracked part or follows a failure.
         if (t.rows_taken < 0) ++t.rows_taken;
         return t.status;
     }

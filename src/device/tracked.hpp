@@ -1,5 +1,5 @@
-// Tracked: the tracked attempt on devices. Measures dots at their predicted places while rows
-// arrive. Uses integer arithmetic, and memory for only the newest rows.
+// Tracked: the tracked attempt on devices. Measures dots near their predicted centres while rows
+// arrive. Uses integer arithmetic, and stores only the newest rows.
 #pragma once
 
 #include "device/workspace.hpp"
@@ -12,7 +12,7 @@ namespace dotpose::core {
 Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& options,
                             const Prediction& prediction, DeviceWorkspace& w);
 
-/// Takes the next row. Error: not_tracked. After an error, ignores further rows and returns the
+/// Processes the next row. Error: not_tracked. After an error, ignores further rows and returns the
 /// error again.
 Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w);
 

@@ -10,8 +10,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the number of bits by which masses and mass-weighted sums must be shifted right so that
-/// the total mass is less than 2^16. All sums are then less than 2^31, because cell coordinates are
+/// Returns the number of bits by which masses and mass-weighted sums must be shifted right for the
+/// total mass to be less than 2^16. All sums are then less than 2^31, because cell coordinates are
 /// at most 16 from the middle and offsets are at most 448/256 px, which is an eighth of the maximum
 /// spacing of 14 px.
 int excess_bits(const Tracking& tracking) {
@@ -51,8 +51,8 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
 
 /// Adds the fitted offsets to the cells.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
-    // `AffineFitInt32` expects coordinates in 1/8 px, but here they are whole cells, so the slopes
-    // are divided by 8.
+    // `AffineFitInt32` expects coordinates in 1/8 px, but these coordinates are whole cells. The
+    // slopes are therefore divided by 8.
     constexpr int kShift = 24 + 3 - 16;
     const FixedVec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
     const FixedVec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};

@@ -15,7 +15,7 @@
 namespace dotpose::core {
 
 /// Map from the cells of a grid to the image: cell (i, j) is at origin + i along_x + j along_y. The
-/// axes of the cells are those of the upright pattern, unlike the axes of a Lattice.
+/// axes of the cells are the axes of the upright pattern, unlike the axes of a Lattice.
 struct CellMap {
     FixedVec origin_q16;  ///< in 2^-16 px
     FixedVec along_x_q16;
@@ -28,7 +28,7 @@ struct CellMap {
 struct TrackedRow {
     static constexpr std::int32_t kNever_q16 = INT32_MAX;
 
-    /// Place of the next cell in the image, in 2^-16 px. y is kNever_q16 if there is no next cell.
+    /// Image point of the next intersection, in 2^-16 px. y is kNever_q16 if there is no next cell.
     FixedVec next_q16{0, kNever_q16};
     std::int32_t i = 0;  ///< column of the next cell
     // Sums over the measured dots of the mass, the mass times i, and the mass times i^2. In all
@@ -36,8 +36,8 @@ struct TrackedRow {
     std::int32_t mass = 0;
     std::int32_t mass_i = 0;
     std::int32_t mass_ii = 0;
-    /// Sum of the offsets of dots from their predicted places. Each offset is in 2^-8 px and is
-    /// multiplied by the mass of its dot.
+    /// Sums of the offsets of dots from their predicted centres, in 2^-8 px, each multiplied by the
+    /// mass of its dot. `offset_i_q8` has the additional factor i.
     FixedVec offset_q8;
     FixedVec offset_i_q8;
 };
@@ -55,8 +55,9 @@ struct TrackedView {
     }
 };
 
-/// A frame whose dots are measured at their predicted places while its rows arrive. If the frame
-/// contains too many cells, only its middle is tracked. All stages then use this part as the image.
+/// A frame whose dots are measured near their predicted centres while its rows arrive. If the frame
+/// contains too many cells, only its middle part is tracked. All stages then treat this part as the
+/// whole image.
 struct Tracking {
     Status status = Status::not_tracked;
     std::uint8_t min_contrast = 0;  ///< see DeviceOptions
@@ -84,17 +85,17 @@ struct Tracking {
     std::span<ComparedLine> lines;  ///< first half: columns; second half: rows
     /// Displacement of a dot from its intersection, in 2^-16 px, indexed by Symbol.
     std::array<FixedVec, 4> displaced_q16{};
-    /// Sum of the offsets of all dots from their predicted places, each multiplied by its mass.
-    /// Indexed by Symbol.
+    /// Sums of the offsets of all dots from their predicted centres, each multiplied by the mass of
+    /// its dot. Indexed by Symbol.
     std::array<FixedVec, 4> offset_q8{};
     /// Offset from the pixel of an intersection to the first of the four pixels of its dot, in
-    /// bytes. Indexed by the quarter of the pixel in which the intersection is, and by Symbol.
+    /// bytes. Indexed by the quadrant of the pixel that contains the intersection, and by Symbol.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
     std::int16_t min_side_px = 0;  ///< minimum width and height of the tracked part
     std::int16_t left_out_px = 0;  ///< number of columns to the left of the tracked part
     std::int16_t rows_above = 0;   ///< number of rows above the tracked part
-    /// True if the spacing is too small to read dots around their predicted places. The frame is
-    /// then tracked by device/fine_dots and device/fine_grid.
+    /// True if the spacing is too small to measure each dot around its predicted centre. The frame
+    /// is then tracked by device/fine_dots and device/fine_grid.
     bool is_fine = false;
     CellMap cells;
     /// Derivatives of the pattern point with respect to the image coordinates u and v, in 2^-20

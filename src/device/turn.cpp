@@ -12,16 +12,16 @@ namespace {
 
 /// Maximum number of rings of cells that are measured around the middle cell.
 constexpr int kRounds = 4;
-/// At least kMinDots dots must agree with the code, and at least the fraction kMinFraction_q3 / 8
-/// of the measured dots.
+/// Minimum number of dots that agree with the code, and minimum fraction of the measured dots that
+/// agree with the code, in units of 1/8.
 constexpr int kMinDots = 12;
 constexpr int kMinFraction_q3 = 6;
-/// Minimum number of measured dots at which the fraction is tested.
+/// Minimum number of measured dots from which the fraction is tested.
 constexpr int kMinMeasured = 8;
 
-/// A shift, a rotation and a stretch of the pattern: a cell at c, relative to the middle cell,
-/// moves by shift + stretch c + turn J c, where J is a rotation by 90 degrees. The cell map
-/// contains the shear of a rolling shutter, so the shear does not change with the rotation.
+/// A small similarity transform of the cells: shift, rotation and scale. A cell at c, relative to
+/// the middle cell, moves by shift + stretch c + turn J c, where J is a rotation by 90 degrees. The
+/// shear of a rolling shutter is part of the cell map, so the rotation does not change it.
 struct Similarity {
     std::int32_t stretch_q20 = 0;
     std::int32_t turn_q20 = 0;
@@ -99,7 +99,7 @@ class Rounds {
     /// neighbours. These dots need not agree with the code.
     void recentre();
     void measure(int i, int j);
-    /// Moves the cells to the fitted place.
+    /// Applies the fitted similarity to the cells.
     void lay_cells() {
         similarity_ = fit_.solve();
         tracking_.cells = changed(before_, middle_, similarity_);
@@ -155,7 +155,8 @@ void Rounds::measure(int i, int j) {
     const FixedVec cell = FixedVec{i, j} - middle_;
     const FixedVec offset_q12{(p.y_q12 - p.x_q12) / 2 - dx(symbol) * tracking_.displacement_q12,
                               (p.y_q12 + p.x_q12) / 2 - dy(symbol) * tracking_.displacement_q12};
-    // The dot was measured relative to the cells as changed by the previous fit.
+    // The dot was measured relative to the cells after the change by the previous fit, so this
+    // change is added.
     const FixedVec moved_q12 = change(similarity_, {cell.x * (1 << 12), cell.y * (1 << 12)});
     fit_.add(cell, offset_q12 + moved_q12 + similarity_.shift_q12);
     masses_ += dot.mass;

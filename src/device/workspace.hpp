@@ -22,7 +22,7 @@ struct DeviceWorkspace : Workspace {
     bool keeps_frame = false;
     Tracking tracking;
     const SheetFunctions* on_sheets = nullptr;  ///< null if no sheets are known
-    /// Null if all frames are so small that only known sheets are read.
+    /// Null if all frames are so small that they can be located only on known sheets.
     const WholeCodeFunctions* in_whole_code = nullptr;
 
     void set_known(const KnownSheets& sheets) {
@@ -35,8 +35,8 @@ struct DeviceWorkspace : Workspace {
     }
 };
 
-/// Capacities of the workspace of a device: the maximum size of frames, and the maximum numbers of
-/// dots and of other data of the stages.
+/// Capacities of a device workspace: the maximum frame size, and the maximum number of dots and
+/// other elements that the stages can store.
 struct DeviceCapacity {
     int width_px = 0;
     /// Maximum height of a frame. At most kMaxSideWithLowTiles_px if the width is larger than this.
@@ -46,7 +46,7 @@ struct DeviceCapacity {
     /// Maximum number of lines per axis that are compared with the whole code. 0 if only known
     /// sheets are read, and -1 if all lines of the grid are compared.
     int scored_lines = -1;
-    /// Maximum number of dots from which the axes of the grid are found.
+    /// Maximum number of dots used to find the axes of the grid.
     int seeds = 64;
     // Maximum numbers of runs and blobs in one row. These are far above the number of dots in a
     // row, so any further runs and blobs are noise or graphics.
@@ -88,7 +88,7 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
 
 /// Workspace of a DeviceLocator on a small microcontroller, for frames of one size: about 12 KB for
 /// 188 x 120 px. Stages share memory, so after a frame only the results of the last stage are left.
-/// The stages use spans, so they are compiled only once for all sizes.
+/// The stages access this memory through spans, so they are compiled only once for all sizes.
 template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public DeviceWorkspace {
   public:
@@ -98,8 +98,8 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
                       kCapacity.height_px <= kMaxSideWithLowTiles_px,
                   "the workspace has memory for low tiles only");
 
-    // With the braces, all members are cleared in one call. Separate stores would need 800 more
-    // bytes of code.
+    // Because of the braces, the compiler clears all members with one call. Separate stores would
+    // take 800 more bytes of code.
     DeviceWorkspaceOf() : DeviceWorkspace{} {
         max_width_px = kCapacity.width_px;
         if constexpr (kCapacity.height_px != kMaxFrameSide_px) max_height_px = kCapacity.height_px;

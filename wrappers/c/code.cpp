@@ -21,7 +21,7 @@ bool are_sides(std::int32_t columns, std::int32_t rows) {
 }
 
 /// Writes the symbols of a block of columns. `width` is the number of columns of the whole
-/// rectangle, which is the distance between the rows in `symbols`.
+/// rectangle, and therefore the distance between rows in `symbols`.
 void write_block(CodeVariant code, const dotpose_place& first, std::uint32_t columns,
                  std::uint32_t rows, std::uint8_t* symbols, std::size_t width) {
     std::array<std::uint32_t, kBlock_columns> column_bits;

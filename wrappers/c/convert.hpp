@@ -24,10 +24,10 @@ inline bool is_code(std::int32_t code) {
     return is_one_of(code, CodeVariant::microdots);
 }
 
-/// Reads options. `options` must contain the defaults. Those members that exist in the caller's
-/// version of the struct are overwritten with the values in `given`, or none if `given` is null.
-/// `first_bytes` is the size of the first version of the struct. Returns BAD_SIZE if the size of
-/// `given` matches no version.
+/// Reads options. `options` must contain the defaults. Overwrites the members that exist in the
+/// caller's version of the struct with the values in `given`. Keeps all defaults if `given` is
+/// null. `first_bytes` is the size of the first version of the struct. Returns BAD_SIZE if the size
+/// of `given` matches no version.
 template <typename DeviceOptions>
 dotpose_status read_sized(const DeviceOptions* given, std::size_t first_bytes,
                           DeviceOptions& options) {
@@ -78,13 +78,13 @@ dotpose_status to_core(const dotpose_fix* given, Fix& fix);
 /// Reads a fix. Returns NO_FIX if the status of the fix is not ok.
 dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix);
 
-/// Returns true if the prediction can be moved without overflow. This is always the case for
+/// Returns true if the prediction can be moved without overflow, as is always the case for
 /// predictions made from fixes.
 bool can_move(const Prediction& prediction);
 
 void to_c(const Prediction& prediction, dotpose_prediction& result);
 
-/// Writes the result of an invalid call, and returns its status.
+/// Sets the result of an invalid call to a fix without a pose, and returns the status of the call.
 dotpose_status refuse(dotpose_status status, dotpose_fix& result);
 
 }  // namespace dotpose::c

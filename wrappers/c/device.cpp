@@ -1,5 +1,5 @@
-// Initialisation of microcontroller locators. This code has its own file to keep the other kinds of
-// locators out of programs that use only these locators.
+// Initialisation of microcontroller locators. This code is in a separate file, so programs that use
+// only microcontroller locators do not link the other kinds.
 #include "locator.hpp"
 
 namespace {

@@ -379,8 +379,8 @@ typedef struct dotpose_locator dotpose_locator;
 size_t dotpose_locator_bytes(int32_t kind);
 
 /* Sets up a locator in memory provided by the caller. The address must be a multiple of 8. The
- * memory must not be modified or copied while the locator is in use. It can be released without a
- * further call. If `options` is null, uses the defaults. */
+ * memory must not be modified or copied while the locator is in use. No call is needed before the
+ * memory is released. If `options` is null, uses the defaults. */
 dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
                                     const dotpose_options* options, dotpose_locator** locator);
 
@@ -429,12 +429,12 @@ enum {
     DOTPOSE_OTHERS_IMPOSSIBLE = 1
 };
 
-/* Sets the regions of the sheets that may be in view. Views of about 30 dots then suffice, in
- * images of at least 24 x 24 px. The locator reads `regions` in each frame, so the array must
- * remain valid and unchanged. If `count` is 0, all places are possible again. Discards a frame that
- * was begun. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside
- * the plane, or has a code or section that does not exist. Device locators search only the regions
- * in their code. */
+/* Sets the regions of the sheets that may be in view. About 30 dots in view, in images of at least
+ * 24 x 24 px, are then enough for a fix. The locator reads `regions` in each frame, so the array
+ * must remain valid and unchanged. If `count` is 0, all places are possible again. Discards a frame
+ * that was begun. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not
+ * inside the plane, or has a code or section that does not exist. Device locators search only the
+ * regions in their code. */
 dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
                                  size_t count, int32_t others);
 
@@ -462,13 +462,13 @@ dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pix
                                     const dotpose_measured_motion* since_last, dotpose_fix* fix);
 
 /* Returns the code from the options or, if the code is detected, the code of the last image. Use
- * this code to move predictions made from that image's fix, and for dotpose_packet_of. */
+ * this code in dotpose_packet_of, and to move predictions made from the fix of the last image. */
 dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code);
 
-/* Locates an image row by row: call dotpose_begin, then dotpose_push_row for each row from the top,
- * then dotpose_finish. A row need not remain valid after the call. `prediction` may be null. If a
- * frame does not confirm its prediction, a device locator returns not_tracked. Other locators
- * locate the frame without the prediction. */
+/* Locate an image row by row: call dotpose_begin, then dotpose_push_row for each row from the top,
+ * then dotpose_finish. The pixels of a row need not remain valid after the call. `prediction` may
+ * be null. If a frame does not confirm its prediction, a device locator returns not_tracked. Other
+ * locators locate the frame without the prediction. */
 dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t height_px,
                              const dotpose_prediction* prediction);
 dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels);
@@ -483,8 +483,8 @@ typedef struct dotpose_dot {
 } dotpose_dot;
 
 /* Writes the dots of the last frame to `dots`, but at most `capacity` of them. Sets `count` to the
- * total number of dots, which may exceed `capacity`. `dots` may be null if `capacity` is 0. Every
- * attempt keeps its dots only if the option show_stages is set, so there may otherwise be none.
+ * total number of dots, which may exceed `capacity`. `dots` may be null if `capacity` is 0. Unless
+ * the option show_stages is set, some attempts do not store their dots, so `count` may be 0.
  * Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
@@ -497,7 +497,7 @@ typedef struct dotpose_code_evidence {
     int32_t state[9];
 } dotpose_code_evidence;
 
-/* Code in which a frame was read, and an alternative: 28 bytes. */
+/* Code in which a frame was read, and a possible alternative: 28 bytes. */
 typedef struct dotpose_code_reading {
     int32_t code;        /*  0: DOTPOSE_CODE_ in which the frame was read */
     int32_t has_other;   /*  4: 1 if a place in another code also explains the frame, else 0 */
@@ -522,9 +522,9 @@ dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* p
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Returns the likeliest code, and in `p_wrong` the probability that the sheet is printed in another
- * code. Without evidence, all codes are equally probable: the result is anoto, and `p_wrong` is
- * 2/3. */
+/* Returns the most likely code, and in `p_wrong` the probability that the sheet is printed in
+ * another code. Without evidence, all codes are equally probable: the result is anoto, and
+ * `p_wrong` is 2/3. */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
 
@@ -631,7 +631,7 @@ dotpose_status dotpose_track_options_init(dotpose_track_options* options, size_t
 /* Sets up a tracker in the state `lost`. If `options` is null, uses the defaults. */
 dotpose_status dotpose_tracker_init(dotpose_tracker* tracker, const dotpose_track_options* options);
 
-/* Returns a fix as a sighting in the pattern frame. Returns NO_FIX if the fix is not ok, and
+/* Converts a fix to a sighting in the pattern frame. Returns NO_FIX if the fix is not ok, and
  * BAD_VALUE if its spacing is not known or exceeds 20 mm. */
 dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
                                    dotpose_sighting* sighting);
@@ -643,16 +643,16 @@ dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
 /* Like dotpose_tracker_update, with the motion of the robot since the previous update. The motion's
- * `right_mm` is along the direction theta of the sightings. If `sighting` is null, the pose is
- * moved by the motion. */
+ * `right_mm` is along the direction theta of the sightings. If `sighting` is null, only the motion
+ * changes the pose. */
 dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
                                             const dotpose_sighting* sighting,
                                             const dotpose_measured_motion* motion,
                                             dotpose_track* track);
 
-/* Predicts where the pattern is in the frame at `time_us`, from the newest fix and the sighting of
- * this fix. `locator` is the locator that will locate the frame; its code and reference point are
- * used. Returns NO_FIX if the fix is not ok. */
+/* Predicts the pose of the frame at `time_us`, from the newest fix and its sighting. `locator` must
+ * be the locator that will locate the frame, because the prediction depends on its code and
+ * reference point. Returns NO_FIX if the fix is not ok. */
 dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t time_us,
                                        const dotpose_fix* newest, const dotpose_sighting* seen,
                                        const dotpose_locator* locator,
@@ -686,7 +686,8 @@ dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t 
                                  uint32_t time_us, dotpose_packet* packet);
 
 /* Writes the DOTPOSE_PACKET_BYTES bytes of a packet. `capacity` is the size of `bytes`. Returns
- * TOO_LITTLE_MEMORY if it is less, and BAD_VALUE if a member of the packet is out of its range. */
+ * TOO_LITTLE_MEMORY if `capacity` is less than DOTPOSE_PACKET_BYTES, and BAD_VALUE if a member of
+ * the packet is out of its range. */
 dotpose_status dotpose_packet_encode(const dotpose_packet* packet, uint8_t* bytes, size_t capacity);
 
 /* Extracts packets from a byte stream that may contain other data. The contents are private. */
@@ -710,7 +711,7 @@ typedef struct dotpose_pacer {
     uint64_t state[40];
 } dotpose_pacer;
 
-/* Criteria for movement, and frame periods: 40 bytes. Each comment ends with the default. */
+/* Movement criteria and frame periods: 40 bytes. Each comment ends with the default. */
 typedef struct dotpose_pacer_options {
     uint32_t size;                /*  0: set by dotpose_pacer_options_init */
     int32_t moved_q16;            /*  4: movement threshold per axis, spacings; 6554 */

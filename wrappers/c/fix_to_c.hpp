@@ -1,5 +1,5 @@
-// Conversion of a fix to dotpose_fix. The functions are inline because dotpose_c_space also uses
-// them, and the shared library of dotpose_c hides its internal functions.
+// Conversion of a fix to dotpose_fix. The functions are inline, because dotpose_c_space also uses
+// them and the shared library of dotpose_c hides its internal functions.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ inline dotpose_plane to_c(const PlaneFromImage& p) {
             p.perspective_q30.x, p.perspective_q30.y, p.lens_q40};
 }
 
-/// Writes the covariance with x and y in a given unit. `unit` is the length of a spacing in this
-/// unit.
+/// Writes the covariance, with x and y converted from spacings to another unit. `unit` is the
+/// length of a spacing in this unit.
 inline void set_covariance(const Fix& fix, double unit, float (&result)[9]) {
     const std::array<double, 3> factors{unit, unit, 1};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -34,7 +34,7 @@ inline void set_covariance(const Fix& fix, double unit, float (&result)[9]) {
     }
 }
 
-/// Converts and assigns a member of one struct to the corresponding member of another struct.
+/// Converts a member of one struct and assigns it to the corresponding member of another struct.
 template <typename From, typename To>
 void assign(const From& from, To& to) {
     to = static_cast<To>(from);

@@ -13,9 +13,8 @@
 
 namespace dotpose::c {
 
-/// Functions that differ between kinds of locators. The functions are called through pointers, so a
-/// program contains only the kinds that it creates. The last four pointers are null for device
-/// locators.
+/// Functions that differ between kinds of locators. They are called through pointers, so a program
+/// links only the kinds that it creates. The last four pointers are null for device locators.
 struct Actions {
     void (*set_options)(RowLocator& locator, const LocatorOptions& options);
     Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
@@ -81,10 +80,10 @@ inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
 
 }  // namespace dotpose::c
 
-/// Common part of all kinds, at the beginning of each object.
+/// Members common to all kinds of locators, at the beginning of each object.
 struct dotpose_locator {
     std::uint32_t mark = 0;
-    std::int32_t rows_left = 0;  ///< number of rows that are missing from the current frame
+    std::int32_t rows_left = 0;  ///< number of rows of the current frame that were not pushed yet
     bool has_begun = false;      ///< true if a frame was begun and not finished
     const dotpose::c::Actions* actions = nullptr;
     dotpose::RowLocator* locator = nullptr;
@@ -126,7 +125,8 @@ struct LocatorOf : dotpose_locator {
     Kind kind;
 };
 
-/// Returns the size of memory in which a T fits at any address that is a multiple of kAlignment.
+/// Returns the number of bytes that suffice for a T at any address that is a multiple of
+/// kAlignment.
 template <typename T>
 constexpr std::size_t bytes_of() {
     return sizeof(T) + (alignof(T) > kAlignment ? alignof(T) - kAlignment : 0);

@@ -62,7 +62,7 @@ TrackOptions options_of(const dotpose_track_options& o) {
             .spacing_mm = o.spacing_mm};
 }
 
-/// Returns true if a number is at least 0 and at most 1e9, so that its square does not overflow.
+/// Returns true if a number is from 0 to 1e9. The squares of such numbers do not overflow.
 bool is_size(float value) {
     return value >= 0 && value <= 1e9F;
 }
@@ -85,7 +85,7 @@ bool are_good(const dotpose_track_options& o) {
            o.max_weak_p_wrong_log2 <= -1 && o.lost_after_us >= 0 && o.stationary_after_us >= 0;
 }
 
-/// Reads a sighting. Returns BAD_VALUE if a member is NaN, or so large that sums would overflow.
+/// Reads a sighting. Returns BAD_VALUE if a member is NaN or so large that sums could overflow.
 dotpose_status to_core(const dotpose_sighting& given, Sighting& sighting) {
     constexpr float kMaxCovariance = 1e12F;
     const auto is_finite = [](float value) { return std::fabs(value) <= kMaxCovariance; };

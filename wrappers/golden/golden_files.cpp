@@ -4,7 +4,7 @@
 //   dotpose_golden_files DIRECTORY [TIMES]
 //
 // Writes two files for each set. The sets are `nominal` (200 frames), `hard` (150 frames) and `vga`
-// (40 frames). TIMES multiplies their numbers of frames.
+// (40 frames). TIMES is a factor for these numbers of frames.
 //
 //   SET.frames  a sequence of binary PGM images, two for each frame: the frame, and the frame after
 //               a small motion of the camera, for the tracked attempt
@@ -66,8 +66,8 @@ void write(const GreyImage& image, std::FILE* file) {
     std::fwrite(image.pixels.data(), 1, image.pixels.size(), file);
 }
 
-/// Numbers in the order of the columns. Floating-point numbers are stored as the hexadecimal digits
-/// of their bits.
+/// Numbers of a line, in the order of the columns. Floating-point numbers are stored as the
+/// hexadecimal digits of their bits.
 class Numbers {
   public:
     template <std::integral Int>
@@ -97,8 +97,8 @@ class Numbers {
         }
         put(plane.lens_q40);
     }
-    /// Stores the covariance with lengths in another unit, in which a spacing has the length
-    /// `unit`.
+    /// Stores the covariance, with lengths converted from spacings to another unit. `unit` is the
+    /// length of a spacing in this unit.
     void put_covariance(const Fix& fix, double unit) {
         const double units[] = {unit, unit, 1};
         for (int i = 0; i < 9; ++i) {
@@ -140,7 +140,7 @@ class Lines {
     std::uint64_t index_;
 };
 
-/// Locates a frame by every method, and locates the next frame with a prediction from the first
+/// Locates a frame with every method, and tracks the next frame with a prediction from the first
 /// fix.
 void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
     const auto memory = std::make_unique<LargeMemory>();

@@ -1,9 +1,9 @@
 """Builds the package: CMake compiles its modules from the sources of dotpose around this folder.
 
 Environment variables:
-    DOTPOSE_BUILD   a configured build directory, so that nothing is compiled again
-    DOTPOSE_WHEEL   "core": only the module that locates, tracks and simulates. It needs no library of
-                    the system, so its wheel runs on other systems.
+    DOTPOSE_BUILD   a configured build directory, whose compiled files are reused
+    DOTPOSE_WHEEL   "core": only the module that locates, tracks and simulates. It needs no system
+                    libraries, so its wheel runs on other systems.
 """
 
 import os

@@ -1,6 +1,6 @@
-/* Locates frames as a microcontroller does. The memory is fixed, and each row is pushed as soon as
- * it is read. The input is a file of golden frames (wrappers/golden/README.md). Locates the first
- * frame of each pair, and prints the same line as C++ for the method `device`. */
+/* Locates frames as a microcontroller does: the memory has a fixed size, and each row is pushed as
+ * soon as it has been read. The input is a file of golden frames (wrappers/golden/README.md).
+ * Locates the first frame of each pair, and prints the same line as C++ for the method `device`. */
 #include <dotpose.h>
 #include <stdint.h>
 #include <string.h>
@@ -45,7 +45,7 @@ static void print_bits(const void* number, size_t size) {
     host_print(text);
 }
 
-/* Prints the number at an address. `kind` is the kind of its golden column. */
+/* Prints the number at an address. `kind` is the type of its golden column: i, u, f or d. */
 static void print_number(char kind, const uint8_t* at) {
     uint32_t value = 0;
     memcpy(&value, at, sizeof value);

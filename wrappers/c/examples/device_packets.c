@@ -1,5 +1,5 @@
-/* Processes a frame as a microcontroller does. Takes the rows as the camera delivers them, in
- * memory of fixed size, and sends a packet of 32 bytes. In this example, the rows are read from a
+/* Processes a frame as a microcontroller does: uses memory of a fixed size, processes each row as
+ * the camera delivers it, and sends a packet of 32 bytes. In this example, the rows are read from a
  * file, and the packet is written to standard output for `dotpose listen`:
  *
  *     ./device_packets frame.pgm | dotpose listen - */

@@ -1,6 +1,6 @@
-/* Prints the place of the tip of a pen, corrected by a map of the print, from one frame. The
- * arguments are the focal length in px, the distance of the tip along the optical axis in mm, the
- * file of a print map, and a binary PGM of 8 bits. Links dotpose::c_space. */
+/* Prints the position of a pen tip, computed from one frame and corrected with a print map. The
+ * arguments are the focal length in px, the distance of the tip along the optical axis in mm, a
+ * print map file, and an 8-bit binary PGM file. Links dotpose::c_space. */
 #include <dotpose_print_map.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Reads binary PGM files of 8 bits, for the examples. */
+/* Reads 8-bit binary PGM files, for the examples. */
 #ifndef PGM_H
 #define PGM_H
 

@@ -1,5 +1,5 @@
-/* Prints position and angles of a camera in space, from one frame. The arguments are the focal
- * length in px and a binary PGM of 8 bits. Links dotpose::c_space. */
+/* Prints the position and angles of a camera in space, computed from one frame. The arguments are
+ * the focal length in px and an 8-bit binary PGM file. Links dotpose::c_space. */
 #include <dotpose_space.h>
 #include <stdio.h>
 #include <stdlib.h>

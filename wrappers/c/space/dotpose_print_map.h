@@ -1,5 +1,5 @@
-/* Print maps for C99 and C++: correct fixes and poses in space by the measured errors of a print
- * (docs/print-map.md). `dotpose calibrate --print-map` makes a map.
+/* Print maps for C99 and C++: correct fixes and poses in space for the measured errors of a print
+ * (docs/print-map.md). `dotpose calibrate --print-map` creates a map.
  *
  *     dotpose_print_map* map;
  *     if (dotpose_print_map_create(bytes, byte_count, &map) != DOTPOSE_OK) ...
@@ -34,7 +34,7 @@ typedef struct dotpose_print_map dotpose_print_map;
 dotpose_status dotpose_print_map_create(const void* bytes, size_t byte_count,
                                         dotpose_print_map** map);
 
-/* Frees a map. Null is permitted. */
+/* Frees a map. Does nothing if `map` is null. */
 void dotpose_print_map_destroy(dotpose_print_map* map);
 
 /* Result of applying a map. */
@@ -46,18 +46,19 @@ enum {
     DOTPOSE_MAP_CONTRADICTED = 3 /* the dots contradict the map, as on another print */
 };
 
-/* Corrects the fix of the image that the locator located last, and writes it to `fix`, which was
- * set up by dotpose_fix_init. Unless `use` is DOTPOSE_MAP_USED, the written fix is the fix of the
- * locator. The covariance is that of the absolute position on the page, with the error of the map.
- * Returns OK, NO_FIX if the image was not located, WRONG_KIND for device locators and for
- * locators without `show_stages`, OUT_OF_MEMORY, or another misuse. */
+/* Corrects the fix of the image that the locator located most recently, and writes the result to
+ * `fix`, which must have been set up by dotpose_fix_init. Unless `use` is DOTPOSE_MAP_USED, the
+ * result is the uncorrected fix. Otherwise, its covariance is the covariance of the absolute
+ * position on the page, and includes the error of the map. Returns OK, NO_FIX if the image was not
+ * located, WRONG_KIND for device locators and for locators without `show_stages`, OUT_OF_MEMORY, or
+ * another misuse. */
 dotpose_status dotpose_print_map_correct(const dotpose_print_map* map,
                                          const dotpose_locator* locator, dotpose_fix* fix,
                                          dotpose_map_use* use);
 
-/* Fits the pose of the camera as dotpose_space_fit does, with the dots at their mapped places.
- * Unless `use` is DOTPOSE_MAP_USED, the pose is that of dotpose_space_fit. Returns the statuses of
- * dotpose_space_fit. */
+/* Fits the pose of the camera as dotpose_space_fit does, but with the dot positions of the map.
+ * Unless `use` is DOTPOSE_MAP_USED, the result is the pose of dotpose_space_fit. Returns the
+ * statuses of dotpose_space_fit. */
 dotpose_status dotpose_print_map_fit_space(const dotpose_print_map* map,
                                            const dotpose_locator* locator,
                                            const dotpose_space_camera* camera,

@@ -63,8 +63,8 @@ dotpose_status dotpose_space_use_camera(const dotpose_space_camera* camera,
 typedef struct dotpose_space_pose {
     uint32_t size; /*  0: set by dotpose_space_pose_init */
     int32_t dots;  /*  4: number of dots used */
-    /* 1 if there is a second pose and its second_odds exceed 2^-30, so that it may be the true
-     * pose, else 0. */
+    /* 1 if there is a second pose whose second_odds exceed 2^-30, so either pose may be the true
+     * one. Otherwise 0. */
     int32_t is_ambiguous; /* 8 */
     int32_t has_second;   /* 12: 1 if the members `second_` are valid, else 0 */
     /* Position of the projection centre in the pattern. */
@@ -76,13 +76,13 @@ typedef struct dotpose_space_pose {
     double tilt_rad;           /* 72: angle between the optical axis and the normal of the paper */
     /* Direction on the paper in which the camera leans, clockwise from +x. */
     double azimuth_rad; /* 80 */
-    /* Angle of the image x axis before the camera leans, clockwise from +x. */
+    /* Angle of the image x axis on the paper after removal of the tilt, clockwise from +x. */
     double turn_rad; /* 88 */
     /* Covariance of the position, in mm, and of a small rotation vector in the CAMERA frame, in
      * radians, row by row. */
     double covariance_mm_rad[36]; /* 96 */
     double residual_px;           /* 384: rms residual of the dots, per axis */
-    /* Likelihood of the second pose divided by the likelihood of the first pose. 0 without a
+    /* Likelihood of the second pose divided by the likelihood of the first pose. 0 if there is no
      * second pose. */
     double second_odds;               /* 392 */
     double second_position_mm[3];     /* 400 */
@@ -93,8 +93,8 @@ typedef struct dotpose_space_pose {
 /* Sets up a pose. `bytes` is the caller's sizeof(dotpose_space_pose). */
 dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes);
 
-/* Fits the pose of the camera to all dots of the image that the locator located last. The arguments
- * must be the same image and the camera of dotpose_space_use_camera. Returns
+/* Fits the pose of the camera to all dots of the image that the locator located most recently. The
+ * arguments must be this image, and the camera that was passed to dotpose_space_use_camera. Returns
  * - OK,
  * - NO_FIX if the last image was not located or if the spacing of the sheet is not known,
  * - TOO_FEW_DOTS if the dots do not determine a pose,
@@ -109,7 +109,7 @@ dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_s
 typedef struct dotpose_space_pen {
     uint32_t size;    /*  0: set by dotpose_space_pen_init */
     int32_t reserved; /*  4: zero */
-    /* Place of the tip in the camera frame: tip_mm of the camera file. */
+    /* Position of the tip in the camera frame: tip_mm of the camera file. */
     double x_mm; /*  8 */
     double y_mm; /* 16 */
     double z_mm; /* 24 */
@@ -122,7 +122,7 @@ typedef struct dotpose_space_pen {
 /* Sets all members to 0. `bytes` is the caller's sizeof(dotpose_space_pen). */
 dotpose_status dotpose_space_pen_init(dotpose_space_pen* pen, size_t bytes);
 
-/* Place of the tip of a pen in the pattern: 104 bytes. */
+/* Position of the tip of a pen in the pattern: 104 bytes. */
 typedef struct dotpose_space_tip {
     uint32_t size;            /*  0: set by dotpose_space_tip_init */
     int32_t reserved;         /*  4: zero */
@@ -135,16 +135,16 @@ typedef struct dotpose_space_tip {
 /* Sets up a tip. `bytes` is the caller's sizeof(dotpose_space_tip). */
 dotpose_status dotpose_space_tip_init(dotpose_space_tip* tip, size_t bytes);
 
-/* Computes the place of the tip from a pose of dotpose_space_fit. The pose should not be ambiguous.
- * Returns OK, NO_FIX if the pose was not fitted, BAD_VALUE if a member of the pen is not finite, or
- * another misuse. The tip is only written if the status is OK. */
+/* Computes the position of the tip from a pose of dotpose_space_fit. The pose should not be
+ * ambiguous. Returns OK, NO_FIX if the pose was not fitted, BAD_VALUE if a member of the pen is not
+ * finite, or another misuse. The tip is only written if the status is OK. */
 dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpose_space_pen* pen,
                                     dotpose_space_tip* tip);
 
-/* Detects with hysteresis whether the pen touches the paper. `is_down` must contain the result
- * for the previous pose, or 1 before the first pose. It receives the new result: 1 if the pen is
- * on the paper, and otherwise 0. A pen on the paper counts as lifted if its height is at least
- * 0.05 mm plus three standard deviations, and a lifted pen counts as on the paper below 0.05 mm. */
+/* Detects with hysteresis whether the pen touches the paper. `is_down` must contain the result for
+ * the previous pose, or 1 before the first pose. It receives the new result: 1 if the pen is on the
+ * paper, and otherwise 0. A pen on the paper is reported as lifted at a height of at least 0.05 mm
+ * plus three standard deviations. A lifted pen is reported as touching the paper below 0.05 mm. */
 dotpose_status dotpose_space_update_contact(const dotpose_space_tip* tip, int32_t* is_down);
 
 #ifdef __cplusplus

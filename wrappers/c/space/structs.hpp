@@ -1,4 +1,4 @@
-// Checks of arguments that the functions of dotpose_c_space have in common.
+// Argument checks shared by the functions of dotpose_c_space.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ dotpose_status init(Struct* given, std::size_t bytes) {
     return DOTPOSE_OK;
 }
 
-/// Returns OK if the locator stores the dots of its last image. Reads its members directly, because
-/// the shared library of dotpose_c hides its internal functions.
+/// Returns OK if the locator stores the dots of its last image. Reads the members of the locator
+/// directly, because the shared library of dotpose_c hides its internal functions.
 inline dotpose_status check_locator(const dotpose_locator* locator) {
     if (locator == nullptr) return DOTPOSE_NULL_POINTER;
     if (locator->mark != c::kLocatorMark) return DOTPOSE_NOT_INITIALIZED;

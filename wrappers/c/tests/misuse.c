@@ -1,5 +1,5 @@
-/* Checks that each misuse of a function returns a status that identifies the error, and has no
- * other effect. */
+/* Checks that each misuse of a function has no effect except to return a status that identifies the
+ * error. */
 #include <dotpose.h>
 #include <float.h>
 #include <math.h>
@@ -239,7 +239,7 @@ static void pushing(dotpose_locator* locator) {
     EXPECT(NULL_POINTER, dotpose_finish(NULL, &fix));
 }
 
-/* Returns a fix with the given status, which was not produced by any frame. */
+/* Returns an invented fix with the given status. */
 static dotpose_fix made_up(dotpose_status status) {
     dotpose_fix fix;
     dotpose_fix_init(&fix, sizeof fix);

@@ -84,7 +84,7 @@ GreyImage small_view_of(const KnownRegion& sheet, int side_px = 66) {
     return render(shot);
 }
 
-/// Returns frames of distant places on a sheet of a code other than the default.
+/// Returns frames at distant places of a sheet that is printed in a code other than the default.
 std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     dotpose::Setup setup;
     setup.pattern.code = CodeVariant::libdots;
@@ -94,8 +94,8 @@ std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     return images;
 }
 
-/// Expects that a locator in static memory returns the same fix as the locator of the core, for
-/// frames of this size.
+/// Expects that, for frames of this size, a C locator in static memory returns the same fix as the
+/// locator of the core.
 template <int Width, int Height>
 void expect_same_device(int kind, dotpose_status (*init)(void*, std::size_t, const dotpose_options*,
                                                          dotpose_locator**)) {
@@ -357,7 +357,7 @@ TEST(C, PacesFramesAsThePacerDoes) {
     EXPECT_EQ(rests, 6);
 }
 
-/// A sheet in C and in C++.
+/// The region of a sheet, as a C struct and as a C++ struct.
 constexpr dotpose_region kRegionInC{DOTPOSE_CODE_ANOTO, 0, 0, 0, 1024, 2048, 393, 564};
 constexpr KnownRegion kRegion{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
 

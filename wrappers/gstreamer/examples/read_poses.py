@@ -12,12 +12,12 @@ from gi.repository import Gst  # noqa: E402
 
 
 def say(line):
-    """Writes a line by a single call, because frames and messages arrive in different threads."""
+    """Writes a line with a single call, because frames and messages arrive in different threads."""
     sys.stdout.write(line + "\n")
 
 
 def print_frame(pad, info):
-    """Prints the meta of a frame that passes through the pad."""
+    """Prints the metadata of a frame that passes through the pad."""
     frame = info.get_buffer()
     meta = frame.get_custom_meta("dotpose")
     if meta:

@@ -1,4 +1,5 @@
-// The functions that GStreamer calls. They are C functions that use a Stream, and do not throw.
+// Callbacks of the element, which GStreamer calls. They have C interfaces, delegate the work to a
+// Stream, and do not throw.
 #include "element.hpp"
 
 #include <memory>
@@ -45,7 +46,7 @@ class Lock {
     GstObject* object_;
 };
 
-/// A frame whose planes are mapped into memory until the destructor is called.
+/// A frame whose planes remain mapped into memory until its destructor runs.
 class MappedFrame {
   public:
     MappedFrame(const GstVideoInfo& info, GstBuffer* buffer, bool is_written) {
@@ -74,8 +75,8 @@ class MappedFrame {
 };
 
 /// Returns the running time of a buffer, in µs. If the buffer has no time stamp, the time is
-/// computed from the frame number and the frame rate. If there is no frame rate either, it is the
-/// time of arrival.
+/// computed from the frame number and the frame rate. If the frame rate is also unknown, returns
+/// the time of arrival.
 std::int64_t time_us(DotposeLocate* self, GstBuffer* buffer) {
     const GstClockTime pts = GST_BUFFER_PTS(buffer);
     const GstSegment& segment = GST_BASE_TRANSFORM(self)->segment;

@@ -64,7 +64,7 @@ void draw_arrow(const Canvas& canvas, Point from, Point direction, double length
             canvas.line(to, to - 0.3 * length * direction + side * 0.2 * length * across, radius,
                         grey);
     };
-    // A light outline makes the arrow visible on dots and in shadows.
+    // The light outline keeps the arrow visible on dots and in shadows.
     draw(2.5, kWhite);
     draw(1, kBlack);
 }
@@ -74,7 +74,7 @@ void draw_arrow(const Canvas& canvas, Point from, Point direction, double length
 void draw_overlay(const Luma& luma, const Trace& trace) {
     const int side_px = std::max(luma.width_px, luma.height_px);
     const ImageView image = {luma.pixels, luma.width_px, luma.height_px, luma.stride_bytes};
-    // The drawing has one unit per pixel.
+    // One unit of the drawing is one pixel.
     const draw::FrameView view(image, trace, side_px);
     const Canvas canvas(luma);
     const double radius = std::max(2.0, 0.3 * view.spacing());

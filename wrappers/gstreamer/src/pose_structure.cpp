@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Sets the fields of a structure. There is a function for each type.
+/// Sets the fields of a structure, with one function for each type.
 class Fields {
   public:
     explicit Fields(GstStructure* structure) : structure_(structure) {}
@@ -44,8 +44,8 @@ class Fields {
         const double value_deg = value_rad * kDegrees;
         number(name, value_deg <= -180 ? value_deg + 360 : value_deg);
     }
-    /// Sets nine numbers, row by row. `factors` multiplies the rows and the columns. If the
-    /// covariance is unknown, sets nothing.
+    /// Sets the nine elements of a covariance, row by row. Each element is multiplied by the
+    /// factors of its row and its column. If the covariance is unknown, sets nothing.
     template <typename Matrix>
     void covariance(const char* name, const Matrix& matrix,
                     const std::array<double, 3>& factors) const {
@@ -112,7 +112,7 @@ void put_evidence(const Fields& fields, const Fix& fix) {
     fields.number("spacing_px", fix.spacing_px());
 }
 
-/// Sets the code of the sheet. If another code also explains the frame, sets it as the alternative.
+/// Sets the code of the sheet and, if another code also explains the frame, the alternative code.
 void put_code(const Fields& fields, const Located& located) {
     const CodeReading& reading = located.reading;
     const bool is_ok = located.fix.status == Status::ok;

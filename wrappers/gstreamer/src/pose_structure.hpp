@@ -1,4 +1,4 @@
-/// Converts the reading of a frame to a GStreamer structure.
+/// Converts the result of a frame to a GStreamer structure.
 #pragma once
 
 #include <gst/gst.h>
@@ -10,8 +10,9 @@ namespace dotpose::gstreamer {
 /// Name of the messages that the element posts and of the custom meta that it attaches to buffers.
 inline constexpr const char* kPoseName = "dotpose";
 
-/// Sets the fields of a reading. Names, units and frames of reference are those of `dotpose watch
-/// --units mm` (docs/output.md), but numbers are not rounded. Fields without a value are omitted.
+/// Sets the fields of a reading. Names, units and frames of reference are the same as in the output
+/// of `dotpose watch --units mm` (docs/output.md), but numbers are not rounded. Fields without a
+/// value are omitted.
 void put_reading(GstStructure* structure, const Reading& reading);
 
 }  // namespace dotpose::gstreamer

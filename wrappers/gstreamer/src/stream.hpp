@@ -26,7 +26,7 @@ class Stream {
     /// Throws BadArgument if the camera file belongs to another frame size.
     void require_size(int width_px, int height_px) const;
 
-    /// Locates the next frame. If the time goes back, tracking starts again. The image must remain
+    /// Locates the next frame. If the time goes backwards, restarts tracking. The image must remain
     /// valid as long as `follower` is used to access it.
     Reading read(ImageView image, bool is_inverted, std::int64_t time_us);
 

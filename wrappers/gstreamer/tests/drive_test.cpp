@@ -14,7 +14,7 @@
 namespace dotpose::test {
 namespace {
 
-/// Skips a test if there is no element that parses raw video.
+/// Skips a test if the element that parses raw video is not installed.
 #define DOTPOSE_NEEDS_PARSER() \
     if (!has_element("rawvideoparse")) GTEST_SKIP() << "without GStreamer's plugins-base"
 
@@ -113,7 +113,8 @@ TEST_F(GstreamerDrive, WithoutSheetsTheCodeIsFoundOut) {
     expect_lines(watch(""), run_element("drive.raw", format, ""));
     expect_lines(watch("--code anoto --spacing 0.5"),
                  run_element("drive.raw", format, "code=anoto spacing-mm=0.5"));
-    // The frames are not in this code. The messages must report the same failures as `watch`.
+    // The sheets are printed in another code, so no frame has a fix. The messages must report the
+    // same failures as `watch`.
     expect_lines(watch("--code microdots"), run_element("drive.raw", format, "code=microdots"));
 }
 

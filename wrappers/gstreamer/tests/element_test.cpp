@@ -1,4 +1,4 @@
-// Tests the element alone, buffer by buffer: its use of memory, its times, and its states.
+// Tests the element in isolation, buffer by buffer: memory use, time stamps and state changes.
 #include <cstring>
 #include <string>
 #include <vector>
@@ -94,8 +94,8 @@ TEST_F(GstreamerElement, FollowsAnewAfterAJumpBack) {
     start("");
     EXPECT_EQ(locate(frame(170, 10 * GST_SECOND))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 10 * GST_SECOND + 5 * GST_MSECOND))["attempt"], "tracked");
-    // The time goes back, as after a seek. If tracking did not start again, the tracker would not
-    // follow the robot for ten seconds.
+    // The time goes backwards, as after a seek. Without a restart of tracking, the tracker would
+    // ignore all frames for ten seconds.
     EXPECT_EQ(locate(frame(170, 0))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 5 * GST_MSECOND))["verdict"], "accepted");
     EXPECT_EQ(locate(frame(172, 10 * GST_MSECOND))["frame"], 4);
@@ -119,7 +119,7 @@ TEST_F(GstreamerElement, WithoutTimesTheRateTellsThem) {
         EXPECT_EQ(meta["vx_mm_s"], stamped[static_cast<std::size_t>(i)]["vx_mm_s"]);
         EXPECT_EQ(meta["turn_deg_s"], stamped[static_cast<std::size_t>(i)]["turn_deg_s"]);
     }
-    // Without a frame rate, the time is that of the arrival.
+    // Without a frame rate, the time of a frame is its time of arrival.
     start("", "0/1");
     EXPECT_EQ(locate(frame(0, GST_CLOCK_TIME_NONE))["events"], "fix");
     EXPECT_EQ(locate(frame(1, GST_CLOCK_TIME_NONE))["verdict"], "accepted");

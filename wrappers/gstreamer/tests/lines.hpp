@@ -43,7 +43,7 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
         for (std::size_t i = 0; i < line.size(); ++i)
             expect_value_of(key, line[i], told[i]);
     } else if (line.is_string()) {
-        // The reason for a missing fix is more detailed in lines than in messages.
+        // Lines give a more detailed reason for a missing fix than messages do.
         if (key != "message") {
             EXPECT_EQ(line, told) << key;
         }
@@ -55,8 +55,8 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
     }
 }
 
-/// Expects that the message contains the fields of the line with the same values. Additional fields
-/// may only be times and the frame number.
+/// Expects that the message contains all fields of the line with the same values. The message may
+/// contain no other fields except times and the frame number.
 inline void expect_told(const nlohmann::json& line, nlohmann::json told) {
     for (const auto& [key, value] : line.items()) {
         if (is_only_in_lines(key)) continue;

@@ -94,7 +94,7 @@ except ModuleNotFoundError as error:
     if error.name != "dotpose._tools":
         raise
 
-    # Wheels only locate, track and simulate, because the tools need libraries of the system.
+    # Wheels can only locate, track and simulate, because the tools require system libraries.
     def __getattr__(name):
         tools = """
             DriveCalibration Finding Follower LensCalibration Located

@@ -1,5 +1,5 @@
-"""Shows the picture of a camera with the dots located in it: webcam.py [NUMBER or VIDEO]. Press any
-key to exit."""
+"""Shows the images of a camera with the located dots: webcam.py [NUMBER or VIDEO]. Press any key to
+exit."""
 import sys
 
 import cv2

@@ -19,7 +19,7 @@ namespace py = pybind11;
 using namespace py::literals;
 
 /// Each function defines the classes and functions of one subject in the module _dotpose. They are
-/// called in this order, because signatures refer to classes that were defined before.
+/// called in this order, because signatures refer to classes that must already be defined.
 void define_errors(py::module_& module);
 void define_options(py::module_& module);
 void define_fix(py::module_& module);

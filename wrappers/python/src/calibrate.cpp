@@ -58,7 +58,7 @@ void define_lens(py::module_& module) {
         .def_readonly("px_per_spacing", &LensCalibration::px_per_spacing,
                       "Mean grid spacing over the frames, in px.")
         .def_readonly("coverage", &LensCalibration::coverage,
-                      "Fraction of the parts of the image that contain dots.")
+                      "Fraction of the image blocks that contain dots.")
         .def(
             "draw",
             [](const LensCalibration& c, const std::filesystem::path& path) {
@@ -74,8 +74,9 @@ void define_lens(py::module_& module) {
             });
         },
         "images"_a, py::kw_only(), "code"_a = "auto", "spacing_mm"_a = kDefaultSpacing_mm,
-        "Return the LensCalibration of a camera from images of any sheet, at least 5: arrays or "
-        "names of files.\n\nLengths are correct if spacing_mm is the printed spacing.");
+        "Return the LensCalibration of a camera, from at least 5 images of any sheet: arrays or "
+        "file names.\n\n"
+        "Lengths are correct if spacing_mm is the printed spacing.");
 }
 
 void define_mount(py::module_& module) {
@@ -164,7 +165,7 @@ void define_stitching(py::module_& module) {
     py::class_<Stitching>(module, "Stitching", "Poses of sheets in the world.")
         .def_readonly("sheets", &Stitching::sheets, "The entries, with world poses and scales.")
         .def_readonly("unconnected", &Stitching::unconnected,
-                      "Names of sheets that no frame shows with another sheet.")
+                      "Names of sheets that no frame shows together with another sheet.")
         .def_readonly("frames", &Stitching::frames, "Number of frames given.")
         .def_readonly("used", &Stitching::used, "Number of frames that show two sheets.");
     module.def(
@@ -177,7 +178,7 @@ void define_stitching(py::module_& module) {
             });
         },
         "images"_a, "sheets"_a, "camera"_a = py::none(),
-        "Return the poses of sheets, from images that each show parts of two.");
+        "Return the poses of sheets, from images that each show parts of two sheets.");
 }
 
 }  // namespace

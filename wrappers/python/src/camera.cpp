@@ -82,7 +82,7 @@ void define_view(py::module_& module) {
         .def_readwrite("y_mm", &PenTip::y_mm, "y, in mm.")
         .def_readwrite("z_mm", &PenTip::z_mm, "z, in mm.")
         .def_readwrite("rest_mm", &PenTip::rest_mm,
-                       "Measured height of the point while the pen rests on the paper, in mm.");
+                       "Measured height of the tip while the pen rests on the paper, in mm.");
 }
 
 }  // namespace
@@ -128,14 +128,15 @@ void define_camera(py::module_& module) {
         .def_readwrite("theta_offset_rad", &Camera::theta_offset_rad,
                        "Heading of the robot minus the angle of the image x axis, in rad.")
         .def_readwrite("tip", &Camera::tip,
-                       "PenTip of the pen that contains the camera; None if it is in no pen.")
+                       "PenTip of the pen that contains the camera; None if the camera is not in "
+                       "a pen.")
         .def_readwrite("flip", &Camera::flip,
                        "True if frames must be flipped, left to right, before they are located: "
                        "image[:, ::-1].")
         .def_readwrite("flat_field", &Camera::flat_field,
                        "Brightness of white paper in the image, relative to the brightest point: "
-                       "rows of values at equal distances; empty if even or unknown. A list: "
-                       "assign a changed copy.")
+                       "a list of rows of equally spaced values; empty if even or unknown. To "
+                       "change it, assign a modified copy.")
         .def_readwrite(
             "readout_ms", &Camera::readout_ms,
             "Time from the first to the last row of a rolling shutter, in ms; None for a "
@@ -143,7 +144,7 @@ void define_camera(py::module_& module) {
         .def_readwrite("exposure_us", &Camera::exposure_us, "Exposure, in us.")
         .def_readwrite("gain", &Camera::gain, "Gain of the sensor.")
         .def_readwrite("sigma", &Camera::sigma,
-                       "Standard deviations from a calibration, by the key of the camera file.")
+                       "Standard deviations from a calibration, with the keys of the camera file.")
         .def(
             "undistorted",
             [](const Camera& self,

@@ -64,11 +64,11 @@ void define_field(py::module_& module) {
         .def_readonly("scale", &PrintField::scale, "PrintScale; None for a photo.")
         .def_readonly("spacing_px", &PrintField::spacing_px, "Spacing in the image, in px.")
         .def_readonly("residual_mm", &PrintField::residual_mm,
-                      "Rms distance of the dots from their fitted places, per axis, in mm.")
+                      "Rms distance of the dots from their fitted positions, per axis, in mm.")
         .def_readonly("scatter_mm", &PrintField::scatter_mm,
                       "Rms displacement of dots relative to their neighbours, per axis, in mm.")
         .def_readonly("largest_distortion_mm", &PrintField::largest_distortion_mm,
-                      "Maximum of the mean displacements of parts of the region, in mm.")
+                      "Largest mean displacement in any part of the region, in mm.")
         .def_readonly("cells", &PrintField::cells, "Number of cells in view that are not covered.")
         .def_readonly("missing", &PrintField::missing, "Number of cells without a dot.")
         .def_readonly("merged", &PrintField::merged, "Number of dots that touch a neighbour.")

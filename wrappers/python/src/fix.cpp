@@ -63,7 +63,7 @@ std::string text_of_fix(const SeenFix& self) {
                        fix.x_mm(), fix.y_mm(), fix.theta_rad(), fix.p_wrong());
 }
 
-/// Appends numbers to a list in the format of the lines of wrappers/golden.
+/// Appends numbers to a list, in the format of the golden lines (wrappers/golden).
 class Bits {
   public:
     template <typename Value>
@@ -87,7 +87,7 @@ class Bits {
         }
         put(plane.lens_q40);
     }
-    /// Appends the bytes of a number as they are in memory, because tests compare all bits.
+    /// Appends the bytes of a number as they are stored in memory, because tests compare all bits.
     template <typename Value>
     void put_bits(Value value) {
         list_.append(py::bytes(reinterpret_cast<const char*>(&value), sizeof value));
@@ -107,8 +107,8 @@ class Bits {
     py::list list_;
 };
 
-/// Returns the numbers of a line of wrappers/golden. Floating-point numbers are returned as bytes,
-/// to let tests compare their bits.
+/// Returns the numbers of the golden line of a fix (wrappers/golden). Floating-point numbers are
+/// returned as bytes, to let tests compare their bits.
 py::list bits(const SeenFix& self) {
     const Fix& fix = self.fix;
     Bits all;
@@ -198,7 +198,7 @@ void define_fields(py::class_<SeenFix>& seen_fix) {
 void define_evidence(py::class_<SeenFix>& fix) {
     fix.def_property_readonly(
            "code", [](const SeenFix& self) { return name(self.code); },
-           "Code that the position was read in: \"anoto\", \"libdots\" or \"microdots\".")
+           "Code in which the position was read: \"anoto\", \"libdots\" or \"microdots\".")
         .def_property_readonly("other", &other,
                                "A place in another code that also explains the frame, as (code, "
                                "cell, section), or None.")
@@ -212,8 +212,7 @@ void define_evidence(py::class_<SeenFix>& fix) {
 void define_prediction(py::module_& module) {
     py::class_<SeenPrediction>(module, "Prediction",
                                "The expected position of the pattern in the next frame. With a "
-                               "prediction, locate is faster, and as "
-                               "certain.")
+                               "prediction, locate is faster and equally certain.")
         .def_static("like", &SeenPrediction::like, "fix"_a,
                     "Return the prediction that the next frame has the same pose as a fix, which "
                     "must be ok.")

@@ -15,7 +15,8 @@
 namespace dotpose::python {
 namespace {
 
-/// Result for an image: the Python class Located. `track` is empty if the image was located alone.
+/// Result for an image: the Python class Located. `track` is empty if the image is not part of a
+/// sequence.
 struct SeenLocated {
     SeenFix fix;
     std::optional<SeenPlace> place;
@@ -129,15 +130,16 @@ void define_follower(py::module_& module) {
         .def_readonly("place", &SeenLocated::place,
                       "SheetPlace of the fix; None if the fix is on no sheet.")
         .def_readonly("space", &SeenLocated::space,
-                      "SpacePose of the camera; None without a fix or if it was not wanted.")
+                      "SpacePose of the camera; None without a fix or if it was not requested.")
         .def_readonly("tip", &SeenLocated::tip,
                       "TipPose of the pen in the pattern frame; None unless the camera has a tip "
                       "and the pose in space is known and not ambiguous.")
         .def_readonly("is_pen_down", &SeenLocated::is_pen_down, "True if the tip is on the paper.")
         .def_property_readonly(
             "map_use", [](const SeenLocated& self) { return name_of(self.map_use); },
-            "How the print map was used: 'used'; 'not_covered' if it contains too few of the dots "
-            "in view; 'contradicted' if it is of another print; 'no_map' without a map or a fix.")
+            "How the print map was used: 'used'; 'not_covered' if it contains too few of the "
+            "dots in view; 'contradicted' if it belongs to another print; 'no_map' without a map "
+            "or a fix.")
         .def_readonly("track", &SeenLocated::track,
                       "Track after the image; None from Follower.locate.")
         .def_readonly("space_track", &SeenLocated::space_track,
@@ -163,10 +165,12 @@ void define_follower(py::module_& module) {
              "print_map"_a = py::none(),
              "Make a follower.\n\n"
              "sheets: entries of the pages that may be in view; without sheets, poses are in the "
-             "pattern frame.\ncode, spacing_mm: code and spacing of the pattern without sheets.\n"
-             "only_sheets: whether no other sheet can be in view; smaller views suffice then.\n"
+             "pattern frame.\n"
+             "code, spacing_mm: code and spacing of the pattern without sheets.\n"
+             "only_sheets: true if no other sheet can be in view; smaller views are then "
+             "sufficient.\n"
              "camera, reference_px, options, keep_stages: as in Locator.\n"
-             "space: whether to find the pose of the camera in space, which needs a camera with a "
+             "space: true to fit the pose of the camera in space, which requires a camera with a "
              "focal length.\n"
              "print_map: PrintMap of the sheets, which corrects fixes and poses in space.\n"
              "Options of the tracker are given by name, as in Tracker.")

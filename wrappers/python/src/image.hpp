@@ -11,7 +11,7 @@ namespace dotpose::python {
 /// outlive the view. Throws TypeError with the expected and actual types.
 ImageView view_of(const py::handle& image);
 
-/// Returns an array that takes ownership of the pixels of the image.
+/// Returns an array that owns the pixels moved from the image.
 py::array_t<std::uint8_t> array_of(GreyImage&& image);
 
 /// Returns a copy of the pixels.

@@ -229,7 +229,7 @@ void define_locator(py::module_& module) {
         .def("_cpp_us", &LocatorOfPython::cpp_us, "image"_a, "repeats"_a)
         .def_property_readonly(
             "code", [](LocatorOfPython& self) { return name(self.code()); },
-            "The given code or, if it is detected, the likeliest code so far.");
+            "The given code or, if the code is detected, the most likely code so far.");
 }
 
 }  // namespace dotpose::python

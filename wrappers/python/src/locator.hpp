@@ -45,7 +45,7 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
     CodeVariant code();
 
   private:
-    /// Inputs of the newest frame, from which its stages can be computed again.
+    /// Inputs of the newest frame, from which its stages can be recomputed.
     struct Request {
         std::uint64_t number = 0;
         CodeEvidence evidence;  ///< evidence before the frame was located

@@ -6,8 +6,8 @@
 PYBIND11_MODULE(_dotpose, module) {
     using namespace dotpose::python;
     module.doc() = "The compiled part of dotpose; use the package dotpose.";
-    // The name of the module is changed while classes are defined. The classes then report the
-    // package as their module, which is where users find them.
+    // Renames the module while the classes are defined, so the classes report the package `dotpose`
+    // as their module, from which users import them.
     const py::object own_name = module.attr("__name__");
     module.attr("__name__") = "dotpose";
     module.attr("__version__") = DOTPOSE_VERSION;

@@ -38,7 +38,7 @@ void define_options(py::module_& module) {
     using Given = LocatorOptions;
     py::class_<Given>(
         module, "Options",
-        "Limits of locating. The defaults suit any camera. Ranges are in [brackets];\n"
+        "Options of a locator. The defaults suit any camera. Ranges are in [brackets];\n"
         "a locator raises BadArgument for a value that is out of range.")
         .def(py::init(&options_of), "Make options from keyword arguments: Options(min_dots=60).")
         .def_property(
@@ -54,8 +54,8 @@ void define_options(py::module_& module) {
             "Dots from which the position is read: \"all\", or \"window\" as in the paper.")
         .def_readwrite(
             "min_contrast", &Given::min_contrast,
-            "Minimum contrast between paper and dots, in grey levels. With less, a frame gets the "
-            "status no_contrast. Raise it for noisy cameras. [0 to 255]")
+            "Minimum contrast between paper and dots, in grey levels. Frames with less contrast "
+            "have the status no_contrast. Raise the minimum for noisy cameras. [0 to 255]")
         .def_readwrite("min_dots", &Given::min_dots,
                        "Minimum number of dots for the search for a grid. [0 to 2^20]")
         .def_readwrite("max_p_wrong", &Given::max_p_wrong,

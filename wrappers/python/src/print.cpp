@@ -15,8 +15,8 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// Adds sheets to a sheet file under a name, before their pages are written. Without a file, does
-/// nothing.
+/// Adds sheets to a sheet file under a name, before their pages are written. Does nothing if there
+/// is no sheet file.
 class Entering {
   public:
     Entering(const std::optional<Path>& file, const std::optional<std::string>& name)
@@ -156,9 +156,10 @@ void define_printing(py::module_& module) {
         "Write a sheet (default: that of make_sheet) as .pdf, .svg, .png, .tif or .txt, "
         "atomically. Return the sheet as written. Print it at 100 %.\n\n"
         "dpi: native resolution of the printer. dots: in a PDF, \"auto\", \"glyphs\" or "
-        "\"strokes\".\nlabels: text and rulers in the margins of a PDF.\n"
-        "sheet_file, name: also enter the sheet in a sheet file, with the next free region of the "
-        "code instead of its origin.");
+        "\"strokes\".\n"
+        "labels: text and rulers in the margins of a PDF.\n"
+        "sheet_file, name: also add the sheet to a sheet file, with the next free region of the "
+        "code instead of the given origin.");
 }
 
 py::tuple numbered(const OverlaidPage& page) {

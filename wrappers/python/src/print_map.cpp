@@ -1,4 +1,4 @@
-// Bindings for maps of the print: reading, writing and making them.
+// Bindings for print maps: reading, writing and creating them.
 #include "dotpose/files/print_map.hpp"
 
 #include <fmt/core.h>
@@ -25,7 +25,7 @@ PrintMapResult make_print_map(const py::iterable& images, const std::vector<Shee
                               const std::optional<PrintMap>& earlier) {
     PrintMapping mapping(
         {.sheets = sheets, .camera = camera, .earlier = earlier.value_or(PrintMap{})});
-    // Keeps only one image in memory.
+    // Reads the images one by one, to keep only one image in memory.
     for (const py::handle& image : images) {
         const Frame frame = frame_of(image);
         without_lock([&] { return mapping.add(pixels_of(frame).view()); });
@@ -67,8 +67,8 @@ void define_print_map(py::module_& module) {
         .def_readonly("slow_mm", &MappedPage::slow_mm,
                       "Rms of the slow distortion of the page, per axis, in mm.")
         .def_readonly("error_mm", &MappedPage::error_mm,
-                      "Standard deviation of the error of the map in a view, per axis, in mm; 0 if "
-                      "it is not known.")
+                      "Standard deviation of the error of the map in one view, per axis, in mm; "
+                      "0 if not known.")
         .def_readonly("is_rigid", &MappedPage::is_rigid,
                       "True if height and tilt of the camera were constant.");
     py::class_<PrintMapResult>(module, "PrintMapResult", "A new or updated map of the print.")

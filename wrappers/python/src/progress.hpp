@@ -1,5 +1,5 @@
-/// Runs long operations with the GIL released. Operations check regularly for Ctrl-C, and end after
-/// Ctrl-C.
+/// Runs long operations with the GIL released. The operations check for Ctrl-C regularly, and stop
+/// when it is pressed.
 #pragma once
 
 #include "binding.hpp"

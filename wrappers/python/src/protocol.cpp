@@ -45,11 +45,13 @@ void define_protocol(py::module_& module) {
         .def_readonly("located", &Station::located, "Number of correct fixes.")
         .def_readonly("wrong", &Station::wrong, "Number of wrong fixes.");
     py::class_<ProtocolResult>(module, "ProtocolResult", "The experiment on one page.")
-        .def_readonly("positions", &ProtocolResult::positions, "Stations on 200 x 200 mm, 11 x 11.")
-        .def_readonly("angles", &ProtocolResult::angles, "Stations at 36 angles, in the middle.");
+        .def_readonly("positions", &ProtocolResult::positions,
+                      "Stations at 11 x 11 positions on an area of 200 x 200 mm.")
+        .def_readonly("angles", &ProtocolResult::angles,
+                      "Stations at 36 angles, in the middle of the area.");
     py::class_<Protocol>(module, "Protocol", "The experiment on a perfect and on a printed page.")
         .def_readonly("perfect", &Protocol::perfect,
-                      "Results on a page with every dot in its intended place.")
+                      "Results on a page on which every dot is at its nominal position.")
         .def_readonly("printed", &Protocol::printed,
                       "Results on a page with the errors of a printer.");
     module.def(

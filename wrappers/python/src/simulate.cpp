@@ -14,7 +14,7 @@
 namespace dotpose::python {
 namespace {
 
-/// An imperfection that is a single number.
+/// An imperfection that is described by a single number.
 struct Effect {
     const char* name;
     double Imperfections::*member;
@@ -29,7 +29,8 @@ constexpr std::array kEffects = {
            "Standard deviation of a dot's reflectance."},
     Effect{"palest_ink", &Imperfections::palest_ink, "Contrast of the palest ink, 0 to 1."},
     Effect{"vignetting", &Imperfections::vignetting, "Loss of light in the corners, 0 to 1."},
-    Effect{"fall", &Imperfections::fall, "Change of light from side to side, 0 to 2."},
+    Effect{"fall", &Imperfections::fall,
+           "Change of brightness from one side of the image to the other, 0 to 2."},
     Effect{"blur_sigma_px", &Imperfections::blur_sigma_px,
            "Standard deviation of the blur of the lens, in px."},
     Effect{"noise_sigma", &Imperfections::noise_sigma,
@@ -39,8 +40,8 @@ constexpr std::array kEffects = {
     Effect{"salt_and_pepper", &Imperfections::salt_and_pepper,
            "Fraction of the pixels that are black or white, 0 to 1."},
     Effect{"jitter_mm", &Imperfections::jitter_mm,
-           "Standard deviation of a printed dot's place, per axis, in mm."},
-    Effect{"missing", &Imperfections::missing, "Share of the dots that are missing, 0 to 1."},
+           "Standard deviation of the position of a printed dot, per axis, in mm."},
+    Effect{"missing", &Imperfections::missing, "Fraction of the dots that are missing, 0 to 1."},
     Effect{"texture", &Imperfections::texture, "Standard deviation of the paper's reflectance."},
 };
 
@@ -50,8 +51,8 @@ struct SimulatedFrame {
     py::array_t<std::uint8_t> image;
 };
 
-/// Splits a coordinate in spacings into cell and fraction. Throws BadArgument if it is not on an
-/// axis of the pattern.
+/// Splits a coordinate, in spacings, into a cell and a fraction. Throws BadArgument if the
+/// coordinate is outside the pattern.
 void set_grid(double x, std::uint32_t& cell, double& fraction) {
     if (!(x >= 0 && x < kPositionsPerAxis)) throw BadArgument("the place is not on the pattern");
     cell = static_cast<std::uint32_t>(x);
@@ -195,9 +196,10 @@ void define_simulate(py::module_& module) {
         "height_px"_a = 120, "mm_per_px"_a = 0.046, "k_per_px2"_a = 0.0, "first"_a = 0,
         "Return simulated frames, a list of SimulatedFrame, the same on every machine.\n\n"
         "preset: \"clean\", \"nominal\" or \"hard\". section: (u, v); default: random for each "
-        "frame.\nmm_per_px: size of a pixel on the paper, in mm. k_per_px2: distortion of the "
-        "lens, in 1/px^2.\nfirst: number of the first frame of the run, so that runs can be "
-        "continued.");
+        "frame.\n"
+        "mm_per_px: size of a pixel on the paper, in mm. k_per_px2: distortion of the lens, in "
+        "1/px^2.\n"
+        "first: number of the first frame, to continue an earlier run.");
 }
 
 }  // namespace dotpose::python

@@ -35,7 +35,7 @@ void define_world_pose(py::module_& module) {
 
 void define_tip(py::module_& module) {
     py::class_<TipPose>(module, "TipPose",
-                        "Place of the tip of a pen, in the pattern frame or on a page.")
+                        "Position of the tip of a pen, in the pattern frame or on a page.")
         .def_readonly("x_mm", &TipPose::x_mm, "x, in mm.")
         .def_readonly("y_mm", &TipPose::y_mm, "y, downwards, in mm.")
         .def_readonly("height_mm", &TipPose::height_mm,
@@ -57,7 +57,7 @@ void define_tip(py::module_& module) {
         .def(
             "on_sheet",
             [](const TipPose& tip, const SheetEntry& entry) { return on_sheet(tip, entry); },
-            "entry"_a, "TipPose from the top left corner of a page.");
+            "entry"_a, "TipPose relative to the top left corner of a page.");
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ void define_space(py::module_& module) {
         "camera, x right and y down in the image, z forward.")
         .def_property_readonly(
             "position_mm", [](const SpacePose& p) { return position_of(p.camera); },
-            "Position (x, y, z) of the projection centre in the pattern frame, in mm; z is below "
-            "0 above the paper.")
+            "Position (x, y, z) of the projection centre in the pattern frame, in mm; z is "
+            "negative above the paper.")
         .def_property_readonly(
             "quaternion", [](const SpacePose& p) { return tuple_of(p.camera.rotation); },
             "Rotation (x, y, z, w) from the camera frame to the pattern frame.")
@@ -85,7 +85,7 @@ void define_space(py::module_& module) {
             "Direction on the paper in which the camera leans, clockwise, in rad.")
         .def_property_readonly(
             "turn_rad", [](const SpacePose& p) { return lean_of(p.camera.rotation).turn_rad; },
-            "Angle of the image x axis before the camera leans, clockwise, in rad.")
+            "Angle of the image x axis on the paper after removal of the tilt, clockwise, in rad.")
         .def_property_readonly(
             "covariance", [](const SpacePose& p) { return array_of(p.covariance); },
             "Covariance of the position, in mm, and of a small rotation vector in the camera "
@@ -109,9 +109,9 @@ void define_space(py::module_& module) {
             [](const SpacePose& p, const SheetEntry& entry) {
                 return position_of(on_sheet(p.camera, entry));
             },
-            "entry"_a, "Position (x, y, z) from the top left corner of a page, in mm.")
+            "entry"_a, "Position (x, y, z) relative to the top left corner of a page, in mm.")
         .def("in_world", &in_world_of, "entry"_a,
-             "WorldSpacePose for the page of an entry; None if the page has no place in the world.")
+             "WorldSpacePose for the page of an entry; None if the page has no pose in the world.")
         .def("__repr__", [](const SpacePose& p) {
             return fmt::format("<SpacePose ({:.3f}, {:.3f}, {:.3f}) mm, tilt {:.4f} rad>",
                                p.camera.x_mm, p.camera.y_mm, p.camera.z_mm,

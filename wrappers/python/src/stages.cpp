@@ -8,12 +8,13 @@ namespace {
 template <typename T>
 std::vector<T> kept(std::span<const T>& shown) {
     std::vector<T> copy(shown.begin(), shown.end());
-    // Remains valid after `copy` is moved, because moving a vector does not move its elements.
+    // `shown` remains valid after `copy` is moved, because moving a vector does not move its
+    // elements.
     shown = copy;
     return copy;
 }
 
-/// Returns a camera with only the lens of the options.
+/// Returns a camera that contains only the lens of the options.
 Camera camera_of(const FixedLens& lens, int width_px, int height_px) {
     Camera camera;
     camera.width_px = width_px;

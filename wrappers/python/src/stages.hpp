@@ -1,4 +1,5 @@
-/// Stages: the intermediate results of a locator for one frame, kept while a fix refers to them.
+/// Stages: the intermediate results of a locator for one frame, which exist as long as a fix refers
+/// to them.
 #pragma once
 
 #include <cstdint>

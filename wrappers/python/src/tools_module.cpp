@@ -5,7 +5,8 @@
 PYBIND11_MODULE(_tools, module) {
     using namespace dotpose::python;
     module.doc() = "The tools of dotpose; use the package dotpose.";
-    // The classes of _dotpose must be known before they occur in the signatures of this module.
+    // The classes of _dotpose must be registered before they occur in the signatures of this
+    // module.
     py::module_::import("dotpose._dotpose");
     const py::object own_name = module.attr("__name__");
     module.attr("__name__") = "dotpose";

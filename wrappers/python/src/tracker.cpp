@@ -147,7 +147,7 @@ void define_track(py::module_& module) {
                       "The state of a robot after a frame. Its plane is the pattern (mm, y DOWN), "
                       "or the world of a sheet file (mm, y up).")
         .def_readonly("is_lost", &Track::is_lost,
-                      "True if the robot was not seen for too long. The pose is then nan.")
+                      "True if the robot has not been seen for too long. The pose is then nan.")
         .def_readonly("is_stationary", &Track::is_stationary, "True if the robot is at rest.")
         .def_property_readonly(
             "verdict", [](const Track& self) { return name(self.verdict); },
@@ -236,10 +236,9 @@ void define_tracker(py::module_& module) {
         .def("update", &TrackerOfPython::update, "time_us"_a, "fix"_a = py::none(),
              "motion"_a = py::none(),
              "Update the tracker with the next frame: its time in us on any clock, and its Fix, "
-             "which "
-             "need not be ok. Return the Track after the frame. motion: the MeasuredMotion since "
-             "the "
-             "previous update, from odometry; without fixes, motions carry the pose on.")
+             "which need not be ok. Return the Track after the frame. motion: the MeasuredMotion "
+             "since the previous update, from odometry; without fixes, only the motions update "
+             "the pose.")
         .def("predict", &TrackerOfPython::predict, "time_us"_a,
              "Return the Prediction for a frame at the given time; None while the robot is lost.")
         .def_property_readonly(

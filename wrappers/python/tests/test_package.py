@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parents[1]
 PROGRAM = "import dotpose; print(dotpose.__file__, dotpose.Locator().locate(dotpose.simulate(1)[0].image))"
 
 
-# Libraries that a wheel for Linux may need, by the policy manylinux_2_28.
+# Libraries that a wheel for Linux may need under the manylinux_2_28 policy.
 PERMITTED = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "libgcc_s.so.1", "libstdc++.so.6",
              "ld-linux-x86-64.so.2"}
 ONLY_LOCATES = """
@@ -92,7 +92,7 @@ def test_a_wheel_of_the_core_needs_numpy_only(tmp_path):
     pytest.importorskip("build")
     if not os.environ.get("DOTPOSE_BUILD"):
         pytest.skip("compiles the core, as the nightly tests do")
-    # Builds a copy, because setuptools writes beside the sources.
+    # Builds a copy, because setuptools writes files next to the sources.
     copy = tmp_path / "checkout" / "wrappers" / "python"
     shutil.copytree(HERE, copy, ignore=shutil.ignore_patterns("build", "dist", "*.egg-info", "__pycache__"))
     os.symlink(HERE.parents[1], copy / "source")

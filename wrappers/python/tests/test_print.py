@@ -133,7 +133,7 @@ def test_a_print_is_checked(tmp_path):
     assert field.dots == field.cells == field.columns * field.rows
     check.draw(tmp_path / "scan.svg")
     assert "<svg" in (tmp_path / "scan.svg").read_text()
-    # With a lower resolution, the same pixels are a page that was printed too large.
+    # At a lower resolution, the same pixels show a page that was printed too large.
     scaled = dotpose.check_print(dotpose.read_image(path), dpi=580)
     assert not scaled.is_good
     assert scaled.fields[0].scale.scale_x == pytest.approx(600 / 580, abs=1e-4)

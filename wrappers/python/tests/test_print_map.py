@@ -1,4 +1,4 @@
-"""Tests maps of the print on simulated frames."""
+"""Tests print maps on simulated frames."""
 
 import copy
 import random
@@ -39,10 +39,11 @@ def result(entry):
 
 
 def error_um(follower, shots):
-    """Returns the rms error of the fixes, per axis, without the mean offset, turn and scale.
+    """Returns the rms error of the fixes, per axis, after removal of the mean offset, rotation and
+    scale.
 
-    A map sets the mean offset, turn and scale of the dots of a print to 0. On a page of this size,
-    they are about 0.2 um in truth.
+    By definition, the dots of a map have no mean offset, rotation or scale error. The true errors
+    of the print in these terms are about 0.2 um on a page of this size.
     """
     rows, errors = [], []
     for shot in shots:

@@ -1,4 +1,5 @@
-"""Tests threads that run concurrently with one locator each, or sequentially with a shared locator."""
+"""Tests threads that each have a locator and run concurrently, and threads that share a locator and
+run one after another."""
 
 import os
 import threading
@@ -72,7 +73,7 @@ def test_the_interpreter_goes_on_while_a_thread_locates():
         noted.clear()
     stop.set()
     noter.join()
-    # If locate held the GIL, times would be recorded only before and after it.
+    # If `locate` held the GIL, the other thread would record times only before and after the call.
     assert sum(0.2 < share < 0.8 for share in shares) >= 5
 
 

@@ -1,4 +1,4 @@
-// Tests the parameters of the node: their types, their ranges and the files that they name.
+// Tests the parameters of the node: their types and ranges, and the files that they name.
 #include "parameters.hpp"
 
 #include <cmath>

@@ -1,5 +1,4 @@
-// Tests RobotLocator without ROS, with the members of ROS images and messages: stamps, lenses and
-// diagnostics.
+// Tests RobotLocator without ROS: its handling of stamps, lenses and diagnostics.
 #include "robot_locator.hpp"
 
 #include <cmath>
@@ -207,7 +206,7 @@ TEST_F(RosLocator, TakesTheFirstLensThatItCanUse) {
     none.k = {};
     EXPECT_THAT(locator_.take(none), HasSubstr("never calibrated"));
     EXPECT_EQ(locator_.take(none),
-              "");  // the problem is reported once, though each image has a camera_info
+              "");  // the problem is reported only once, although each image has a camera_info
     EXPECT_EQ(status_from(0).level, kOk);
 
     Lens fisheye = lens_of(188, 120);

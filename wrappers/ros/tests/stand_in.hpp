@@ -15,7 +15,7 @@
 
 #include <dotpose/tools/ros_messages.hpp>
 
-// The members of these messages are those of ROS, which robots.Cdr.TypesAreDefinedAsInRos checks.
+// These messages have the same members as in ROS, as robots.Cdr.TypesAreDefinedAsInRos checks.
 namespace std_msgs::msg {
 using dotpose::ros::Header;
 }

@@ -1,4 +1,5 @@
-// Locators of large images. Replaces dotpose_locator_init, which would also link the other kinds.
+// Locators for large images. Replaces dotpose_locator_init, which would also link the other kinds
+// of locators.
 #include "locator.hpp"
 
 using Large = dotpose::c::LocatorOf<dotpose::LargeMemory, dotpose::Locator>;

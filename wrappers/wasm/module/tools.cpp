@@ -144,8 +144,8 @@ void __wasi_proc_exit(std::uint32_t) {
     __builtin_trap();
 }
 
-// Called when the memory has grown. The loader recreates its views after each call. The function
-// exists only to avoid an import.
+// Called when the memory has grown. Does nothing, because the loader recreates its views after each
+// call. Without this definition, the module would import the function.
 void emscripten_notify_memory_growth(std::size_t) {}
 
 /// Returns the message of the error that ended the instance, or "" if there was no error.

@@ -2,7 +2,7 @@
 import { compile, hasSimd, type Instance, type WasmSource } from "./instance.js";
 
 /**
- * Returns the given module or, by default, the module in the file beside this one: the core or, if
+ * Compiles the given module. By default, compiles a module next to this file: the core or, if
  * `has_space` is true, the core with poses in space and print maps.
  */
 export function coreModule(wasm?: WasmSource, has_space = false): Promise<WebAssembly.Module> {

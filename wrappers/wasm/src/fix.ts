@@ -119,9 +119,9 @@ export function patternFromImage(
     u_px: number,
     v_px: number,
 ): {
-    /** Position in the pattern frame, to the right. */
+    /** x in the pattern frame, to the right. */
     x_mm: number;
-    /** Position in the pattern frame, downwards. */
+    /** y in the pattern frame, downwards. */
     y_mm: number;
 } {
     const plane = planeOf(fix);

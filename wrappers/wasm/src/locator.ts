@@ -18,16 +18,16 @@ export interface Image {
     width: number;
     /** Height in px. */
     height: number;
-    /** Distance between the starts of two rows, in bytes. Default: `width`. */
+    /** Distance between the starts of consecutive rows, in bytes. Default: `width`. */
     stride?: number;
 }
 
 /** Options of a locator. The defaults suit any camera. */
 export interface LocatorOptions {
     /**
-     * Code of the sheets. The default "auto" detects the code from the frames. If a frame is
-     * ambiguous, further frames of the same locator resolve the ambiguity. Until then, frames have
-     * the status "ambiguous_code".
+     * Code of the sheets. The default "auto" detects the code from the frames. While the code is
+     * ambiguous, frames have the status "ambiguous_code", until further frames of the same locator
+     * resolve the ambiguity.
      */
     code?: Code | "auto";
     /** Spacing of the printed grid. Default: 0.508. */
@@ -46,11 +46,12 @@ export interface LocatorOptions {
      * located again. Default: 2.
      */
     attempts?: 1 | 2;
-    /** Maximum probability of a wrong position. Other positions are refused. Default: 1e-9. */
+    /** Maximum probability that a position is wrong. Less certain positions are refused. Default:
+     * 1e-9. */
     max_p_wrong?: number;
     /**
-     * Sheets that may be in view. Views of about 30 dots, in images of at least 24 x 24 px, are
-     * then sufficient. Default: none, which makes all places possible.
+     * Sheets that may be in view. About 30 dots in view, in images of at least 24 x 24 px, are then
+     * enough for a fix. Default: none, which makes all places possible.
      */
     sheets?: readonly KnownRegion[];
     /** True if only places on `sheets` are possible. Default: false. */
@@ -65,27 +66,29 @@ export interface LocatorOptions {
     space?: SpaceCamera;
     /**
      * Contents of a print map file, from `dotpose calibrate --print-map`. Fixes and poses in space
-     * on its pages are corrected (`Fix.map_use`). Locate without predictions for the highest
-     * accuracy: a tracked frame measures the dots in windows at their nominal places. The locator
-     * then uses the same larger module as with `space`. Default: none.
+     * on its pages are corrected (`Fix.map_use`). For the highest accuracy, locate without
+     * predictions, because tracking measures the dots in windows at their nominal positions. Like
+     * `space`, this option makes the locator use the larger module. Default: none.
      */
     print_map?: Uint8Array;
-    /** The core module, as a URL, bytes or a compiled module. Default: the file beside this one. */
+    /** The core module, as a URL, bytes or a compiled module. Default: the file next to this
+     * one. */
     wasm?: WasmSource;
 }
 
 /** Options of one frame. */
 export interface FrameOptions {
     /**
-     * Fix of the previous frame, or the prediction of a tracker. The search starts at the expected
-     * position of the pattern, which takes a fraction of the time. If the frame does not confirm
-     * the prediction, or if the fix is not ok, the frame is located without a prediction.
+     * Fix of the previous frame, or the prediction of a tracker. Locating then starts at the
+     * expected position of the pattern, and takes only a fraction of the time. If the frame does
+     * not confirm the prediction, or if the fix is not ok, the frame is located without a
+     * prediction.
      */
     prediction?: Fix | Prediction | null | undefined;
     /**
-     * Motion of the camera since the previous frame. Frames that are not certain alone are then
-     * read together with the previous frames, and `frames` of the fix is their number. Give a
-     * motion with every frame of a series, also with the first. A frame without a motion ends the
+     * Motion of the camera since the previous frame. If a frame alone is not certain, it is read
+     * together with the previous frames, and `frames` of the fix is the number of frames read. Give
+     * a motion with every frame of a series, including the first. A frame without a motion ends the
      * series. If the previous frame was located, the search starts at the position to which the
      * motion leads, so a motion replaces a prediction.
      */
@@ -174,7 +177,8 @@ export class Locator {
         return fix;
     }
 
-    /** Sets the sheets that may be in view. The module reads them in each frame. */
+    /** Sets the sheets that may be in view. The regions remain in the module's memory, because the
+     * core reads them in each frame. */
     #know(sheets: readonly KnownRegion[], only_sheets: boolean): void {
         const regions = this.#core.reserve(sheets.length * kRegionBytes);
         const view = this.#core.view(regions, sheets.length * kRegionBytes);
@@ -201,7 +205,8 @@ export class Locator {
         const needed = height === 0 ? 0 : (height - 1) * stride + width;
         if (data.length < needed)
             throw new RangeError(`the image needs ${needed} bytes, its data has ${data.length}`);
-        // If the core refuses the image size, it does not read the pixels, so they are not copied.
+        // Does not copy the pixels if the core will refuse the image size, because it then does not
+        // read them.
         const is_refused = Math.max(width, height) > kMaxFrameSide_px;
         const pixels = this.#room(is_refused ? 1 : width * height);
         if (is_refused) return stride;

@@ -31,8 +31,8 @@ export type Prior = (typeof kPriors)[number];
 export const kMapUses = ["no_map", "used", "not_covered", "contradicted"] as const;
 /**
  * Use of a print map: `no_map` without a map of the page in view, `used` if the fix is corrected,
- * `not_covered` if the map contains too few of the dots in view, and `contradicted` if the map is
- * of another print.
+ * `not_covered` if the map contains too few of the dots in view, and `contradicted` if the map
+ * belongs to another print.
  */
 export type MapUse = (typeof kMapUses)[number];
 

@@ -12,7 +12,7 @@ const kLensCentreOffset = 32;
 const kPointerBytes = 4;
 const kDetectCode = -1;
 
-/** Sets up a locator, and returns its address. Throws RangeError for invalid options. */
+/** Sets up a locator and returns its address. Throws RangeError for invalid options. */
 export function newLocator(core: Instance, options: LocatorOptions): number {
     const { attempts = 2, code = "auto" } = options;
     if (attempts !== 1 && attempts !== 2) throw new RangeError(`attempts are 1 or 2, not ${String(attempts)}`);

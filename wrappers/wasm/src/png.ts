@@ -36,8 +36,8 @@ function header({ width_px, height_px }: Raster): Uint8Array {
 }
 
 /**
- * Returns the chunk with the number of pixels per metre. It makes programs print the page at its
- * true size.
+ * Returns the chunk with the number of pixels per metre, from which programs determine the true
+ * size of the page.
  */
 function size(dpi: number): Uint8Array {
     const bytes = new Uint8Array(9);

@@ -1,4 +1,4 @@
-// Maps of the print, applied by wrappers/c/space/dotpose_print_map.h.
+// Print maps, applied by the functions of wrappers/c/space/dotpose_print_map.h.
 import { callOk, callSpace } from "./core.js";
 import type { Instance } from "./instance.js";
 import { kMapUses, type MapUse } from "./names.js";
@@ -27,7 +27,7 @@ export class PrintMap {
         this.address = core.view(pointer, kPointerBytes).getUint32(0, true);
     }
 
-    /** Replaces the fix of the newest image by the corrected fix, if the map can be used. */
+    /** Replaces the fix of the newest image with the corrected fix, if the map can be used. */
     correct(locator: number, fix: number): MapUse {
         callOk(this.#core, "dotpose_print_map_correct", this.address, locator, fix, this.#use);
         return kMapUses[this.#core.view(this.#use, kUseBytes).getInt32(0, true)]!;

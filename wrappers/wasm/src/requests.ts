@@ -45,20 +45,20 @@ export interface Camera {
 
 /** Pose of the simulated camera. */
 export interface CameraPose {
-    /** Position of the pattern point at the image centre, to the right. */
+    /** x of the pattern point at the image centre. x increases to the right. */
     x_mm: number;
-    /** Position of the pattern point at the image centre, downwards. */
+    /** y of the pattern point at the image centre. y increases downwards. */
     y_mm: number;
     /** Angle of the image's x axis in the pattern, clockwise as seen on the paper. */
     theta_rad?: number;
     /**
-     * Tilt about the image x axis. If positive, the paper recedes towards the bottom of the
-     * image.
+     * Tilt about the image x axis. If positive, the paper is farther from the camera at the bottom
+     * of the image.
      */
     tilt_x_rad?: number;
     /**
-     * Tilt about the image y axis. If positive, the paper comes closer towards the right of the
-     * image.
+     * Tilt about the image y axis. If positive, the paper is closer to the camera at the right of
+     * the image.
      */
     tilt_y_rad?: number;
 }
@@ -77,7 +77,8 @@ export interface Imperfections {
     vignetting?: number;
     /** Change of the brightness from one side of the image to the other, 0 to 2. */
     fall?: number;
-    /** Direction in which the light decreases, from the image x axis towards the y axis (down). */
+    /** Direction of decreasing brightness: angle from the image x axis towards the y axis
+     * (down). */
     fall_direction_rad?: number;
     /** Standard deviation of the Gaussian blur, 0 to 100. */
     blur_sigma_px?: number;

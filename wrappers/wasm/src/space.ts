@@ -1,4 +1,4 @@
-// Poses of the camera in space, fitted by wrappers/c/space/dotpose_space.h.
+// Poses of the camera in space, fitted by the functions of wrappers/c/space/dotpose_space.h.
 import { callOk, callSpace } from "./core.js";
 import type { Instance } from "./instance.js";
 import type { LocatorOptions } from "./locator.js";
@@ -37,7 +37,7 @@ export interface SpacePose extends PoseInSpace {
     tilt_rad: number;
     /** Direction on the paper in which the camera leans, clockwise from +x. */
     azimuth_rad: number;
-    /** Angle of the image x axis before the camera leans, clockwise from +x. */
+    /** Angle of the image x axis on the paper after removal of the tilt, clockwise from +x. */
     turn_rad: number;
     /**
      * Covariance of the position, in mm, and of a small rotation vector in the camera frame, in
@@ -77,7 +77,7 @@ export interface StoredImage {
     stride: number;
 }
 
-/** Fits poses in space to the images that a locator located. */
+/** Fits poses in space to images that a locator has located. */
 export class SpaceFitter {
     readonly #core: Instance;
     readonly #given: SpaceCamera;
@@ -101,8 +101,8 @@ export class SpaceFitter {
     }
 
     /**
-     * Returns the pose of the camera, or null if the dots do not determine it. `map` corrected the
-     * fix of the image.
+     * Returns the pose of the camera, or null if the dots do not determine it. `map` is the print
+     * map that corrected the fix of the image, or null.
      */
     fit(locator: number, image: StoredImage, map: PrintMap | null): SpacePose | null {
         const core = this.#core;

@@ -56,7 +56,7 @@ export class Tools {
         this.#instance = instance;
     }
 
-    /** Loads the module. `wasm` is required if the module is not beside this file. */
+    /** Loads the module. `wasm` is required if the module is not next to this file. */
     static async create(wasm?: WasmSource): Promise<Tools> {
         const module = await compile(wasm ?? new URL("./dotpose-tools.wasm", import.meta.url));
         return new Tools(module, await Instance.start(module));

@@ -51,8 +51,8 @@ export interface TrackOptions {
     /** Time without movement after which the robot is stationary. Default: 500000. */
     stationary_after_us?: number;
     /**
-     * Standard deviation of the position above which the robot is lost if only motions are known.
-     * Default: 5.
+     * Maximum standard deviation of the position while only motions update the pose. Above this
+     * limit, the robot is lost. Default: 5.
      */
     max_sigma_mm?: number;
     /** The core module, as in the options of Locator.create. */
@@ -63,7 +63,7 @@ export interface TrackOptions {
 export interface Track {
     /** Time of the pose. */
     time_us: number;
-    /** True if the robot was not seen for too long. */
+    /** True if the robot has not been seen for too long. */
     is_lost: boolean;
     /** True if the robot is at rest. */
     is_stationary: boolean;
@@ -73,9 +73,9 @@ export interface Track {
     events: TrackEvent[];
     /** Upper bound of the probability that the pose is wrong, given the previous frames. */
     p_wrong: number;
-    /** Position in the pattern, to the right. */
+    /** x in the pattern, to the right. */
     x_mm: number;
-    /** Position in the pattern, DOWN the page. */
+    /** y in the pattern, DOWN the page. */
     y_mm: number;
     /** Angle of the image x axis, from +x towards +y, in [-pi, pi). */
     theta_rad: number;
@@ -119,7 +119,7 @@ const kSightingBytes = 80;
 const kTrackBytes = 232;
 
 /**
- * Follows a robot from the fixes of its frames, and from odometry.
+ * Follows a robot, using the fixes of its frames and odometry.
  *
  *     const tracker = await Tracker.create();
  *     const fix = locator.locate(image, { prediction: tracker.predict(time_us) });
@@ -138,8 +138,8 @@ export class Tracker {
     readonly #track: number;
     readonly #prediction: number;
     /**
-     * Locators by code. They never locate a frame. The library needs the options of a locator for a
-     * prediction.
+     * Locators by code. They are not used to locate frames. The library requires a locator for a
+     * prediction, because it needs the options of the locator.
      */
     readonly #locators = new Map<Code, number>();
     /** Code of the newest fix. */
@@ -160,7 +160,7 @@ export class Tracker {
         callOk(core, "dotpose_tracker_init", this.#tracker, given);
     }
 
-    /** Creates a tracker of a robot that is lost. Throws RangeError for invalid options. */
+    /** Creates a tracker in the state `lost`. Throws RangeError for invalid options. */
     static async create({ wasm, ...options }: TrackOptions = {}): Promise<Tracker> {
         return new Tracker(await Instance.start(await coreModule(wasm)), options);
     }

@@ -8,8 +8,8 @@ export type Request = { id: number } & (
 );
 
 /**
- * The part of a worker's global object that this file uses. The TypeScript types of pages do not
- * contain it.
+ * The members of a worker's global object that this file uses. TypeScript's types for pages do not
+ * declare them.
  */
 interface Scope {
     onmessage: ((event: MessageEvent<Request>) => void) | null;

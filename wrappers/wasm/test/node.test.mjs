@@ -83,7 +83,7 @@ describe("Locator", () => {
     test("frames of a moving camera that are not certain alone are read together", async () => {
         const camera = { width_px: 80, height_px: 80 };
         const imperfections = { noise_sigma: 3, blur_sigma_px: 0.5 };
-        // The sigmas are larger than the error of the motion, which is 0.
+        // The standard deviations are larger than necessary, because the motion has no error.
         const step_mm = 3 * 0.508;
         const motion = { right_mm: step_mm, down_mm: step_mm, sigma_mm: 0.02, sigma_rad: 0.005 };
         const frame = (k) => {
@@ -240,7 +240,8 @@ describe("Tracker", () => {
         assert.equal(carried.is_lost, false);
         assert.equal(carried.verdict, "none");
         assert.ok(Math.abs(carried.x_mm - x_mm(59)) < 0.1, `${carried.x_mm}`);
-        // Twenty independent errors of 0.01 mm, and the errors of the heading.
+        // The variance is the sum of twenty independent errors of 0.01 mm and of the errors of the
+        // heading.
         assert.ok(carried.covariance[0] > 0.9 * 20 * 0.01 ** 2 && carried.covariance[0] < 0.1 ** 2, `${carried.covariance[0]}`);
         assert.equal(lost.is_lost, true);
         assert.ok(Number.isNaN(lost.x_mm) && Number.isNaN(lost.covariance[0]));

@@ -1,4 +1,5 @@
-// Tests print maps in Node: against the fixes and poses of the command-line tool with the same map.
+// Tests print maps in Node. Compares fixes and poses with the results of the command-line tool for
+// the same map.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -15,7 +16,8 @@ const kCamera = { width_px: 320, height_px: 240, mm_per_px: 0.046, working_dista
 const kFocal_px = kDistance_mm / kCamera.mm_per_px;
 const kSheet = { width_mm: kPage_mm, height_mm: kPage_mm, margin_mm: 0, origin: kOrigin };
 
-/** Returns numbers from 0 to 1, equal in every run. */
+/** Returns a function that generates pseudo-random numbers from 0 to 1, which are the same in every
+ * run. */
 function random(seed) {
     let state = seed;
     return () => (state = (state * 48271) % 0x7fffffff) / 0x7fffffff;
@@ -38,9 +40,10 @@ function withSum(bytes) {
     return bytes;
 }
 
-/** Offset of the number of columns of the first page, whose sheet has this name (docs/print-map.md). */
+/** Offset in a map file of the number of columns of the first page, whose sheet is `name`
+ * (docs/print-map.md). */
 const columnsAt = (name) => 20 + name.length + 3 + 8;
-/** Offset of the numbers of views of the dots of this page. */
+/** Offset of the array that contains the number of views of each dot of this page. */
 const viewsAt = (name, dots) => columnsAt(name) + 8 + 8 + 4 + 16 + 4 * dots;
 
 const near = (expected, actual, tolerance) =>
@@ -86,7 +89,8 @@ describe("print map", () => {
 
     test("fixes are those of the tool, and more accurate than without the map", async () => {
         const without = await dotpose.Locator.create({ ...options, print_map: undefined });
-        // The frames show only the page, because the tool also cuts away what is beside a page.
+        // The page fills the frames, because the tool, unlike the module, removes everything
+        // outside the page.
         const next = random(2);
         let [squares, squares_without] = [0, 0];
         for (let k = 0; k < 6; ++k) {

@@ -1,7 +1,6 @@
-// Board of the example. Replace this file with the port for your board. extras/boards contains
-// ports for ESP32-CAM, RP2040 and STM32. The board of this file has no camera and delivers white
-// frames. Packets with the status `no_contrast` therefore show that everything except the camera
-// works.
+// Placeholder for a board. Replace this file with the port for your board. extras/boards contains
+// ports for ESP32-CAM, RP2040 and STM32. This placeholder has no camera and delivers white frames,
+// so packets with the status `no_contrast` show that everything except the camera works.
 #include "board.hpp"
 
 #include <Arduino.h>

@@ -1,5 +1,5 @@
-// Tests the C functions for poses in space: against true poses, against the C++ library, and
-// misuse.
+// Tests the C functions for poses in space: compares the poses with the true poses and with the C++
+// library, and checks misuse.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -89,7 +89,7 @@ TEST_F(SpaceInC, IsPrintedByACProgram) {
 }
 
 TEST_F(SpaceInC, ReportsTheSecondPose) {
-    // A lens with a focal length of 20,000 px shows no perspective.
+    // With a focal length of 20,000 px, the image has no visible perspective.
     dotpose::Setup setup;
     setup.camera.working_distance_mm = 20'000 * setup.camera.mm_per_px;
     setup.seed = 21;
@@ -135,7 +135,7 @@ TEST_F(SpaceInC, FindsTheTipOfAPen) {
     EXPECT_NEAR(std::sqrt(tip.covariance_mm2[8]), 0.1 * std::cos(kTilt_rad), 0.01);
     EXPECT_EQ(dotpose_space_update_contact(&tip, &is_down), DOTPOSE_OK);
     EXPECT_EQ(is_down, 0);
-    // The pen touches the paper at a measured height of 1 mm if this is its height at rest.
+    // If the measured height at rest is 1 mm, a pen at this height touches the paper.
     pen.rest_mm = 1;
     ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
     EXPECT_NEAR(tip.height_mm, 0, 0.03);

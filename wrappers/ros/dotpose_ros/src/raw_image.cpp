@@ -26,7 +26,7 @@ constexpr Weights kSecond = {0, kWhole, 0, 0};
 constexpr Weights kRgb = {299, 587, 114, 0};
 constexpr Weights kBgr = {114, 587, 299, 0};
 
-/// nv12 and similar planar encodings are treated as grey, because their first plane is the luma.
+/// Planar encodings such as nv12 are treated as grey, because their first plane is the luma.
 constexpr std::array kEncodings = {
     Encoding{"mono8", 1, 1, kFirst},
     Encoding{"8UC1", 1, 1, kFirst},
@@ -95,8 +95,8 @@ class Levels {
     }
 
     /// Replaces each pixel with the weighted mean of 3 x 3 pixels, with the weights 1 2 1 along
-    /// both axes. Wherever the pixel is in a mosaic, half of the weight is on green pixels, and a
-    /// quarter each on red and blue pixels.
+    /// both axes. At every pixel of a mosaic, green pixels have half of the total weight, and red
+    /// and blue pixels a quarter each.
     void mix_colours() {
         std::vector<std::uint16_t> mixed(levels_.size());
         for (std::size_t v = 0; v < height_; ++v) {
@@ -140,7 +140,7 @@ class Levels {
     }
 
     /// Returns the index of a neighbour of `place`. At an edge, returns the neighbour on the
-    /// opposite side, which has the same colour in a mosaic as the missing one.
+    /// opposite side, which has the same colour in a mosaic as the missing neighbour.
     static std::size_t beside(std::size_t place, std::size_t size, int step) {
         if (size < 2) return place;
         const bool is_beyond = step < 0 ? place == 0 : place + 1 == size;

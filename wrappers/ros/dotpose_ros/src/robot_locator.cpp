@@ -14,11 +14,11 @@ namespace ros = dotpose::ros;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// Number of consecutive images whose stamps do not increase, after which this is reported as an
-/// error.
+/// Number of consecutive images without increasing stamps after which an error is reported.
 constexpr int kStandstill = 3;
 
-/// Formats a lens as the text of a camera_info file, because reading the text applies all checks.
+/// Formats a lens as the text of a camera_info file, because the parser of this text checks all
+/// values.
 std::string camera_info_text(const Lens& lens) {
     std::ostringstream text;
     text.precision(17);
@@ -56,7 +56,7 @@ std::string RobotLocator::missing_lens() const {
                                     : "";
 }
 
-/// Starts tracking again. Poses in space begin when the lens is known.
+/// Restarts tracking. Poses in space are fitted only if the lens is known.
 void RobotLocator::restart() {
     dotpose::FollowerOptions options = options_;
     options.fits_space_pose = options_.fits_space_pose && has_lens_;
@@ -102,7 +102,7 @@ bool RobotLocator::is_status_due(const std::string& status, std::int64_t arrival
     return true;
 }
 
-/// Compares the time of an image with those of earlier images.
+/// Compares the time of an image with the times of earlier images.
 RobotLocator::Order RobotLocator::order_of(std::int64_t time_us) {
     const bool is_newer_than_last = time_us > std::exchange(last_us_, time_us);
     if (time_us <= newest_us_ && !is_newer_than_last) return Order::left_out;

@@ -1,5 +1,5 @@
-/// RobotLocator computes the messages of a robot from the images of its camera. It contains
-/// everything that the node does between its subscriptions and its publishers.
+/// RobotLocator computes the messages of a robot from the images of its camera. It implements
+/// everything that happens between the subscriptions and the publishers of the node.
 ///
 ///     RobotLocator locator(settings_of(values), "anna");
 ///     const RobotLocator::Answer answer = locator.take(image, stamp_ns, arrival_ns);
@@ -21,8 +21,8 @@
 
 namespace dotpose_ros {
 
-/// Converts a stamp to nanoseconds. Stamps may be negative, unlike those of rclcpp::Time, which
-/// throws an exception.
+/// Converts a stamp to nanoseconds. Unlike rclcpp::Time, which throws an exception, accepts
+/// negative stamps.
 std::int64_t nanoseconds(std::int32_t sec, std::uint32_t nanosec);
 
 /// Members of a sensor_msgs/CameraInfo that describe the lens.
@@ -50,20 +50,21 @@ class RobotLocator {
 
     /// Processes the next image. `stamp_ns` is the stamp of the camera, and `arrival_ns` is the
     /// arrival time on a steady clock. An image that is not newer than the previous images is
-    /// skipped. If the next stamp is later than that of the skipped image, the time was set back,
-    /// for example because a bag or simulation was restarted, and tracking starts again.
+    /// skipped. If the next stamp is later than the stamp of the skipped image, the clock was set
+    /// back, for example because a bag or a simulation was restarted. In this case, tracking
+    /// restarts.
     Answer take(const RawImage& image, std::int64_t stamp_ns, std::int64_t arrival_ns);
 
     /// Uses the lens of a camera_info message, unless the lens is already known from a camera file
-    /// or an earlier message. If the lens cannot be used, returns the reason, to be logged, the
-    /// first time that it occurs. Otherwise, returns an empty string.
+    /// or an earlier message. If the lens cannot be used, returns the reason, which should be
+    /// logged. Returns an empty string if the lens is used, or if the reason was already reported.
     std::string take(const Lens& lens);
 
     /// Returns true if poses in space are fitted once the lens is known.
     bool has_space_pose() const { return options_.fits_space_pose; }
 
-    /// Returns the mount of the camera, or none if the camera file does not contain it, or if the
-    /// camera has poses in space.
+    /// Returns the mount of the camera, or none if the camera file does not contain it, or if poses
+    /// in space are fitted.
     std::optional<dotpose::ros::TransformStamped> mount(std::int64_t time_ns) const;
 
   private:
