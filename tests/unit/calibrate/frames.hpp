@@ -65,7 +65,8 @@ inline Camera true_camera(const CameraModel& model) {
 /// Position of the image centre relative to the robot's centre, along the image axes.
 inline constexpr Vec2 kCameraOnRobot_mm{-14.5, 6.25};
 
-/// Returns the frame of a robot at a place. The image x axis points in the direction `theta_rad`.
+/// Returns the frame of a robot at a position. The image x axis points in the direction
+/// `theta_rad`.
 inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int index, double x_mm,
                              double y_mm, double theta_rad) {
     Setup setup;
@@ -78,7 +79,7 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
                            x_mm + c * x - s * y, y_mm + s * x + c * y, theta_rad));
 }
 
-/// The robot turns on the spot at this place.
+/// Position at which the robot turns on the spot.
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
@@ -164,7 +165,7 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// Returns the camera's frame at a place of the table. It renders each sheet alone and takes the
+/// Returns the camera's frame at a position on the table. It renders each sheet alone and takes the
 /// darkest value of each pixel.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {
@@ -179,8 +180,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         const double dy = y_mm - lying.y_mm;
         const double c = std::cos(lying.turn_rad);
         const double s = std::sin(lying.turn_rad);
-        // If the camera is farther from the middle of a sheet along one axis, it sees no dot of
-        // this sheet.
+        // At larger distances from the middle of a sheet, along either axis, the camera sees none
+        // of its dots.
         constexpr double kTooFar_mm = kPage_mm / 2 + 12;
         if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
         if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;

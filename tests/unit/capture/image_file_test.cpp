@@ -396,7 +396,7 @@ TEST_F(ImageFileTest, survives_random_damage) {
         int refused = 0;
         for (int round = 0; round < kRounds; ++round) {
             Bytes bytes = sample.bytes;
-            // Every second round damages only the first 200 bytes. They contain the headers, where
+            // Every second round damages only the first 200 bytes, which contain the headers, where
             // damage has the largest effect.
             const std::size_t reach = round % 2 == 0 ? bytes.size() : std::size_t{200};
             for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips) {

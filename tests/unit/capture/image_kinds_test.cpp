@@ -153,7 +153,7 @@ TEST_F(TiffKinds, HaveTilesAndStripsOf16BitsAndCompression) {
     const auto strips = [](TIFF* tiff) {
         TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 7);
         TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_LZW);
-        TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_BOTRIGHT);  // is ignored
+        TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_BOTRIGHT);  // ignored
     };
     for (const Bytes& file : {file_of(tiles, levels), file_of(strips, levels)}) {
         const Bytes pixels = pixels_of(file);

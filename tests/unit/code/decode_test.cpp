@@ -214,7 +214,8 @@ TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
 
 TEST(Decode, NeverGuessesFromAChanged6x6) {
     // 6 x 6 windows have no redundancy, so most windows with a changed bit occur elsewhere in the
-    // code. The decoder must return the place at which such a window occurs, and refuse all others.
+    // code. The decoder must return the place at which such a window occurs, and refuse all other
+    // windows.
     std::mt19937 rng(kSeed);
     int elsewhere = 0;
     constexpr int kDraws = 20'000;

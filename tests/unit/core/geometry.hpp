@@ -88,7 +88,7 @@ struct PlacedDot {
 };
 
 /// Returns the dots of all cells |i|, |j| <= `reach` inside the image, displaced by displacement(i,
-/// j) in spacings.
+/// j), in spacings.
 template <typename Displacement>
 std::vector<PlacedDot> placed_dots(const Mesh& mesh, int reach, Vec2 image_px,
                                    Displacement displacement) {
@@ -112,7 +112,8 @@ inline std::vector<DetectedDot> dots_of(const std::vector<PlacedDot>& placed) {
     return dots;
 }
 
-/// Returns a displacement by a sixth of the spacing, in a random one of the four directions.
+/// Returns a displacement by a sixth of the spacing in one of the four directions, chosen at
+/// random.
 inline Vec2 random_displacement(Rng& rng) {
     const auto symbol = static_cast<Symbol>(rng.below(4));
     return {dx(symbol) / 6.0, dy(symbol) / 6.0};

@@ -72,7 +72,7 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         const Mesh mesh = small_mesh(rng);
         const auto placed = displaced_dots(mesh, 20, kImage_px, rng);
         // One dot in six is missing. For one dot in twelve, a spurious dot is added at a random
-        // place. A stroke hides a strip.
+        // position. A stroke hides a strip.
         const double strip = rng.uniform(20, 160);
         std::vector<DetectedDot> dots;
         for (const PlacedDot& d : placed) {

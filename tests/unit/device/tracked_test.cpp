@@ -136,7 +136,7 @@ TEST_F(DeviceTracked, FollowsTheShearOfRollingShutters) {
     struct Motion {
         double px;          ///< motion of the scene during the readout
         int min_predicted;  ///< minimum number of frames that a desktop locates, of 40
-        int min_percent;    ///< minimum fraction of these frames that a device tracks
+        int min_percent;    ///< minimum percentage of these frames that a device tracks
     };
     for (const Motion& motion : {Motion{24, 40, 85}, Motion{36, 38, 65}, Motion{72, 28, 55}}) {
         int predicted = 0;

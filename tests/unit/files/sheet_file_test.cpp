@@ -81,7 +81,7 @@ TEST(SheetFile, allocates_regions_that_keep_their_distance) {
     std::mt19937 random(4);
     std::printf("seed 4\n");
     SheetFile file(directory / "s.json");
-    // Some regions are entered by other programs, also in other sections and code variants.
+    // Other programs add some regions, including regions in other sections and code variants.
     for (int i = 0; i < 10; ++i) {
         SheetEntry other = entry("old " + std::to_string(i), {});
         other.sheet.origin = {static_cast<std::uint32_t>(random() % 6000),

@@ -90,7 +90,7 @@ TEST_F(PrintMapping, TheCovarianceContainsTheErrorOfTheMap) {
     EXPECT_GT(added, 0);
     EXPECT_LT(added, largest * largest);
     EXPECT_EQ(with.with.absolute_um(), without.with.absolute_um());
-    // The map is less exact at the edges of the page, where no test frame has its centre.
+    // The map is less accurate at the edges of the page, where no test frame has its centre.
     const double mean = std::pow(1000 * map_->pages[0].error_mm, 2);
     EXPECT_GT(mean, added);
     EXPECT_LT(mean, 16 * added);
@@ -123,7 +123,7 @@ TEST_F(PrintMapping, AnUpdateAddsViewsAndKeepsThePlace) {
         views_after += after.views[i];
     }
     EXPECT_GT(views_after, views_before * 5 / 4);
-    // The slow errors of the earlier map remain.
+    // The slowly varying errors of the earlier map remain.
     EXPECT_GE(updated.pages[0].error_mm, map_->pages[0].error_mm);
     const MapTest test = test_map(*print_, updated.map, 40);
     EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
@@ -142,9 +142,9 @@ TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
     EXPECT_LE(test.with.absolute_um(), 0.2);
 }
 
-/// The tracked attempt measures dots in windows at their nominal places, so it would pull the
-/// centres of dots with jitter towards these places. Fixes of a sequence must be as exact as those
-/// of single images.
+/// The tracked attempt measures dots in windows at their nominal positions, which would pull the
+/// centres of dots with jitter towards these positions. Fixes of a sequence must be as accurate as
+/// those of single images.
 TEST_F(PrintMapping, FollowsAsExactlyAsItLocates) {
     FollowerOptions options;
     options.sheets = {print_->entry()};

@@ -145,7 +145,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
         errors_um.push_back(
             std::hypot(fix.x_grid() - x_grid(shot.pose), fix.y_grid() - y_grid(shot.pose)) *
             spacing_um);
-        // If the error were larger, the fix would be at a wrong place.
+        // If the error were larger, the fix would be at the wrong place.
         EXPECT_LT(errors_um.back(), 0.1 * spacing_um);
         EXPECT_EQ(fix.section, shot.page.pattern.section);
         EXPECT_LT(
@@ -315,7 +315,8 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
             const Fix fix = Locator(memory, options).locate(frame.view());
             ASSERT_EQ(fix.status, Status::ok);
-            // Place of the pixel according to the camera model, in spacings from the true pose.
+            // Pattern point of the pixel according to the camera model, in spacings from the true
+            // pose.
             const Vec2 pixel = Vec2{93.5, 59.5} + offset;
             const Vec2 from_pose = 1 / kDefaultSpacing_mm *
                                    Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
@@ -352,8 +353,8 @@ TEST(Locate, ALensIsUndone) {
     }
 }
 
-// The second attempt also measures dots that were not found as blobs, at the places given by the
-// code. These dots must count as seen, too.
+// The second attempt also measures dots that were not found as blobs, at the positions predicted by
+// the code. These dots must be counted as seen, too.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

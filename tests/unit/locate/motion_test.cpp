@@ -171,8 +171,8 @@ TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     EXPECT_EQ(located, 0);
 }
 
-// Between the views of a series, there are frames without a pattern. Their motions must be added
-// up. Otherwise, these frames must have no effect.
+// Between the views of a series, there are frames without a pattern. Their motions must be
+// accumulated, but the frames must have no other effect.
 TEST_F(FramesReadTogether, FramesWithoutAPatternAreSkipped) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     int located = 0;

@@ -32,7 +32,7 @@ Read read(const std::string& message) {
     return {nlohmann::json::parse(message.substr(4, size)), read_image(path)};
 }
 
-/// A located frame, and functions of the true geometry of its camera.
+/// A located frame, and functions based on the true geometry of its camera.
 struct Located {
     explicit Located(double k = 0) {
         Setup setup;

@@ -1,4 +1,4 @@
-// Tests the image of one dot: place, area, spread and printing errors.
+// Tests the image of one dot: position, area, spread and printing errors.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace dotpose::simulate_test {
 namespace {
 
-// Returns a pose near the dot, at a place and angle that differ between trials.
+// Returns a pose near the dot, at a random position and angle.
 CameraPose pose_near_dot(Rng& rng) {
     CameraPose pose;
     pose.cell = kDotCell;

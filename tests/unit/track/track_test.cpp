@@ -105,7 +105,7 @@ TEST(Tracker, IsLostAfterTheDebounce) {
     EXPECT_TRUE(tracker.track().is_lost);
     EXPECT_FALSE(tracker.has_prior());
     EXPECT_EQ(events_of(tracker.update(170'000, nullptr)), "");
-    // The robot is found again at a place that it could have reached in the meantime.
+    // The robot is found again at a position that it could have reached in the meantime.
     EXPECT_EQ(events_of(see(tracker, at(175'000, 40, 30))), "fix ");
 }
 

@@ -27,8 +27,8 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns the sum of the odds of all other places of one sequence. A place counts once for each
-/// shift at which it shares a line with the reading.
+/// Returns the sum of the odds of all other places of one sequence. A place is counted once for
+/// each shift at which it shares a line with the reading.
 double sum_of_singles(const RatiosCase& c) {
     const auto texts = code_test::secondary_texts(c.code);
     const std::size_t count = c.rolls.size();

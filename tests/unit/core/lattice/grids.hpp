@@ -9,7 +9,7 @@
 
 namespace dotpose::core_test {
 
-/// Returns the mesh with random errors in length, angle and place. Their maxima are those of a
+/// Returns the mesh with random errors in length, angle and position. Their maxima are those of a
 /// first estimate.
 inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     const auto turned = [&](Vec2 a) {

@@ -125,7 +125,7 @@ TEST(FloatPlane, TellsWhatACameraMaySee) {
         bad = good;
         bad.at_y = 1e6F;
         EXPECT_FALSE(core::is_within_reason(bad, 94, 60));
-        // The plane is seen edge-on, so both steps are almost parallel.
+        // The plane is seen edge-on, so du and dv are almost parallel.
         bad = good;
         bad.dv_x = bad.du_x + 0.1F * good.dv_x;
         bad.dv_y = bad.du_y + 0.1F * good.dv_y;

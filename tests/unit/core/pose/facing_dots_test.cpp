@@ -20,7 +20,7 @@ constexpr std::uint64_t kSeed = 95;
 constexpr double kDisplacement = 1 / 6.0;
 constexpr double kNoise = 0.005;  // in spacings
 
-/// Measured dots, and their true places in the image. The measured centres of facing dots are
+/// Measured dots, and their true positions in the image. The measured centres of facing dots are
 /// shifted towards each other.
 class FacingFrame {
   public:
@@ -42,7 +42,7 @@ class FacingFrame {
         }
     }
 
-    /// Returns the mean distance, in px, of the measured dots from their true places.
+    /// Returns the mean distance, in px, of the measured dots from their true positions.
     double mean_error_px() const {
         double sum = 0;
         int count = 0;
