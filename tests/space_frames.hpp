@@ -1,4 +1,5 @@
-/// Frames of a tilted camera over a sheet with a place in the world, and its true poses.
+/// Frames of a tilted camera over a sheet whose pose in the world is known, and the true poses of
+/// the camera.
 #pragma once
 
 #include <array>
@@ -64,8 +65,8 @@ inline Eigen::Quaterniond true_space_rotation(std::size_t frame) {
                               Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
 }
 
-/// Expects that position and rotation of a geometry_msgs/Pose, or of a Transform, are the true pose
-/// of a frame, and that the error is consistent with `covariance`.
+/// Expects that the position and rotation of a geometry_msgs/Pose or Transform are the true pose of
+/// a frame, and that the error is consistent with `covariance`.
 inline void expect_true_space_pose(std::size_t frame, const nlohmann::json& position,
                                    const nlohmann::json& rotation,
                                    const nlohmann::json& covariance) {

@@ -135,8 +135,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(exit_code_, 0) << output_;
     EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo"));
 
-    // The file scan.jpg contains no resolution. The file screen.jpg contains 72 dpi, which is not
-    // the resolution of a scan.
+    // scan.jpg contains no resolution. screen.jpg contains 72 dpi, which is not the resolution of a
+    // scan.
     const GreyImage scan = test::scan_page(sheet, {});
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);
@@ -178,7 +178,7 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
 
     // The EXIF data of a scanner contain no exposure, so the check uses the resolution in the file.
     // The image was scanned at 330 dpi, but the file contains 300 dpi, so the page seems to be
-    // scaled to 110 %. In a photo, the scale is checked only if --dpi is given.
+    // scaled to 110 %. For a photo, the scale is checked only if --dpi is given.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));

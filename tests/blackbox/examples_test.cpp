@@ -42,7 +42,7 @@ TEST_F(Examples, LocateOneTellsWhereAnImageLooks) {
 }
 
 TEST_F(Examples, FollowGoesWithTheRobot) {
-    // The camera takes 200 frames per second of a robot that drives at 300 mm/s. Then the robot is
+    // A camera at 200 frames per second observes a robot that drives at 300 mm/s and is then
     // lifted.
     const Drive drive;
     const DriveCamera camera(188, 120);

@@ -26,7 +26,7 @@ TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     EXPECT_THAT(records().at(0)["message"], HasSubstr("show more of the sheet"));
 }
 
-// Bits are read in all cells, also in cells without a dot, so the number of bits is not twice the
+// Bits are read in all cells, including cells without a dot, so the number of bits is not twice the
 // number of dots.
 TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
     dotpose::Setup setup;

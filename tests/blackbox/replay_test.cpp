@@ -17,7 +17,7 @@ constexpr const char* kHeader =
     "frame,t_s,file,status,dots_seen,p_wrong,state,events,verdict,plane,track_x_mm,track_y_mm,"
     "vx_mm_s,vy_mm_s\n";
 
-/// Ten frames per second of a run:
+/// A run at ten frames per second:
 /// - a drive of 30 mm along x at 100 mm/s,
 /// - three lost frames,
 /// - a new start 1 m away, and a drive of 40 mm to the side at 200 mm/s,

@@ -107,9 +107,9 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     EXPECT_NE(records().at(0)["status"], "ok") << records().at(0);
 }
 
-/// Returns the image of a camera above the printed page. Each camera pixel is the mean of 2 x 2
-/// printer pixels, and the image centre is at the upper left corner of the printer pixel (u, v).
-/// The surroundings of the page are white.
+/// Returns the image that a camera sees above the printed page. Each camera pixel is the mean of 2
+/// x 2 printer pixels, and the image centre is at the upper left corner of the printer pixel (u,
+/// v). The surroundings of the page are white.
 GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
     const auto level_at = [&page](int column, int row) {
         const bool is_inside =

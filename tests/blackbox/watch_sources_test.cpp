@@ -24,7 +24,7 @@ int count(const std::string& text, const std::string& part) {
 
 TEST_F(WatchSources, SaysOnceWhyMostFramesFail) {
     const DriveCamera camera(188, 120);
-    // This frame is almost black and contains noise, as from a camera in the dark.
+    // An almost black frame with noise, like that of a camera in the dark.
     GreyImage dark{{}, 188, 120};
     for (std::uint32_t i = 0; i < 188 * 120; ++i)
         dark.pixels.push_back(static_cast<std::uint8_t>((i * 2654435761U >> 20) % 2 * 2));
@@ -70,7 +70,7 @@ TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
     put_video(2, "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi --frames 1 --roi 60,60,200x120 ") + kTrack), 0);
     const json part = parsed(output_).at(0);
-    // The part of the frame and the whole frame have the same centre, (159.5, 119.5).
+    // The region of interest has the same centre as the whole frame, (159.5, 119.5).
     const DriveState truth = drive_.at(0);
     EXPECT_NEAR(part["x_m"].get<double>() * 1000, truth.x_mm, 0.02);
     EXPECT_LT(part["dots_seen"], 300);

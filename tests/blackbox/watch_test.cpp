@@ -187,8 +187,8 @@ TEST_F(Watch, GoesThroughImages) {
     EXPECT_EQ(lines[2]["frame"], 3);
     EXPECT_DOUBLE_EQ(lines[2]["t_s"], 0.06);
     EXPECT_EQ(lines[0]["sheet"], "left");
-    // The first frame has no prediction. In the following frames, dots are measured at their
-    // predicted places.
+    // The first frame has no prediction. In all later frames, the dots are measured at their
+    // predicted positions.
     EXPECT_EQ(lines[0]["attempt"], "first");
     for (std::size_t i = 1; i < lines.size(); ++i)
         EXPECT_EQ(lines[i]["attempt"], "tracked");

@@ -41,7 +41,7 @@ std::vector<SheetEntry> sheets_with_scale(double print_scale) {
     return sheets;
 }
 
-/// Returns frames of a mounted camera at different places of the sheet.
+/// Returns frames of a mounted camera at different positions on the sheet.
 std::vector<capture::Frame> frames_of_sheet() {
     const Sheet sheet = test::drive_sheets().front().sheet;
     std::vector<capture::Frame> frames;
@@ -53,7 +53,8 @@ std::vector<capture::Frame> frames_of_sheet() {
         frame.image =
             render(page_of(sheet), CameraModel{}, pose, test::DriveCamera::nominal(), 1 + i);
         frame.index = i;
-        frame.file = std::to_string(i);  // frames of files count as frames of a camera at rest
+        frame.file = std::to_string(i);  // frames from files are treated as frames of a camera at
+                                         // rest
     }
     return frames;
 }

@@ -158,7 +158,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
     for (const fs::path& folder : folders) {
         wait_until([&] { return logged({folder}).size() >= before + 100 * 60; }, 60s);
     }
-    std::this_thread::sleep_for(500ms);  // repeated states would arrive in this time
+    std::this_thread::sleep_for(500ms);  // repeated states would arrive during this time
     for (WatchedFleet* fleet : {&in_east, &in_west}) {
         const std::string table = fleet->table();
         EXPECT_THAT(table, HasSubstr("101 robots, "));

@@ -47,8 +47,8 @@ json table_of(const Receiver& r, Command request) {
     return json::parse(table_value(snapshot_of(r), hall(), Delivery::all, request));
 }
 
-/// Receives the states of four robots, of which one is silent, one is lost, and one is on an
-/// unknown sheet.
+/// Receives the states of four robots, one of which is silent, one lost, and one on an unknown
+/// sheet.
 void receive_four(Receiver& r) {
     r.receive({.robot = "silent1", .x_m = 0.5, .map = "hall"});
     r.pass(6);

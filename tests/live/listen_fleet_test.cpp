@@ -1,5 +1,5 @@
 // Tests that `dotpose listen` writes the same log and publishes the same states for a device as
-// `dotpose watch` for frames.
+// `dotpose watch` does for frames.
 #include <cmath>
 #include <fstream>
 #include <map>

@@ -1,5 +1,5 @@
-// Tests which messages the publisher sends to a mosquitto broker and which it drops, also if the
-// broker stops and restarts.
+// Tests which messages the publisher sends to a mosquitto broker and which it drops, including
+// while the broker is stopped and restarted.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>
@@ -221,7 +221,8 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Makes a publisher publish its presence as a word on the topic `presence`.
+/// Extends the options of a publisher. It then publishes its presence as a word on the topic
+/// `presence`.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";
     options.presence = [](publish::Presence presence) -> std::string {

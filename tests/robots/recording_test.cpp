@@ -130,7 +130,7 @@ TEST_F(Recording, HasThePosesInSpaceOfTheCamera) {
               0)
         << errors_;
     expect_true_space_poses(recorded("run.mcap"));
-    // Logs have the same poses.
+    // Replayed logs contain the same poses.
     for (const char* log : {"run.csv", "run.json"}) {
         ASSERT_EQ(run(std::string("replay ") + log + " -o again.mcap --robot anna"), 0) << errors_;
         expect_true_space_poses(recorded("again.mcap"));

@@ -162,8 +162,8 @@ TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
     EXPECT_NEAR(twist.twist.linear.x, 0.3, 1e-12);
     EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
     EXPECT_EQ(twist.twist.angular.z, -0.5);
-    // The robot drives along the y axis of the world. With an angle error of 1 rad, 0.3 m/s of its
-    // speed are sideways. The variance of the angle is 3.
+    // The robot drives along the y axis of the world at 0.3 m/s. To first order, an angle error of
+    // 1 rad adds 0.3 m/s to the sideways velocity. The variance of the angle is 3.
     EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
     EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
     EXPECT_NEAR(twist.covariance[35], 6, 1e-12);
@@ -224,7 +224,7 @@ TEST(RobotUpdates, ThePatternHasYUp) {
     const PlanarCovariance& covariance = *seen.fix->covariance;
     EXPECT_DOUBLE_EQ(covariance[0][0], 4 * 0.25e-6);
     EXPECT_DOUBLE_EQ(covariance[0][1], -0.25e-6);
-    EXPECT_DOUBLE_EQ(covariance[1][2], 0.5 * 0.5e-3);  // y and the angle both change their sign
+    EXPECT_DOUBLE_EQ(covariance[1][2], 0.5 * 0.5e-3);  // y and the angle both change sign
     EXPECT_DOUBLE_EQ(covariance[2][2], 16);
     ASSERT_TRUE(seen.motion);
     EXPECT_DOUBLE_EQ(seen.motion->pose.y_m, -1);
