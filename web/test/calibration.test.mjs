@@ -70,7 +70,7 @@ function pen(index, tilt_deg, side_deg, turn_deg) {
     return pixelsOf(join(into, "frame_000000.pgm"), 320 * 240);
 }
 
-/** Tilts to all sides: small, medium and large ones. */
+/** Frames of a pen that is tilted to all sides, by small, medium and large angles. */
 function pivot() {
     const rings = [12, 24, 36].flatMap((tilt_deg, ring) => Array.from({ length: 10 }, (_, i) => [tilt_deg, 36 * i + 12 * ring, 50 * i]));
     return [[0, 0, 0], [3, 90, 120], ...rings].map((tilts, i) => pen(i, ...tilts));
@@ -191,7 +191,7 @@ async function calibrate(page, run, step, frames) {
 before(async () => {
     folder = mkdtempSync(join(tmpdir(), "dotpose-calibration-"));
     mkdirSync(join(folder, "shot"));
-    // Three frames at each place, so the camera is steady.
+    // Each frame is shown three times, so that the camera appears to be at rest.
     const rests = places().flatMap((frame) => [frame, frame, frame]);
     shots = { rests, turn: turn(24), drive: drive(50, 1.6), fast: fastDrive(60, 1.4), pivot: pivot() };
     browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
@@ -210,7 +210,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
         await page.waitForSelector("[data-step=lens]:enabled");
         assert.equal(await page.locator(".steps .known").count(), 0);
 
-        // Coverage in words, while frames are taken.
+        // The page describes the coverage in words while frames are taken.
         await page.click("[data-step=lens]");
         await page.waitForSelector("#calibration-needs li");
         assert.match(await page.textContent("#calibration-needs"), /\w+/);
@@ -355,7 +355,7 @@ test("the tip of a pen is calibrated by pivoting, and the run uses it", async ()
         assert.ok(Math.abs(camera.focal_px - kPen.focal_px) < 1e-6);
         assert.match(await page.textContent("#calibration-steps"), /0\.50\d ± .* mm from the camera/);
 
-        // The next frames have the tip.
+        // The next frames contain the tip.
         run.show(shots.pivot.slice(5, 6));
         await page.waitForFunction(() => document.getElementById("live-status").textContent === "live");
         let line;

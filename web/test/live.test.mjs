@@ -1,5 +1,5 @@
-// Tests the page of `dotpose watch --web`: a simulated drive as a video file, whose known poses are
-// read from the page.
+// Tests the page of `dotpose watch --web` with a simulated drive as a video file. The poses that the page shows are
+// compared with the true poses.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -85,7 +85,7 @@ test("the page shows the frame, the map, refusals and recordings", async () => {
     try {
         const { page, complaints } = await open(browser.context, run.url);
         await page.waitForFunction(isLive);
-        // The frame is drawn: the canvas has grey paper, and the colours of the axes over it.
+        // The frame has been drawn if the canvas contains grey paper with the colours of the axes on top.
         await page.waitForFunction(() => {
             const canvas = document.getElementById("live-frame");
             const context = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
@@ -99,7 +99,7 @@ test("the page shows the frame, the map, refusals and recordings", async () => {
             }
             return grey > data.length / 16 && red > 50;
         });
-        // Names from files are text.
+        // Names from files are shown as plain text.
         await page.waitForFunction(() => document.getElementById("live-map-name").textContent === "The path over <b>table</b>");
         assert.match((await shownPose(page)).x_name, /<b>table<\/b>/);
         assert.match(await page.textContent("#live-refused"), /none/);

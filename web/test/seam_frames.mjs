@@ -56,8 +56,8 @@ function seamFrame(folder, at, theta_rad, seed) {
 }
 
 /**
- * Makes a sheet file with two sheets, of which the left one has a place, and frames over their seam.
- * Returns the true place of the right one.
+ * Makes a sheet file with two sheets, and frames over their seam. Only the left sheet has a pose in the world. Returns
+ * the true pose of the right sheet.
  */
 export function makeSeamFrames(folder) {
     mkdirSync(folder);

@@ -39,7 +39,7 @@ function setHidden(id: string, is_hidden: boolean): void {
 
 function showGauges(gauges: readonly Gauge[]): void {
     const box = element("calibration-gauges", HTMLElement);
-    // The elements are kept, because screen readers would read new ones again.
+    // The elements are reused, because screen readers would read new elements aloud again.
     if (box.childElementCount !== 3 * gauges.length) {
         box.replaceChildren(
             ...gauges.flatMap((_, i) => [

@@ -3,10 +3,10 @@ import { arrow, surfaceOf, themed } from "../draw/surface.js";
 import type { LensCoverage, Residuals, Station } from "./calibration_state.js";
 
 const kMissing = "rgba(213, 60, 40, 0.34)";
-/** Value that reaches the rim of the drawing of the tilts: the change of the scale, or the tangent of the tilt of a pen. */
+/** Values at the rim of the drawing of the tilts: the change of the scale, and the tangent of the tilt of a pen. */
 export const kMaxTilt = 0.15;
 export const kMaxLean = Math.tan((45 * Math.PI) / 180);
-/** Minimum residual that an arrow of maximum length represents, so noise has short arrows. */
+/** Minimum residual that an arrow of maximum length represents. It keeps the arrows of mere noise short. */
 const kMinFullScale_px = 0.05;
 
 /** Marks the parts of the frame that have not shown dots. The frame must be on the canvas. */
@@ -45,7 +45,7 @@ export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], t
     arrow(context, [x, y], [x + 0.8 * radius * Math.cos(theta_rad), y + 0.8 * radius * Math.sin(theta_rad)], 9);
 }
 
-/** Draws the tilt of each frame as a point: straight down in the middle. */
+/** Draws the tilt of each frame as a point. A camera that looks straight down is in the middle. */
 export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, number][], max: number): void {
     const { context, width, height } = surfaceOf(canvas);
     const [x, y] = [width / 2, height / 2];

@@ -42,7 +42,7 @@ export const kSteps: readonly Step[] = [
     },
 ];
 
-/** Replaces the plain characters of texts for terminals. */
+/** Replaces the ASCII notation of terminal texts by typographic characters. */
 export function typeset(text: string): string {
     return text.replaceAll("+-", "±").replaceAll("^2", "²");
 }
@@ -69,7 +69,7 @@ export class StepList {
         }
     }
 
-    /** Without a state, the program may not calibrate. */
+    /** Shows a state. If it is null, the program may not calibrate. */
     show(state: CalibrationState | null): void {
         for (const [name, { value, button, item }] of this.#items) {
             const text = state?.values[name] ?? "";

@@ -25,7 +25,7 @@ const recorder = new Recorder(connection);
 const picture = new Picture(connection);
 const sheets = new SheetsView(connection);
 let setup: Setup | null = null;
-/** Why a frame was refused, and what to change; empty if that is not known. */
+/** Reason why a frame was refused, and advice. Empty if the reason is not known. */
 let reason = "";
 
 function showSetup(value: Setup): void {

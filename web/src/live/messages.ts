@@ -21,7 +21,7 @@ export function sourceText({ source }: Setup): string {
     return source === "-" ? "standard input" : source;
 }
 
-/** A line of `dotpose watch` (docs/schema/lines-1.json): the keys that the page shows. */
+/** The keys of a line of `dotpose watch` (docs/schema/lines-1.json) that the page shows. */
 export interface Line {
     frame: number;
     t_s: number;
@@ -73,13 +73,13 @@ export interface History {
 }
 
 export interface Path {
-    /** Parts of the path: x and y alternately. */
+    /** Strokes of the path, with alternating x and y. */
     strokes_mm: number[][];
     visited: string[];
 }
 
 export interface Advice {
-    /** Why the newest frame was refused, and what to change; empty if it was located. */
+    /** Reason why the newest frame was refused, and advice. Empty if the frame was located. */
     reason: string;
 }
 

@@ -15,7 +15,7 @@ const kSmall_px = 480;
 const kMinRate_hz = 3;
 const kMeasured_ms = 4000;
 
-/** Measures the quality of a frame on its picture. */
+/** Measures the quality of a frame from its picture. */
 class Meter {
     readonly #canvas = new OffscreenCanvas(1, 1);
     /**
@@ -50,7 +50,7 @@ class Meter {
         });
     }
 
-    /** Forgets the best sharpness, for example after the lens was changed. */
+    /** Resets the maximum steepness, for example after the lens was changed. */
     restart(): void {
         this.#best = 0;
     }
@@ -67,7 +67,7 @@ export class Picture {
     #is_slow = false;
     readonly #drawMore: () => void;
 
-    /** `drawMore` is called after a frame was drawn, to draw over it. */
+    /** `drawMore` is called after a frame has been drawn, to draw on top of it. */
     constructor(connection: Connection, drawMore = () => {}) {
         this.#connection = connection;
         this.#drawMore = drawMore;
@@ -77,7 +77,7 @@ export class Picture {
         this.request();
     }
 
-    /** Requests frames in the size that the page shows; none while the page or the picture is hidden. */
+    /** Requests frames in the displayed size. Requests none while the page or the picture is hidden. */
     request(): void {
         const shown_px = this.#canvas.clientWidth * window.devicePixelRatio;
         const wanted = document.hidden || shown_px === 0 ? "" : this.#is_slow || shown_px <= kSmall_px ? kSmall : kLarge;

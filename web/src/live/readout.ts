@@ -13,7 +13,7 @@ interface Place {
     angle_deg: number;
 }
 
-/** Returns the pose on the sheet or, in a world, the tracked pose; null if neither is known. */
+/** Returns the pose on the sheet or, in a world, the tracked pose. Returns null if neither is known. */
 export function placeOf(line: Line, setup: Setup | null): Place | null {
     if (setup?.plane !== "world" && typeof line.x_sheet_mm === "number") {
         return {

@@ -28,7 +28,7 @@ export class SheetCommands {
         });
     }
 
-    /** Ends the wait for answers, which a new connection would not bring. */
+    /** Stops waiting for answers, because they would not arrive over a new connection. */
     disconnected(): void {
         for (const id of [...this.#waiting.keys()])
             this.#take({

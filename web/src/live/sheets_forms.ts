@@ -30,7 +30,7 @@ class NumberField {
         return this.#input.value !== this.#shown;
     }
 
-    /** The number, with all its digits if it was not changed. */
+    /** The number in the field, or the saved number with all its digits if the user has not changed it. */
     get value(): number {
         return this.is_typed ? Number(this.#input.value) : this.#saved;
     }

@@ -32,7 +32,9 @@ export function oneIn(probability: number): string {
     return `1 in ${10 ** (power % 3)} ${names[Math.floor(power / 3)]}`.trim();
 }
 
-/** Names the places that counted as possible for the probability of a wrong position. */
+/**
+ * Names of the priors: the places that were considered possible when the probability of a wrong position was computed.
+ */
 export const kPriorNames: Record<Prior, string> = {
     plane: "all of the code",
     sheets: "known sheets",

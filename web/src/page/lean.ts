@@ -72,12 +72,12 @@ export function leanOf({ quaternion_xyzw, covariance }: SpacePose): Lean {
 }
 
 /**
- * Returns the pose in a sheet frame that has the x axis of the world. The pose in the world has y up, z OUT of the paper,
- * metres, and the covariance of a rotation vector in the WORLD.
+ * Returns the pose in a sheet frame that has the x axis of the world. In the world, y points up, z points OUT of the
+ * paper, lengths are in metres, and the covariance is that of a rotation vector in the WORLD.
  */
 export function fromWorld(z_m: number, quaternion_xyzw: Quaternion, covariance: ArrayLike<number>): SpacePose {
     const [x, y, z, w] = quaternion_xyzw;
-    // A half turn about x, which also turns the rotation vector: y and z change their signs.
+    // A half turn about x, which also turns the rotation vector: its y and z change sign.
     const flipped: Quaternion = [w, -z, y, -x];
     const rows = matrixOf(quaternion_xyzw);
     const inCamera = new Float64Array(36);

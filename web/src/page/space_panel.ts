@@ -46,7 +46,7 @@ const drawing = (id: string) => `
 
 /** A pose to show. */
 export interface ShownPose {
-    /** The pose; null if it is not known. */
+    /** The pose, or null if it is not known. */
     pose: SpacePose | null;
     /** Origin of the pose, for example "tracked". */
     source: string;

@@ -10,7 +10,7 @@ export interface KnownSheet {
 }
 
 const kKey = "dotpose-sheets";
-/** The list, if the browser does not allow storage. */
+/** The list of sheets if the browser does not allow storage, or else null. */
 let unstored: KnownSheet[] | null = null;
 
 /** Returns true for a whole number from `min` to `max`. */
@@ -58,8 +58,8 @@ export function remember(sheet: KnownSheet): void {
 }
 
 /**
- * Stores the sheets of a file. They replace sheets with the same part of the code. Other sheets
- * with the same name remain, so the sheet of the file gets a name with a number.
+ * Stores the sheets of a file. They replace known sheets with the same part of the code. If another known sheet has the
+ * same name, a number is appended to the name of the sheet from the file.
  */
 export function rememberAll(sheets: readonly KnownSheet[]): void {
     const partOf = ({ layout }: KnownSheet) => JSON.stringify(regionOf(layout));
@@ -90,7 +90,7 @@ export function regionOf({ code, section, origin, columns, rows }: SheetLayout):
     return { code, section, first: origin, columns, rows };
 }
 
-/** Returns the sheet on which a fix is, or null if it is on none of them. */
+/** Returns the sheet that contains a fix, or null if there is none. */
 export function sheetUnder(fix: Fix, sheets: readonly KnownSheet[]): KnownSheet | null {
     if (!fix.ok) return null;
     return sheets.find(({ layout }) => isOnSheet(layout, fix)) ?? null;

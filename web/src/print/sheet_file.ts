@@ -9,7 +9,7 @@ const kMinCells = 8;
 
 type Entry = Record<string, unknown>;
 
-/** The members of one sheet of the file. `path` is its place in the file, for messages. */
+/** The members of one sheet of the file. `path` locates the sheet in the file, for messages. */
 class Members {
     constructor(
         private readonly entry: Entry,
