@@ -49,7 +49,8 @@ inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endi
     add_entry(34665, kLong, kHeader + kFirst);
     add(0, 4);
     add(static_cast<std::uint32_t>(tags.size()), 2);
-    // All ratios refer to the eight bytes after the header, because their values do not matter.
+    // All rational values refer to the eight bytes after the header, because the values do not
+    // matter.
     for (const std::uint16_t tag : tags)
         add_entry(tag, tag == sensitivity ? kShort : kRational, kHeader);
     add(0, 4);

@@ -118,9 +118,9 @@ class PlaceErrors {
 
     /// Returns the rms error per axis after subtraction of a fitted offset, scale and rotation.
     double absolute_um() const { return left_um(4, 0); }
-    /// Returns the rms error per axis, without errors that change slowly over the page. First adds
+    /// Returns the rms error per axis, excluding errors that vary slowly over the page. First adds
     /// `wave_share` times the wave of the print to each error, because a displaced dot moves the
-    /// fix in the opposite direction. Then subtracts a fit of cubic polynomials.
+    /// fix in the opposite direction. Then subtracts a fitted cubic polynomial.
     double repeatability_um(double wave_share) const { return left_um(20, wave_share); }
     double sigma_um() const {
         return 1000 * std::sqrt(variance_ / static_cast<double>(places_.size()));
@@ -184,7 +184,7 @@ struct MapTest {
     int not_covered = 0;
 };
 
-/// Locates `frames` frames that were not used for the map, with and without the map.
+/// Locates `frames` frames that were not used to compute the map, with and without the map.
 inline MapTest test_map(const MappedPrint& print, const PrintMap& map, int frames,
                         std::uint64_t series = 200, const std::optional<Camera>& camera = {}) {
     MapTest result;

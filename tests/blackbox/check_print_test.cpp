@@ -102,7 +102,7 @@ TEST_F(CheckPrintCommand, fit_makes_the_millimetres_of_the_sheet_file_true) {
     EXPECT_NEAR(sheets()[1].print_scale_y, 0.98, 2e-4);
     EXPECT_EQ(sheets()[0].print_scale_x, 1);
 
-    // A scan of a sheet that is not in the file does not change the file.
+    // A scan of a sheet that is not in the sheet file must not change the file.
     const std::string before = file("sheets.json");
     write_jpeg("other.jpg", scan_of_60_x_50_mm(settings), 600);
     EXPECT_EQ(run("check-print other.jpg --fit --sheets sheets.json"), 1);
@@ -354,7 +354,7 @@ TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
         "print --test-page -o test.png --spacing 0.5",  // a test page has several spacings
         "print --test-page -o test.png --origin 1,1",   //
         "print --test-page -o test.png --dpi 300",      // too coarse for a spacing of 0.381 mm
-        "print --test-page -o test.png --paper 40x40",  // no room
+        "print --test-page -o test.png --paper 40x40",  // no room for dots
     };
     for (const char* arguments : wrong) {
         run(arguments);

@@ -183,8 +183,8 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames of a sheet whose poses were measured twice. A ruler measured them in the coordinates of
-/// the sheet. A motion stage measured them in coordinates with another origin, direction and unit.
+/// Frames of a sheet whose poses were measured twice: with a ruler, in the coordinates of the
+/// sheet, and with a motion stage, in coordinates with another origin, direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {

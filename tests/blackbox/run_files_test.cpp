@@ -43,7 +43,7 @@ class RunFiles : public ToolCommand {
         std::string reason;
     };
 
-    /// Expects that each command is refused with its reason and changes no file.
+    /// Expects that each command is refused for the given reason and changes no file.
     void expect_refused(const std::vector<Refusal>& refusals) {
         const std::string before = state();
         for (const auto& [command, reason] : refusals) {

@@ -1,4 +1,4 @@
-// Tests sheets that are not planar, with `locate` and with the tool.
+// Tests fixes on sheets that are not planar, with `Locator` and with the tool.
 #include "../slipped_frames.hpp"
 
 #include <algorithm>

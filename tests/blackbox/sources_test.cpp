@@ -51,7 +51,8 @@ class Sources : public ToolCommand {
         return all;
     }
 
-    /// Returns the lines of the last run, without the fields that depend on the source or the time.
+    /// Returns the output lines of the last run, without the fields that depend on the source or
+    /// the time.
     std::vector<json> poses() const {
         std::vector<json> all = records();
         for (json& record : all) {

@@ -1,4 +1,5 @@
-// Tests the messages of `dotpose watch` about its sources, and sources that end inside a frame.
+// Tests the messages of `dotpose watch` about its sources, and sources that end in the middle of a
+// frame.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -117,7 +118,7 @@ TEST_F(WatchSources, SaysWhatIsWrongWithTheSource) {
 
 TEST_F(WatchSources, TellsWhereRawFramesEnd) {
     put_raw(31);
-    // The file is cut inside the 31st frame.
+    // The file is truncated in the middle of the 31st frame.
     std::ofstream(directory_ / "cut.raw", std::ios::binary)
         << file("drive.raw").substr(0, 30 * kWidth * kHeight + 1000);
     EXPECT_EQ(run("watch - " + std::string(kRaw) + " " + kTrack, (directory_ / "cut.raw").string()),

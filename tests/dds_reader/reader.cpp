@@ -34,7 +34,7 @@ using namespace eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
-/// Type support that stores samples as the bytes that were received.
+/// Type support that stores each sample as the bytes that were received.
 class RawType : public TopicDataType {
   public:
     explicit RawType(const std::string& name) {

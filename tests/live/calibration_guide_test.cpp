@@ -34,7 +34,7 @@ std::function<bool(const GuideState&)> is_in(GuidePhase phase) {
     return [phase](const GuideState& state) { return state.phase == phase; };
 }
 
-/// Returns the sheet of the frames, printed with this scale.
+/// Returns the sheet of the frames, printed at this scale.
 std::vector<SheetEntry> sheets_with_scale(double print_scale) {
     std::vector<SheetEntry> sheets = {test::drive_sheets().front()};
     sheets[0].print_scale_x = sheets[0].print_scale_y = print_scale;
@@ -146,7 +146,7 @@ TEST(CalibrationGuide, AFastDriveOffTheSheetEndsTheStep) {
         drive.take(Status::ok);
     EXPECT_EQ(drive.guide().state().frames, 20);
     drive.take(Status::too_few_dots);
-    // The pixels of the frames have no dots, so there is no result.
+    // The pixels of the frames show no dots, so there is no result.
     EXPECT_TRUE(reaches(drive.guide(), is_in(GuidePhase::failed)));
 }
 

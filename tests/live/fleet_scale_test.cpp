@@ -44,7 +44,8 @@ class FleetScale : public Mqtt {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     }
 
-    /// Returns the states in the logs of several fleets. A state occurs as often as it was logged.
+    /// Returns the states in the logs of several fleets. Each state occurs as many times as it was
+    /// logged.
     std::multiset<Logged> logged(const std::vector<fs::path>& folders) {
         std::multiset<Logged> states;
         for (const fs::path& folder : folders) {

@@ -158,7 +158,7 @@ TEST(FleetValues, OneRobotWithItsPathAndAlerts) {
     EXPECT_EQ(value(77), nullptr);
 }
 
-/// A map message of the fleet: a header in JSON, then binary records.
+/// A map message of the fleet: a JSON header, followed by binary records.
 struct MapMessage {
     explicit MapMessage(const std::string& bytes) {
         std::uint32_t size = 0;
@@ -216,7 +216,7 @@ TEST(FleetMapValues, TrailsAreLimitedInTotal) {
     const MapMessage message(trails_value(snapshot_of(r), r.fleet, {}, {}));
     EXPECT_EQ(message.head["count"], 150);
     const auto points = message.at<std::uint32_t>(4);
-    EXPECT_EQ(points, 100U);  // every second of the newest 200 points
+    EXPECT_EQ(points, 100U);  // every other point of the newest 200
     EXPECT_LE(150 * points, cli::kMaxTrailPoints);
     EXPECT_EQ(message.records.size(), 150 * (8 + 8 * points));
     const double origin_mm = message.head["origin_mm"][0];

@@ -16,7 +16,7 @@ function members(definition) {
     .join(", ");
 }
 
-/** Numbers of field types in type_description_interfaces/FieldType. */
+/** Type numbers from type_description_interfaces/FieldType. */
 const typeIds = { message: 1, uint8: 3, int32: 6, uint32: 7, float64: 11, byte: 16, string: 17 };
 const kOfArrays = 48;
 const kOfSequences = 144;

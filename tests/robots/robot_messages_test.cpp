@@ -253,7 +253,7 @@ TEST(RobotUpdates, TheWorldHasYUpAlready) {
     EXPECT_FALSE(ros::update_of(followed, true, 0).fix);
 }
 
-/// Returns a frame of a camera 20 mm above the pattern that looks straight down.
+/// Returns a frame of a camera that looks straight down from 20 mm above the pattern.
 Followed followed_in_space() {
     Followed followed = followed_in_pattern();
     SpacePose& space = followed.located.space.emplace();
@@ -278,7 +278,7 @@ TEST(RobotUpdates, TheCameraIsInTheMap) {
     EXPECT_DOUBLE_EQ(pose.position.z, 0.02);
     // The z axis of the optical frame points down: half a turn about x.
     EXPECT_DOUBLE_EQ(std::abs(pose.orientation.x), 1);
-    // The y and z axes of the camera and of the pattern point opposite to those of the map.
+    // The y and z axes of the camera and of the pattern are opposite to those of the map.
     const ros::Covariance36& covariance = messages.camera->pose.covariance;
     EXPECT_DOUBLE_EQ(covariance[0], 4e-6);
     EXPECT_DOUBLE_EQ(covariance[1], -1e-6);
@@ -374,8 +374,8 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     pinhole.pinhole = Pinhole{400, 400, {90, 60}};
     EXPECT_NEAR(camera_mount(pinhole)->transform.translation.z, 0.02, 1e-12);
 
-    // The heading of the robot is the image y axis. The image x axis therefore points to the left
-    // of the robot, and the camera is 10 mm to the left of the robot's centre.
+    // The heading of the robot is along the image y axis. The image x axis therefore points to the
+    // left of the robot, and the camera is 10 mm to the left of the robot's centre.
     camera.theta_offset_rad = kRightAngle;
     const auto left = camera_mount(camera);
     EXPECT_NEAR(left->transform.translation.x, 0, 1e-12);

@@ -162,7 +162,7 @@ function viewsOf(at, size, frames = 1) {
     return makeClip(still, { frames, size, options: ["--section", "0,0", "--at", at.join()] });
 }
 
-/** Opens a picture, which must be located (`ok`) or not. */
+/** Opens a picture. `ok` is true if it must be located. */
 async function openPicture(page, buffer, ok) {
     await page.setInputFiles("#look-file", { name: "view.png", mimeType: "image/png", buffer });
     await page.waitForFunction((is_ok) => (document.getElementById("look-x").textContent !== "–") === is_ok, ok);

@@ -53,7 +53,7 @@ async function message(page, pattern) {
     await page.evaluate(() => (document.getElementById("sheets-message").textContent = ""));
 }
 
-/** Returns a function from points of the world to points of the window. */
+/** Returns a function that maps points of the world to points of the window. */
 async function mapOf(page) {
     await page.evaluate(() => document.getElementById("sheets-map").scrollIntoView({ block: "center" }));
     const box = await page.locator("#sheets-map").boundingBox();

@@ -134,7 +134,7 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.covered_share(), bars + edge);
 }
 
-// Most of each tile of this scan is blank paper around the card.
+// Most of the area of each tile in this scan is blank paper around the card.
 TEST(CheckPrint, dots_of_a_small_card_on_a_noisy_scan_are_not_covered) {
     SheetOptions options;
     options.paper = {20, 20};

@@ -63,7 +63,7 @@ TEST(CalibrateFlatField, FindsTheLight) {
             EXPECT_NEAR(field[j][i], light_at(u, v) / brightest, 0.03) << i << ", " << j;
         }
     }
-    // A tenth of the pixels are dots, whose level is 23 % of that of the paper. The standard
+    // A tenth of the pixels are dots, whose level is 23 % of the paper level. The standard
     // deviation of a pixel is therefore 25 % of its mean in one frame. In the mean of 400 frames it
     // is a 20th of this value, 1.26 %.
     EXPECT_NEAR(found.residual, 0.0127, 0.004);

@@ -122,8 +122,8 @@ inline RobotError robot_error(const Camera& camera, const CameraModel& model, st
 
 // ---- A table with four sheets ----
 
-/// Number of dots per side of a sheet. Between the pattern and the edge of the sheet is a narrow
-/// margin.
+/// Number of dots per side of a sheet. There is a narrow margin between the pattern and the edge of
+/// the sheet.
 inline constexpr int kSide_cells = 120;
 inline constexpr double kMargin_mm = 0.3;
 inline constexpr double kPage_mm = (kSide_cells - 1) * kDefaultSpacing_mm + 2 * kMargin_mm;

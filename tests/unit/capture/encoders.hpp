@@ -53,7 +53,7 @@ Bytes encode_bmp(const Raster& raster, const Bytes& palette = {});
 /// and palette are as in encode_png.
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette = {});
 
-/// Encodes a baseline file. Each 8-bit sample becomes a flat block of 8 x 8 px, which JPEG
+/// Encodes a baseline JPEG. Each 8-bit sample becomes a flat block of 8 x 8 px, which JPEG
 /// reproduces exactly. One channel is grey. Three channels are Y, Cb and Cr. Four channels are
 /// CMYK, stored inverted as Adobe's programs do.
 Bytes encode_jpeg(const Raster& raster);

@@ -131,7 +131,7 @@ TEST_P(PhoneFormatTest, IsRefusedWhenItIsTooLarge) {
     EXPECT_THROW(read_image(image, kWidth_px * kHeight_px - 1), ImageTooLarge);
 }
 
-// The reader refuses large images by the size in the header, before decoding them.
+// The reader refuses large images based on the size in the header, before decoding them.
 TEST_P(PhoneFormatTest, IsRefusedWhenItsHeaderStatesAnotherSize) {
     const fs::path image = converted(GetParam().lossless, encode_png(noise()));
     Bytes file = bytes_of(image);

@@ -1,4 +1,4 @@
-// Tests the decoding of windows. A window of the code must be found at its place, and any other
+// Tests the decoding of windows. A window of the code must be decoded to its place, and any other
 // window must be refused.
 #include <array>
 #include <cstdint>
@@ -192,8 +192,8 @@ TEST(Decode, RefusesPublishedWindowsThatStandTwice) {
 }
 
 TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
-    // Two strings of 8 bits of the main sequence differ in at least 2 bits, so one wrong bit is
-    // always detected.
+    // Two 8-bit strings of the main sequence differ in at least 2 bits, so one wrong bit is always
+    // detected.
     std::mt19937 rng(kSeed);
     for (int n = 0; n < 300; ++n) {
         const CodeVariant code = kCodeVariants[static_cast<std::size_t>(n % 3)];

@@ -71,7 +71,7 @@ inline Levels levels_of_tile(const AdaptiveThreshold& threshold, int tile) {
     return levels_at(threshold, tile * kTileWidth_px);
 }
 
-/// Returns the blobs of an image that may be dots, before the size filter.
+/// Returns the blobs of an image that are candidates for dots, before the size filter.
 inline std::vector<DetectedDot> blobs_of(const GreyImage& image, Workspace& w,
                                          const ThresholdOptions& options = {}) {
     const core::DotList list{w.dots, w.dot_count, w.dots_kept_within_px};

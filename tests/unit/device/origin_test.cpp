@@ -70,7 +70,7 @@ TEST(Origin, IsThatOfAPlainGrid) {
 TEST(Origin, IsTheMeanOfDisplacedDots) {
     // Each dot is displaced by 1/6 spacing along one random axis, which is 0.12 spacings rms per
     // axis. The mean of 9 x 9 dots is displaced by 0.013 spacings, and that of a dozen dots by
-    // 0.035 spacings. If the grid were found half a cell off, the error would be 0.5 spacings.
+    // 0.035 spacings. If the grid were half a cell off, the error would be 0.5 spacings.
     for_many_grids([](const Mesh& mesh, Rng& rng) {
         const auto dots = dots_of(
             placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); }));

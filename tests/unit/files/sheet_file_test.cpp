@@ -144,7 +144,7 @@ TEST(SheetFile, allocates_from_the_top_left_and_fills_holes) {
         EXPECT_EQ(pages[i].page, static_cast<int>(i) + 1);
         EXPECT_EQ(pages[i].sheet.origin, (Cell{1024 + i * (columns + 1024), 1024}));
     }
-    // The first row of pages has a hole for exactly one page.
+    // The first row of pages has a gap for exactly one page.
     file.add(entry("later", {1024 + 4 * (columns + 1024), 1024}));
     EXPECT_EQ(file.allocate("hole", sheet)[0].sheet.origin,
               (Cell{1024 + 3 * (columns + 1024), 1024}));
@@ -251,7 +251,7 @@ TEST(SheetFile, what_is_saved_is_read_back_exactly) {
     const auto sheets = read_sheets(directory / "s.json");
     ASSERT_EQ(sheets.size(), 3U);
     expect_equal(sheets[0], full);
-    // Saving a file that was only read changes no byte.
+    // Saving a file that was only read leaves every byte unchanged.
     const std::string text = read_file(directory / "s.json");
     SheetFile file(directory / "s.json");
     file.save();

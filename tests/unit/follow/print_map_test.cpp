@@ -183,13 +183,13 @@ TEST_F(PrintMapping, RefusesSheetsWithoutThePageOfTheMap) {
 
 TEST_F(PrintMapping, ConvergesInFewIterations) {
     const MappedPrint large({.side_mm = 60});
-    // The first rounds would need hundreds of iterations without a preconditioner for deformations
-    // of the whole page.
+    // Without a preconditioner for deformations of the whole page, the first rounds would need
+    // hundreds of iterations.
     EXPECT_LT(map_of(large, 200).pages[0].iterations, 120);
 }
 
-/// The map of such a print reduces the residuals of a frame only slightly, but moves its fix by
-/// microns.
+/// The map of a print without jitter reduces the residuals of a frame only slightly, but moves its
+/// fix by micrometres.
 TEST(PrintMapOfAPrintWithoutJitter, IsUsed) {
     const MappedPrint print({.side_mm = kSide_mm, .jitter_mm = 0});
     const MapTest test = test_map(print, map_of(print, kFrames).map, 20);

@@ -265,7 +265,7 @@ TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
     for (int v = 0; v < 3 * frame.height_px; ++v)
         locator.push_row(frame.view().row(v % frame.height_px));
     expect_same(locator.finish(), fix);
-    // A change of options in the middle of a frame drops the frame.
+    // Changing the options in the middle of a frame discards the frame.
     ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
     locator.set_options({});
     EXPECT_EQ(locator.finish().status, Status::bad_argument);

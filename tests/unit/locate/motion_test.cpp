@@ -145,8 +145,8 @@ TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
     EXPECT_EQ(series.located[3], 40);
 }
 
-// Only the order of magnitude of the motion is known. It can be computed exactly from the dots that
-// two frames share.
+// Only the order of magnitude of the motion is known. The exact motion can be computed from the
+// dots that two frames share.
 TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
     const Series series =
         run_series(locator_, {.width_px = 90, .height_px = 90}, 40, 0.8F, 0.3F, false);

@@ -8,7 +8,7 @@
 
 namespace dotpose::print_test {
 
-/// A temporary directory that is empty at first. The destructor removes it.
+/// A temporary directory that is initially empty. The destructor removes it.
 class TemporaryDirectory {
   public:
     TemporaryDirectory();

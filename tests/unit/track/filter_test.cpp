@@ -58,7 +58,8 @@ Pose error_of(const TrackedPose& found, const Pose& pose) {
             std::remainder(found.theta_rad() - pose[2], 2 * kPi)};
 }
 
-/// Solves m x = b by elimination with pivots, as an independent solution in double precision.
+/// Solves m x = b by Gaussian elimination with pivoting, as an independent solution in double
+/// precision.
 std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6> b) {
     std::array<std::array<double, 6>, 6> m{};
     for (std::size_t i = 0; i < 6; ++i) {

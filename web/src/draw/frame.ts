@@ -16,16 +16,16 @@ export interface Layers {
 
 export type Pixel = readonly [number, number];
 
-/** The axes of the paper in a frame. */
+/** The axes of the paper, as they appear in a frame. */
 export interface Axes {
     /** The reference point of the pose. */
     at: Pixel;
-    /** Directions of the axes, of length 1. */
+    /** Unit vectors along the axes. */
     x: Pixel;
     y: Pixel;
 }
 
-/** Shapes over a frame, in px from the upper left corner of the frame. */
+/** Shapes drawn over a frame, in px from the upper left corner of the frame. */
 export interface FrameOverlay {
     /** Centres of the detected dots, as alternating u and v. */
     dots: ArrayLike<number>;

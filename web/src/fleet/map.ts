@@ -1,4 +1,4 @@
-// The map: all robots of one map, live. The program sends only those that the canvas shows.
+// The live map of all robots on one map. The program sends only the robots that the canvas shows.
 import { drawPaper } from "../draw/map.js";
 import { surfaceOf, themed } from "../draw/surface.js";
 import type { Connection, Value } from "../live/connection.js";
@@ -170,7 +170,7 @@ export class FleetMap {
         this.#is_fitted = true;
         this.#measure();
         if (content !== null) {
-            // The margin delays the next adaptation to robots that drive outwards.
+            // The margin delays the next change of the view when robots drive outwards.
             const margin = 0.03 * Math.max(content.x_max - content.x_min, content.y_max - content.y_min);
             this.#fitted = { x_min: content.x_min - margin, x_max: content.x_max + margin, y_min: content.y_min - margin, y_max: content.y_max + margin };
             this.#view.fit(this.#fitted);
@@ -226,7 +226,7 @@ export class FleetMap {
         });
     }
 
-    /** Returns the number of the robot at a point of the canvas, or null. */
+    /** Returns the number of the robot nearest to a point of the canvas, or null if no robot is near. */
     #nearest(x: number, y: number): number | null {
         const positions = this.#positions;
         let [nearest, distance] = [null as number | null, kNear_px];

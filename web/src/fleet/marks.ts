@@ -1,4 +1,4 @@
-// Draws robots on a map. Conditions differ in shape and colour.
+// Draws robots on a map. Each condition has its own shape and colour.
 import { themed } from "../draw/surface.js";
 import { kConditions, type Condition, type Positions, type Track, type Trails } from "./messages.js";
 import type { TrailEnds } from "./trail_ends.js";

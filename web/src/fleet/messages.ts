@@ -91,7 +91,7 @@ export interface Robot extends Row {
     repeated: number;
     deviation_mm?: number;
     camera?: { rate_hz: number; frames: number; refused: Record<string, number> };
-    /** Pose of the camera in space. Missing while the robot is lost, and if its program does not find the pose. */
+    /** Pose of the camera in space. Missing while the robot is lost, or if its program does not compute this pose. */
     space?: { height_mm: number; tilt_deg: number };
     /** Alternating x and y. */
     path_mm: number[];
@@ -99,7 +99,7 @@ export interface Robot extends Row {
     events: Alert[];
 }
 
-/** Stored states of a robot, thinned to spans of time. The arrays have one element for each span. */
+/** Stored states of a robot, thinned to one value per span of time. The arrays have one element for each span. */
 export interface StoredHistory {
     /** Number of the answered request. */
     ask: number;
@@ -123,7 +123,7 @@ export interface StoredHistory {
     map_of: (number | null)[];
     /** Maximum speed in the span. */
     speeds_mm_s: number[];
-    /** 2 if the robot was lost in the span, otherwise 0 if it moved, 1 if it was still. */
+    /** 2 if the robot was lost in the span. Otherwise 0 if it moved, or 1 if it was still. */
     motions: number[];
 }
 

@@ -69,7 +69,7 @@ export class RobotTable {
         return { filter, show: this.#show.value, order: this.#order.value, first: this.#first, rows: kRows };
     }
 
-    /** Shows the robots in a state, from the first one. */
+    /** Shows only the robots in a state, starting with the first one. */
     showOnly(show: string): void {
         this.#filter.value = "";
         this.#show.value = show;

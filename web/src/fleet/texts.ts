@@ -1,4 +1,4 @@
-// Texts about robots.
+// Texts that describe robots and their alerts.
 import { kSymbols } from "./marks.js";
 import type { Alert, Condition } from "./messages.js";
 

@@ -67,7 +67,7 @@ function showList(id: string, texts: readonly string[]): void {
     list.replaceChildren(...texts.map((text) => make("li", { textContent: text })));
 }
 
-/** Describes the sectors of a turn that were seen. */
+/** Describes how many sectors of a turn have been seen. */
 function turnsText(seen: readonly boolean[]): string {
     return `Turns: ${seen.filter(Boolean).length} of ${seen.length} directions seen`;
 }

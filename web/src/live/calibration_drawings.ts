@@ -20,8 +20,8 @@ export function drawMissing(canvas: HTMLCanvasElement, { columns, covered }: Len
 }
 
 /**
- * Draws the sectors of a full turn, filled if they were seen, and the direction of the newest frame. The first sector begins
- * at `begin` sectors.
+ * Draws the sectors of a full turn, filled if they have been seen, and the direction of the newest frame. The first
+ * sector begins at the angle of `begin` sectors.
  */
 export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], theta_rad: number | null, begin = 0): void {
     const { context, width, height } = surfaceOf(canvas);
@@ -71,7 +71,7 @@ export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, nu
     }
 }
 
-/** Returns the largest mean residual of a part, at least `kMinFullScale_px`. */
+/** Returns the largest mean residual of any part of the image, but at least `kMinFullScale_px`. */
 export function fullScale_px(residuals: readonly number[]): number {
     let full_px = kMinFullScale_px;
     for (let i = 0; i + 1 < residuals.length; i += 2) full_px = Math.max(full_px, Math.hypot(residuals[i]!, residuals[i + 1]!));

@@ -42,7 +42,7 @@ export interface Residuals {
 export type Station = [x_mm: number, y_mm: number, theta_rad: number, off_x_mm: number, off_y_mm: number];
 
 export interface Result {
-    /** Labels and texts of the report. */
+    /** Labels and texts of the rows of the report. */
     rows: [string, string][];
     is_good: boolean;
     /** Improvements that more frames could bring. */
@@ -60,9 +60,9 @@ export interface CalibrationState {
     gauges: Gauge[];
     advice: string;
     lens: LensCoverage | null;
-    /** Directions of a turn, or of the tilts of a pen, that were seen. */
+    /** Whether each direction of a turn, or of the tilts of a pen, has been seen. */
     directions: boolean[];
-    /** Tilts of a pen as tangents, to the right and down on the sheet. */
+    /** Tilts of a pen. The components are tangents, to the right and down on the sheet. */
     leans: [number, number][];
     /** Requirements that are not met yet, in a step with a moving robot or pen. */
     needs: string[];

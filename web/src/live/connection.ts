@@ -28,7 +28,7 @@ export class Connection {
         this.#changed = changed;
     }
 
-    /** Connects, and connects again whenever the connection breaks. */
+    /** Connects, and reconnects whenever the connection breaks. */
     open(): void {
         const scheme = location.protocol === "https:" ? "wss" : "ws";
         const socket = new WebSocket(`${scheme}://${location.host}/live`);

@@ -49,7 +49,7 @@ function takeState(state: State): void {
 }
 
 /**
- * Shows whether the newest frame was located. The program needs some time to find the reason of a refusal. Until the
+ * Shows whether the newest frame was located. The program needs some time to find the reason for a refusal. Until the
  * reason arrives, the name of the status is shown.
  */
 function showResult(status: string): void {

@@ -56,7 +56,7 @@ export interface Line {
 
 export interface State {
     line: Line;
-    /** Frames per second in the last second. */
+    /** Frame rate over the last second. */
     rate_hz: number;
     frames: number;
     fixes: number;
@@ -101,7 +101,7 @@ export interface LiveFrame extends DrawnFrame {
     index: number;
 }
 
-/** Reads a frame message: the size of its head, the head as JSON, and a picture. */
+/** Parses a frame message, which consists of the size of its head, the head as JSON, and a picture. */
 export async function frameOf(bytes: Uint8Array<ArrayBuffer>): Promise<LiveFrame> {
     const kSizeBytes = 4;
     const end = kSizeBytes + new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);

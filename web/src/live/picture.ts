@@ -11,7 +11,7 @@ const kLarge = "frame";
 const kSmall = "small-frame";
 /** Longer side of small frames. */
 const kSmall_px = 480;
-/** Minimum rate of large frames. If they are slower, small frames are requested. */
+/** Minimum rate of large frames. If the rate is lower, small frames are requested. */
 const kMinRate_hz = 3;
 const kMeasured_ms = 4000;
 
@@ -20,7 +20,7 @@ class Meter {
     readonly #canvas = new OffscreenCanvas(1, 1);
     /**
      * Maximum steepness of edges so far. The steepness of a frame is compared with it, to show how far the focus can be
-     * improved. The sharpness is not suitable for this, because it is large for the noise of a frame without dots.
+     * improved. The sharpness is not suitable for this, because noise gives a frame without dots a high sharpness.
      */
     #best = 0;
 
@@ -111,7 +111,8 @@ export class Picture {
         this.#times_ms.push(now_ms);
         while (now_ms - this.#times_ms[0]! > kMeasured_ms) this.#times_ms.shift();
         const passed_s = (now_ms - this.#times_ms[0]!) / 1000;
-        // The rate is not shown in the first second, because two frames that wait at the beginning arrive together.
+        // The rate is not shown in the first second, because two frames that are queued at the beginning arrive
+        // together.
         const rate_hz = passed_s > 1 ? (this.#times_ms.length - 1) / passed_s : 0;
         show({ "live-frame-rate": rate_hz > 0 ? `shown: ${rate_hz.toFixed(0)} frames/s` : "" });
         if (this.#topic !== kLarge || now_ms - this.#times_ms[0]! < kMeasured_ms / 2 || rate_hz >= kMinRate_hz) return;

@@ -8,7 +8,7 @@ export const kHandle_px = 9;
 /** Distance from the upper edge of a sheet to the handle that turns it. */
 export const kHandleReach_px = 26;
 
-/** Part of the world on the canvas: the world point in the middle, px per mm, and the size in px. */
+/** The part of the world that the canvas shows: the world point in the middle, px per mm, and the size in px. */
 export interface Frame {
     x_mm: number;
     y_mm: number;

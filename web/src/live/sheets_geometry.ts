@@ -1,5 +1,5 @@
-// Pages in the world: corners, and poses that are moved and turned. The world has y up, pages have y
-// down.
+// Geometry of pages in the world: their corners, and poses that are moved and turned. In the world, y points up. On
+// pages, y points down.
 import type { Point_mm } from "../page/sheet_frame.js";
 import type { Pose, Sheet } from "./sheets_messages.js";
 
@@ -46,7 +46,7 @@ function round(value: number, step: number): number {
     return Math.round(value * inverse) / inverse;
 }
 
-/** Returns the pose with its position in steps of 0.1 mm and its angle in steps of 0.1 degrees. */
+/** Rounds the position of a pose to 0.1 mm, and its angle to 0.1 degrees. */
 export function rounded(pose: Pose): Pose {
     return { x_mm: round(pose.x_mm, 0.1), y_mm: round(pose.y_mm, 0.1), yaw_deg: round(wrapped_deg(pose.yaw_deg), 0.1) };
 }

@@ -36,7 +36,7 @@ export interface SheetFile {
     /** Descriptions of the edits that can be undone and redone. Empty if there are none. */
     undo: string;
     redo: string;
-    /** Number of further sheets, which the message does not contain. */
+    /** Number of sheets that the message omits. */
     not_shown: number;
     sheets: Sheet[];
 }

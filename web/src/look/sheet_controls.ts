@@ -25,7 +25,7 @@ export class SheetControls {
         });
     }
 
-    /** Reads the list of known sheets, which other views change. */
+    /** Reloads the list of known sheets, which other views can change. */
     refresh(): void {
         this.#sheets = knownSheets();
         const count = this.#sheets.length;

@@ -6,8 +6,8 @@ export function mm(value: number, digits = 3): string {
 }
 
 /**
- * Formats millimetres with thin spaces between groups of three digits. Positions in the pattern
- * have up to nine digits.
+ * Formats millimetres with thin spaces between groups of three digits. Positions in the pattern have up to nine digits
+ * before the decimal point.
  */
 export function grouped(value_mm: number): string {
     return value_mm.toLocaleString("en", { minimumFractionDigits: 3, maximumFractionDigits: 3 }).replaceAll(",", "\u202f");

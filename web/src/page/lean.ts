@@ -27,7 +27,7 @@ export interface Lean {
     turn: Angle;
 }
 
-/** Rows of the rotation matrix of a quaternion. */
+/** Returns the rows of the rotation matrix of a quaternion. */
 function matrixOf([x, y, z, w]: Quaternion): [number, number, number][] {
     return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],

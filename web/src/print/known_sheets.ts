@@ -13,7 +13,7 @@ const kKey = "dotpose-sheets";
 /** The list of sheets if the browser does not allow storage, or else null. */
 let unstored: KnownSheet[] | null = null;
 
-/** Returns true for a whole number from `min` to `max`. */
+/** Returns true for an integer from `min` to `max`. */
 function isWhole(value: unknown, min: number, max: number): boolean {
     return Number.isInteger(value) && (value as number) >= min && (value as number) <= max;
 }

@@ -1,5 +1,5 @@
-// Tests the search that uses the steps between all neighbouring lines. It is necessary if no run of
-// lines determines the position.
+// Tests the search that uses the steps between all neighbouring lines. This search is necessary if
+// no run of lines determines the position.
 #include "core/decode/step_search.hpp"
 
 #include <gtest/gtest.h>

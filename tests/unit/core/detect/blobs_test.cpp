@@ -1,4 +1,4 @@
-// Tests blobs and their centroids on images drawn by hand.
+// Tests blobs and their centroids on drawn images.
 #include "core/detect/blobs.hpp"
 
 #include <string>
@@ -371,8 +371,8 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheUpperQuartile) {
 }
 
 TEST(Blobs, SaltAndPepperIsSiftedOut) {
-    // Dots have about nine pixels. About 0.3 % of the pixels are isolated black pixels between the
-    // dots.
+    // Each dot consists of about nine pixels. About 0.3 % of the pixels are isolated black pixels
+    // between the dots.
     Rng rng(kSeed);
     GreyImage image = blank(188, 120);
     std::vector<Vec2> centres;

@@ -57,7 +57,7 @@ TEST(Patch, IsNeverLargerThanItsMemory) {
     EXPECT_EQ(patch->height_px, Patch::kMaxHeight_px);
 }
 
-/// Returns a patch whose tiles have a given level of paper and a given darkest pixel.
+/// Returns a patch whose tiles have a given paper level and a given darkest pixel.
 std::unique_ptr<Patch> lit_patch(int width_px, int height_px, int paper, int darkest) {
     auto patch = std::make_unique<Patch>();
     patch->width_px = width_px;
@@ -86,7 +86,7 @@ TEST(PatchContrast, IsThatOfTheTypicalTile) {
 TEST(PatchContrast, PaleTilesAreThoseOfDotsAmongGraphics) {
     const auto patch = lit_patch(160, 96, 200, 130);
     EXPECT_FALSE(core::measure_contrast(*patch, core::DotTiles::pale));  // no graphics
-    // Graphics are in 7 of 12 rows of tiles.
+    // Graphics cover 7 of the 12 rows of tiles.
     for (std::size_t row = 0; row < 7; ++row) {
         for (std::size_t column = 0; column < 10; ++column)
             patch->darkness[row * Patch::kTilesPerRow + column] = 255 - 30;

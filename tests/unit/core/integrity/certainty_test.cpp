@@ -1,5 +1,5 @@
-// Tests p_wrong, the upper bound of the probability that a fix is wrong, of the first and tracked
-// attempts. The expected values are sums over all alternatives in double precision.
+// Tests p_wrong, the upper bound of the probability that a fix of the first or tracked attempt is
+// wrong. The expected values are sums over all alternatives in double precision.
 #include "core/integrity/certainty.hpp"
 
 #include <gtest/gtest.h>

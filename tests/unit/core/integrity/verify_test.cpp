@@ -88,7 +88,7 @@ TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
         Verdict verdict = judge(reading, options, how);
         EXPECT_EQ(verdict.status, Status::ok);
         EXPECT_EQ(verdict.fix.p_wrong_log2, usual.fix.p_wrong_log2);
-        // The limit is lowered below each result. The exact sums may then still confirm the
+        // Lowers the limit below each result in turn. The exact sums may then still confirm the
         // position.
         int looks = 0;
         for (; verdict.status == Status::ok; ++looks) {
@@ -150,7 +150,7 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
             Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
         // After the scores in the storage are cleared, they are equal for all rolls and exclude no
-        // alternative. `verify` must use them, and therefore refuse.
+        // alternative. `verify` must use these scores, and therefore refuse the position.
         storage.fill({});
         EXPECT_EQ(
             verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
@@ -178,7 +178,8 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns a difficult view: it is small, and dots are missing, displaced, or have a wrong symbol.
+/// Returns a difficult view, which is small and in which dots are missing, displaced, or have a
+/// wrong symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
     view.code = kCodeVariants[static_cast<std::size_t>(rng.below(3))];

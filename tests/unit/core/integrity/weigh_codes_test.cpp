@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 83;
 
-/// Returns the same lines as if they were lines of another code variant.
+/// Returns the same lines, treated as lines of another code variant.
 RatiosCase as_in(CodeVariant code, const RatiosCase& c) {
     RatiosCase other;
     other.code = code;

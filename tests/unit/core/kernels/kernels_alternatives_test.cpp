@@ -193,8 +193,8 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 }
 
 /// Expected odds in double precision, indexed by the roll offset and by the length of the current
-/// run. The current run consists of the adjacent lines, the last of which is the newest line, in
-/// which the alternative has the roll offset 0 and the digits of the reading.
+/// run. The current run consists of adjacent lines in which the alternative has the roll offset 0
+/// and the digits of the reading. It ends with the newest line.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
 /// Calls `use` for every choice of digits at one step, in the sequences of the bit set `different`

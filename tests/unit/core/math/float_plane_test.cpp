@@ -100,7 +100,7 @@ TEST(FloatPlane, TellsWhatACameraMaySee) {
     for (int i = 0; i < 200; ++i) {
         const FloatPlane good = random_float_plane(rng.uniform(5, 80), rng.uniform(0, 4e-3), rng);
         ASSERT_TRUE(core::is_within_reason(good, 94, 60));
-        // Refuses NaN and infinity in any number of the plane.
+        // NaN and infinity must be refused in every number of the plane.
         for (float FloatPlane::*number :
              {&FloatPlane::at_x, &FloatPlane::at_y, &FloatPlane::du_x, &FloatPlane::du_y,
               &FloatPlane::dv_x, &FloatPlane::dv_y, &FloatPlane::tilt_x, &FloatPlane::tilt_y,

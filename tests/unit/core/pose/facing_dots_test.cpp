@@ -1,6 +1,6 @@
 // Tests the correction of the bias of facing dots. Two neighbouring dots face each other if they
 // are displaced towards each other. Their measured centres are then shifted towards each other,
-// whereas those of other dots are not shifted.
+// whereas the measured centres of other dots are not.
 #include "core/pose/facing_dots.hpp"
 
 #include <map>
