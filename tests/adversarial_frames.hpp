@@ -72,7 +72,7 @@ enum class Verdict : std::uint8_t {
     refused,
     right,
     second,  ///< the pose of another part of the pattern, extrapolated to the image centre
-    twin,    ///< a place whose bits match the print, in the code of the options; see `is_twin`
+    twin,    ///< a place, in the code of the options, whose bits match the print (see `is_twin`)
     wrong,
 };
 

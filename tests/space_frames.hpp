@@ -74,7 +74,7 @@ inline void expect_true_space_pose(std::size_t frame, const nlohmann::json& posi
     const Eigen::Quaterniond seen(rotation["w"].get<double>(), rotation["x"].get<double>(),
                                   rotation["y"].get<double>(), rotation["z"].get<double>());
     EXPECT_NEAR(seen.norm(), 1, 1e-8);
-    // The covariance is that of (x, y, z, rotation vector about the axes of the world).
+    // The covariance refers to (x, y, z) and a rotation vector about the axes of the world.
     const Eigen::AngleAxisd turn(true_space_rotation(frame) * seen.conjugate());
     Eigen::Matrix<double, 6, 1> error;
     error << true_space_position(frame) - at,

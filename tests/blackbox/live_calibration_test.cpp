@@ -143,8 +143,8 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
     EXPECT_THAT(errors_, HasSubstr(" and 0 taken (0 out of focus, "));
 }
 
-/// Returns shell commands that calibrate with an endless source, and send Ctrl-C after `frames`
-/// frames have been taken.
+/// Returns shell commands that calibrate with an endless source, and send Ctrl-C after the program
+/// has accepted `frames` frames.
 std::string interrupted_after(int frames) {
     return fmt::format(
         "mkfifo pipe; touch told; (cat resting.raw; exec sleep 60) > pipe & writer=$!\n"

@@ -330,8 +330,8 @@ TEST_F(LocateCommand, the_lens_is_used) {
     EXPECT_LT(with_lens["residual_px"], 0.5);
     run("a.pgm");
     const json without = records().at(0);
-    // Without --k, the pose fit must also estimate the lens distortion. It then uses fewer dots,
-    // and the fix is less accurate.
+    // Without --k, the pose fit must also estimate the lens distortion. The fit then uses fewer
+    // dots, and the fix is less accurate.
     if (without["status"] == "ok") {
         EXPECT_LT(without["dots_used"], 0.95 * with_lens["dots_used"].get<double>()) << without;
         EXPECT_GT(without["sigma_x_mm"], 1.2 * with_lens["sigma_x_mm"].get<double>()) << without;

@@ -46,7 +46,7 @@ struct LocateHeader {
     std::int32_t reference_dy_q8 = 0;
     // Parameters of drawn dots.
     std::uint16_t angle = 0;             ///< 65536 is a full turn
-    std::uint16_t spacing_q8 = 8 * 256;  ///< in px; values below 4 px are treated as 4 px
+    std::uint16_t spacing_q8 = 8 * 256;  ///< in px (values below 4 px are treated as 4 px)
 };
 static_assert(sizeof(LocateHeader) == 44 && std::is_trivially_copyable_v<LocateHeader>);
 

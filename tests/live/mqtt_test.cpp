@@ -193,7 +193,7 @@ TEST_F(Mqtt, FindsItsBrokerAgainAsFastWithTls) {
     ASSERT_TRUE(publisher.is_connected()) << news_.text();
     broker.stop();
     wait_until([&] { return !publisher.is_connected(); });
-    std::this_thread::sleep_for(1500ms);  // some failing attempts
+    std::this_thread::sleep_for(1500ms);  // several failing attempts
     broker.start();
     // The publisher retries every half second. The library alone would wait for ten seconds.
     wait_until([&] { return publisher.is_connected(); }, 4s);
@@ -221,7 +221,7 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Extends the options of a publisher. It then publishes its presence as a word on the topic
+/// Returns the options, extended to make the publisher publish its presence as a word on the topic
 /// `presence`.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";

@@ -119,7 +119,7 @@ TEST(RobotMessages, OdometryBeginsWhereTheRobotIsFirstSeen) {
     EXPECT_NEAR(then.odometry->pose.pose.position.x, 0.1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.pose.position.y, 0.2, 1e-12);
     // The axes of odom are those of the world rotated by 90 degrees, so the variances of x and y
-    // are exchanged.
+    // are swapped.
     EXPECT_NEAR(then.odometry->pose.covariance[0], 2, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[7], 1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[35], 3, 1e-12);

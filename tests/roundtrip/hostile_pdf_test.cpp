@@ -38,7 +38,7 @@ std::string stream_with(const std::string& keys, const std::string& data) {
     return fmt::format("<< /Length {} {} >>\nstream\n{}\nendstream", data.size(), keys, data);
 }
 
-/// Returns the objects of a document with one page. `more` contains the objects numbered from 5.
+/// Returns the objects of a one-page document. `more` contains the objects numbered from 5.
 std::vector<std::string> page_with(const std::string& keys, const std::string& content = stream(""),
                                    const std::vector<std::string>& more = {}) {
     std::vector<std::string> objects = {

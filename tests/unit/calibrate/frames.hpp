@@ -194,8 +194,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // The light and the noise of all sheets are equal, so the darkest value of a pixel is that
-        // of a dot if any sheet has a dot there.
+        // All sheets have the same light and noise, so the darkest value of a pixel is that of a
+        // dot if any sheet has a dot there.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)
             result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);

@@ -243,7 +243,7 @@ TEST(SpaceTrack, DoesNotStartWithAnAmbiguousPose) {
     sighting.second = SecondPose{mirrored(sighting.camera), -1};
     EXPECT_TRUE(tracker.update(sighting).is_lost);
     EXPECT_EQ(tracker.track().verdict, SpaceVerdict::rejected);
-    sighting.second->odds_log2 = -60;  // excluded
+    sighting.second->odds_log2 = -60;  // excludes the second pose
     sighting.time_us = 10'000;
     EXPECT_FALSE(tracker.update(sighting).is_lost);
 }
@@ -272,7 +272,7 @@ TEST(SpaceTrack, RejectsOutliersAndFollowsAJump) {
     EXPECT_NEAR(tracker.track().camera.x_mm, hand_at(2.02).x_mm + 500, 0.5);
 }
 
-/// The track of a camera over a page that is turned in the world agrees with `in_world`.
+/// The track of a camera over a page that is turned in the world must agree with `in_world`.
 TEST(SpaceTrack, IsInTheWorldOfTheSheet) {
     SheetEntry entry;
     entry.sheet = make_sheet({});

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 34;
 
-/// Returns frames of one size, some of which can be located.
+/// Returns frames of the same size. Only some of them can be located.
 std::vector<GreyImage> mixed_frames() {
     std::vector<GreyImage> frames;
     for (std::uint64_t i = 0; i < 8; ++i) {

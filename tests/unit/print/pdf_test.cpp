@@ -159,8 +159,8 @@ TEST(labels, stay_clear_of_the_dots) {
             x *= mm_per_pt;
             y = sheet.height_mm - y * mm_per_pt;
             EXPECT_TRUE(x > 0 && y > 0 && y < sheet.height_mm) << line;
-            // The position of a text is that of its baseline. Capitals extend above the baseline by
-            // 0.718 * 6 pt = 1.52 mm.
+            // The position of a text is the position of its baseline. Capitals extend above the
+            // baseline by 0.718 * 6 pt = 1.52 mm.
             EXPECT_TRUE(x < left || y < top || y > bottom + (is_text ? 1.52 : 0))
                 << margin_mm << ": " << line;
         }

@@ -128,7 +128,7 @@ TEST(Dot, InkMassIsTheDotsAreaWhateverBlursIt) {
     }
 }
 
-// Many dots together remove the sum of the light that each removes alone. This is also true if
+// Together, dots remove the sum of the light that each dot removes alone. This is true even if
 // their blurred images overlap or are cut off by the frame, because light is additive.
 TEST(Dot, ManyTakeAwayTheSumOfEach) {
     Rng rng(6);

@@ -167,7 +167,7 @@ TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
 struct Errors {
     double raw_mm = 0;
     double filtered_mm = 0;
-    double normalised = 0;  ///< mean squared error divided by the variance
+    double normalised = 0;  ///< mean of the squared errors, each divided by its variance
 
     double gain() const { return filtered_mm / raw_mm; }
 };

@@ -1,4 +1,4 @@
-// A canvas with coordinates in CSS pixels, at the resolution of the screen.
+// Provides canvases with coordinates in CSS pixels, at the resolution of the screen.
 
 /**
  * Colours for drawing over camera frames. They are distinguishable with all types of colour vision.

@@ -1,4 +1,4 @@
-// The overlay of a reading: its dots, grid, symbols and axes in the frame.
+// Computes the overlay of a reading: its dots, grid, symbols and axes in the frame.
 import { imageFromPattern } from "dotpose";
 import type { Axes, DrawnFrame, FrameOverlay, Pixel } from "../draw/frame.js";
 import { kSymbolStep } from "../draw/surface.js";

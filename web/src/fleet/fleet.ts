@@ -1,4 +1,4 @@
-// The page of `dotpose fleet --web`: all robots of a broker, live.
+// The page of `dotpose fleet --web`, which shows all robots of a broker, live.
 import { Connection, type Request, type Value } from "../live/connection.js";
 import { announcer, element, show } from "../page/dom.js";
 import { HistoryPanel } from "./history.js";

@@ -1,4 +1,4 @@
-// The stored history of the chosen robot: its track on the map, and its speed and states over time.
+// Shows the stored history of the chosen robot: its track on the map, and its speed and states over time.
 import { surfaceOf, themed } from "../draw/surface.js";
 import type { Connection, Request } from "../live/connection.js";
 import { element, show } from "../page/dom.js";

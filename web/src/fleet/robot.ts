@@ -1,4 +1,4 @@
-// The chosen robot: its newest state, its path and its history, and the button that removes it.
+// Shows the chosen robot: its newest state, its path and its history, and the button that removes it.
 import type { Connection } from "../live/connection.js";
 import { element, make, show } from "../page/dom.js";
 import { length } from "../page/format.js";

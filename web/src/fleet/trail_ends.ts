@@ -1,4 +1,5 @@
-// The newest part of the trails: the positions of the robots since the trails arrived. Trails arrive once per second.
+// Keeps the newest part of the trails, which consists of the positions of the robots since the trails arrived. Trails
+// arrive once per second.
 import type { Positions, Trails } from "./messages.js";
 
 /** With more robots, only the newest position is kept. The ends are then too short on the screen to appear as

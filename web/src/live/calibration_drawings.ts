@@ -1,4 +1,4 @@
-// Drawings of a calibration: missing parts of the image, directions, tilts, residuals, a turn.
+// Draws the state of a calibration: missing parts of the image, directions, tilts, residuals, and turns of a robot.
 import { arrow, surfaceOf, themed } from "../draw/surface.js";
 import type { LensCoverage, Residuals, Station } from "./calibration_state.js";
 

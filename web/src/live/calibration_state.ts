@@ -12,7 +12,7 @@ export interface Gauge {
     is_reached: boolean;
 }
 
-/** Frames that were taken for the lens. */
+/** Frames that have been accepted for the calibration of the lens. */
 export interface LensCoverage {
     columns: number;
     /** A digit for each part of the image, row by row: 1 if the part has shown dots. */

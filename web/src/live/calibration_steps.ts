@@ -1,4 +1,4 @@
-// The list of the steps of a calibration: what each step finds, what to do, and its value.
+// Shows the steps of a calibration: what each step finds, what to do, and its value.
 import { element, make } from "../page/dom.js";
 import type { CalibrationState, StepName } from "./calibration_state.js";
 

@@ -1,5 +1,5 @@
-// The WebSocket to the program. Each topic delivers its newest value, and the next one only after
-// the previous one was shown, so a slow page or connection receives fewer values, not old ones.
+// The WebSocket to the program. Each topic delivers its newest value, and the next one only after the previous one has
+// been shown, so a slow page or connection receives fewer values rather than outdated ones.
 
 export type Value = string | Uint8Array<ArrayBuffer>;
 export type Show = (value: Value) => Promise<void> | void;

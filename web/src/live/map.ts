@@ -1,4 +1,4 @@
-// The path of the robot over its sheets.
+// Shows the path of the robot over its sheets.
 import { drawMap, type Paper } from "../draw/map.js";
 import { element, show } from "../page/dom.js";
 import type { Point_mm } from "../page/sheet_frame.js";

@@ -1,4 +1,4 @@
-// The camera's frame with its overlay, and the aids for focus and exposure.
+// Shows the camera's frame with its overlay, and the aids for focus and exposure.
 import { drawFrame } from "../draw/frame.js";
 import { measureQuality } from "../engine/quality.js";
 import type { ImageQuality } from "../engine/messages.js";

@@ -1,4 +1,4 @@
-// The numbers of the newest frame.
+// Shows the numbers of the newest frame.
 import { element, show } from "../page/dom.js";
 import { grouped, length, oneIn } from "../page/format.js";
 import type { Line, Setup, State } from "./messages.js";

@@ -1,4 +1,4 @@
-// Refused frames by reason over time, as stacked bars with a legend and a summary in words.
+// Shows refused frames by reason over time, as stacked bars with a legend and a summary in words.
 import { surfaceOf, themed } from "../draw/surface.js";
 import { element, make, show } from "../page/dom.js";
 import type { History } from "./messages.js";

@@ -1,4 +1,4 @@
-// The numbers of the selected sheet, and new sheets.
+// Forms for the numbers of the selected sheet, and for new sheets.
 import { element, make, show } from "../page/dom.js";
 import { showAnswer, type SheetCommands } from "./sheets_commands.js";
 import { wrapped_deg } from "./sheets_geometry.js";

@@ -1,4 +1,4 @@
-// The pose of the camera in space, from the keys of `--pose space`.
+// Shows the pose of the camera in space, from the keys of `--pose space`.
 import { fromWorld, type Quaternion, type SpacePose } from "../page/lean.js";
 import { SpacePanel, type ShownPose } from "../page/space_panel.js";
 import type { Line } from "./messages.js";

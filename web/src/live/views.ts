@@ -1,4 +1,4 @@
-// The views of the page. The address after '#' selects one.
+// Switches between the views of the page. The address after '#' selects a view.
 import { element } from "../page/dom.js";
 
 export interface LiveView {

@@ -1,4 +1,4 @@
-// Angles of a camera over the paper, with their standard deviations.
+// Computes the angles of a camera over the paper, with their standard deviations.
 
 export type Quaternion = readonly [x: number, y: number, z: number, w: number];
 

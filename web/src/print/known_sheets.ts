@@ -1,5 +1,5 @@
-// Known sheets: those that were printed from this page, and those of the sheet files that were opened.
-// They are stored in the browser.
+// Known sheets: sheets that were printed from this page, and sheets of the sheet files that were opened. They are
+// stored in the browser.
 import { kCodes, type Fix, type KnownRegion } from "dotpose";
 import type { SheetLayout } from "../engine/messages.js";
 import { isOnSheet, kPositions } from "../page/sheet_frame.js";

@@ -100,8 +100,8 @@ export class SimulatedCamera {
             ...{ x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad },
             tilt_x_rad: (tilt_deg * Math.PI) / 180,
             tilt_y_rad: 0,
-            // The lens is the same for all images of a field, so the blur in px is proportional to
-            // the number of pixels.
+            // All image sizes with the same field of view use the same lens, so the blur in px is proportional to the
+            // number of pixels.
             blur_px: blur_px / this.px,
             ...{ noise, paper_level, vignetting },
             seed: ++this.#seed,

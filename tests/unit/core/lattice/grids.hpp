@@ -9,8 +9,8 @@
 
 namespace dotpose::core_test {
 
-/// Returns the mesh with random errors in length, angle and position. Their maxima are those of a
-/// first estimate.
+/// Returns the mesh with random errors in length, angle and position. The maximum errors are those
+/// of a first estimate.
 inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     const auto turned = [&](Vec2 a) {
         const double angle = radians(rng.uniform(-1, 1));

@@ -137,7 +137,7 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
             // All edges point down, and horizontal edges point to the right (Fig. 4).
             ASSERT_TRUE(edge.step_q8.y > 0 || (edge.step_q8.y == 0 && edge.step_q8.x >= 0));
         }
-        ASSERT_EQ(static_cast<int>(found.size()), count);  // each edge once
+        ASSERT_EQ(static_cast<int>(found.size()), count);  // each edge is found once
         ASSERT_EQ(found, expected);
     }
 }
