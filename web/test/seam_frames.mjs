@@ -1,4 +1,4 @@
-// Frames over the seam between two sheets, made of simulated frames of each sheet.
+// Frames over the seam between two sheets, composed of simulated frames of each sheet.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { dotpose } from "./browser.mjs";

@@ -16,7 +16,7 @@ interface Frame {
     before: Reading | undefined;
 }
 
-/** Returns a text as a field of a CSV file. */
+/** Replaces commas, quotation marks and white space, to make a text a valid field of a CSV file. */
 const withoutCommas = (text: string) => text.replaceAll(/[,"\s]+/g, (match) => (match.includes(",") ? "; " : " "));
 
 type Column = readonly [name: string, value: (frame: Frame) => string | number, always?: true];
