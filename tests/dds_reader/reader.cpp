@@ -2,7 +2,7 @@
 // with Cyclone DDS, so this program tests that the two implementations work together. Prints each
 // sample as a line: topic, ROS type, and the received bytes in hexadecimal.
 //
-// dotpose_dds_reader best-effort|reliable NAME TOPIC TYPE [TOPIC TYPE]...
+//   dotpose_dds_reader best-effort|reliable NAME TOPIC TYPE [TOPIC TYPE]...
 //
 // TOPIC is a ROS topic, and TYPE a type such as nav_msgs/Odometry. The program creates the file
 // NAME when all topics have writers. It ends when all writers are gone, or after five minutes.

@@ -2,7 +2,7 @@
 // of service and content. The stream reader and the indexed reader must agree, and all checksums must be correct.
 // Otherwise prints the fault and exits with 1.
 //
-// node read_mcap.mjs FILE [--stream]
+//   node read_mcap.mjs FILE [--stream]
 //
 // --stream: uses only the stream reader, for a truncated file.
 import { open, readFile } from "node:fs/promises";
