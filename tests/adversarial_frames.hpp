@@ -1,5 +1,5 @@
-/// Frames that are designed to cause wrong fixes, and the poses that may be reported for each of
-/// them. The adversary, the seed and the index determine a frame.
+/// Frames designed to provoke wrong fixes, with the poses that are acceptable for each frame. A
+/// frame is determined by its adversary, seed and index.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace dotpose::test {
 
 enum class Adversary : std::uint8_t {
     noise,           ///< dark grains of 1 to 4 px
-    text,            ///< a page of words
+    text,            ///< a page of printed words
     halftone,        ///< a printed halftone screen with dots of varying size
     texture,         ///< 1/f noise, in some frames thresholded
     plain_grid,      ///< dots on the intersections, without displacement
@@ -62,8 +62,8 @@ struct Answer {
 struct AdversarialFrame {
     GreyImage image;
     DeviceOptions options;
-    /// The first answer is the pose of the pattern at the image centre. Without answers, every fix
-    /// is wrong.
+    /// Acceptable poses. The first is the pose of the pattern at the image centre. If there are
+    /// none, every fix is wrong.
     std::vector<Answer> answers;
     Pattern printed;
 };
@@ -72,7 +72,7 @@ enum class Verdict : std::uint8_t {
     refused,
     right,
     second,  ///< the pose of another part of the pattern, extrapolated to the image centre
-    twin,    ///< a place in the code of the options whose bits agree with the print, see `is_twin`
+    twin,    ///< a place, in the code of the options, whose bits match the print (see `is_twin`)
     wrong,
 };
 
@@ -86,9 +86,9 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
            std::abs(theta) < 0.1 && fix.section == answer.section;
 }
 
-/// Returns true if the pattern was printed in another code than the locator reads, and the print
+/// Returns true if the pattern was printed in a code other than that of the options, but the print
 /// also agrees with the fix: around the fix, at least three quarters of the bits in the code of the
-/// options are equal to the printed bits around the first answer.
+/// options equal the printed bits around the first answer.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();
@@ -123,7 +123,7 @@ inline int reach_cells(const Shot& shot) {
 }
 
 /// Two parts of the pattern that are joined at a border. Beyond the border, the frame shows the
-/// pattern at an offset of (`other_x`, `other_y`) cells, in the same section or in another.
+/// pattern at an offset of (`other_x`, `other_y`) cells, in the same section or another one.
 struct Joint {
     bool is_vertical;
     std::uint32_t border;
@@ -197,7 +197,7 @@ inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
     frame.answers = {{shot.pose, pattern.section}};
 }
 
-/// Renders a pattern of which only some columns or rows are printed.
+/// Renders a pattern with only some of its columns or rows printed.
 inline void render_part(Adversary adversary, Shot shot, Rng& rng, AdversarialFrame& frame) {
     constexpr std::uint32_t kFar = 1000;
     const int reach = reach_cells(shot);

@@ -1,5 +1,5 @@
-/// Frames in which all dots have almost the same sub-pixel phase. The properties of the dots, the
-/// seed and the index determine a frame.
+/// Frames in which all dots have almost the same sub-pixel phase. A frame is determined by its
+/// dots, seed and index.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-/// Renders patterns with symbols that differ from the code. All else is rendered as by the
-/// simulator.
+/// Renders patterns with symbols that differ from the code. Everything else is rendered as the
+/// simulator does.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ inline Vec2 displacement_of(Symbol symbol) {
     return {static_cast<double>(dx(symbol)), static_cast<double>(dy(symbol))};
 }
 
-/// Returns the random number generator of a cell. For the same seed and cell, its sequence is the
-/// same.
+/// Returns the random number generator of a cell. Its sequence depends only on the seed and the
+/// cell.
 inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }
 
-/// Returns the symbol of the code in a cell, with each of its two bits flipped with the probability
+/// Returns the symbol of the code in a cell, each of whose two bits is flipped with probability
 /// `probability`.
 inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::uint64_t seed,
                              Cell cell) {

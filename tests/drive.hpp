@@ -149,7 +149,7 @@ class DriveCamera {
     GreyImage frame(const Drive& drive, int index) const {
         return frame(drive.at(index), static_cast<std::uint64_t>(index) + 1);
     }
-    /// Returns the frame at any state of the robot. `seed` is that of the noise.
+    /// Returns the frame at any state of the robot. `seed` is the seed of the noise.
     GreyImage frame(const DriveState& state, std::uint64_t seed) const {
         if (state.is_lifted) return empty(seed);
         const double reach_mm = camera_.mm_per_px * camera_.width_px;

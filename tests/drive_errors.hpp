@@ -54,7 +54,7 @@ class DriveErrors {
 
     int fixes() const { return fixes_; }
     int wrong() const { return wrong_; }
-    /// Root mean square errors, in the units of their names.
+    /// Root mean square errors, in the units given by the function names.
     double raw_um() const { return 1000 * root_mean(raw_mm2_); }
     double filtered_um() const { return 1000 * root_mean(filtered_mm2_); }
     double raw_deg() const { return degrees(root_mean(raw_rad2_)); }

@@ -49,7 +49,8 @@ inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endi
     add_entry(34665, kLong, kHeader + kFirst);
     add(0, 4);
     add(static_cast<std::uint32_t>(tags.size()), 2);
-    // All ratios refer to the eight bytes after the header, because their values do not matter.
+    // All rational values refer to the eight bytes after the header, because the values do not
+    // matter.
     for (const std::uint16_t tag : tags)
         add_entry(tag, tag == sensitivity ? kShort : kRational, kHeader);
     add(0, 4);
@@ -57,8 +58,8 @@ inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endi
 }
 
 /// Returns a JPEG with EXIF data in a segment before the byte at `position`. Position 2 is directly
-/// after the start marker, where phones write it. Position 20 is after the segment with the
-/// density.
+/// after the start marker, where phones write the EXIF segment. Position 20 is after the JFIF
+/// segment, which contains the density.
 inline std::string with_exif(std::string jpeg, const std::string& exif, std::size_t position = 20) {
     const std::size_t length = 2 + 6 + exif.size();
     std::string segment = "\xFF\xE1";

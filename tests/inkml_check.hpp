@@ -104,7 +104,7 @@ class InkMlCheck {
     }
 
     void add_channel(const Attributes& attributes) {
-        // Reserved names of channels, with the units that are allowed for them.
+        // Reserved channel names, grouped by the units that they allow.
         static const std::set<std::string> kLengths = {"m", "cm", "mm", "in", "pt", "pc", "em"};
         static const std::set<std::string> kTimes = {"s", "ms"};
         static const std::set<std::string> kAngles = {"deg", "rad"};
@@ -124,7 +124,8 @@ class InkMlCheck {
                              std::strtod(value("max", "1e300").c_str(), nullptr)});
     }
 
-    /// Checks that each point has a decimal for each channel, in the range of the channel.
+    /// Checks that each point has a decimal number for each channel, within the range of the
+    /// channel.
     void check_trace(const std::string& text) {
         ++traces_;
         static const std::regex separator(",");

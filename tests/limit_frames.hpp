@@ -1,5 +1,5 @@
 /// The conditions of docs/limits.md. In each condition, one property of nominal frames has its
-/// worst permitted value. The condition, the seed and the index determine a frame.
+/// worst permitted value. A frame is determined by its condition, seed and index.
 #pragma once
 
 #include <algorithm>
@@ -182,7 +182,7 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                  },
                  camera});
             // If the scene moves in the direction of the readout, the image contains fewer rows of
-            // cells. In the small frames of the device, there may be too few.
+            // cells. The small frames of devices may then contain too few.
             limits.back().is_held = percent == 10 || !is_device;
         }
         for (const int degrees : {2, 10, 20, 40, 60}) {

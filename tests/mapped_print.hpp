@@ -57,15 +57,15 @@ class MappedPrint {
     const SheetEntry& entry() const { return entry_; }
     const MappedPrintOptions& options() const { return options_; }
 
-    /// Returns the displacement of the dots at a place by the wave. The wave is along y, the
-    /// direction of paper feed. A tenth of its amplitude is along x.
+    /// Returns the displacement of the dots that the wave causes at a position. The wave is along
+    /// y, the direction of paper feed. A tenth of its amplitude is along x.
     Vec2 wave(Vec2 at_mm) const {
         const double phase = 2 * std::numbers::pi * at_mm.y / options_.wavelength_mm;
         return {0.1 * options_.wave_mm * std::cos(phase), options_.wave_mm * std::sin(phase)};
     }
 
     struct Pose {
-        Vec2 at_mm;  ///< place under the image centre, in mm from the first intersection
+        Vec2 at_mm;  ///< position under the image centre, in mm from the first intersection
         double theta_rad;
     };
     /// Returns a random pose on the page. Its distance from the edges is at least 0.6 times half
@@ -116,11 +116,11 @@ class PlaceErrors {
     }
     std::size_t count() const { return places_.size(); }
 
-    /// Returns the rms error per axis after a fit of offset, scale and turn.
+    /// Returns the rms error per axis after subtraction of a fitted offset, scale and rotation.
     double absolute_um() const { return left_um(4, 0); }
-    /// Returns the rms error per axis, without errors that change slowly over the page. First adds
+    /// Returns the rms error per axis, excluding errors that vary slowly over the page. First adds
     /// `wave_share` times the wave of the print to each error, because a displaced dot moves the
-    /// fix in the opposite direction. Then subtracts a fit of cubic polynomials.
+    /// fix in the opposite direction. Then subtracts a fitted cubic polynomial.
     double repeatability_um(double wave_share) const { return left_um(20, wave_share); }
     double sigma_um() const {
         return 1000 * std::sqrt(variance_ / static_cast<double>(places_.size()));
@@ -162,7 +162,7 @@ class PlaceErrors {
     double variance_ = 0;
 };
 
-/// Returns the map of a print from `frames` frames. `begin` is called before each frame.
+/// Computes the map of a print from `frames` frames. `begin` is called before each frame.
 inline PrintMapResult map_of(const MappedPrint& print, int frames, std::uint64_t series = 100,
                              const PrintMap& earlier = {},
                              const std::function<void(int)>& begin = {}) {
@@ -184,7 +184,7 @@ struct MapTest {
     int not_covered = 0;
 };
 
-/// Locates `frames` frames that were not used for the map, with and without the map.
+/// Locates `frames` frames that were not used to compute the map, with and without the map.
 inline MapTest test_map(const MappedPrint& print, const PrintMap& map, int frames,
                         std::uint64_t series = 200, const std::optional<Camera>& camera = {}) {
     MapTest result;

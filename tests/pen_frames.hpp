@@ -33,7 +33,7 @@ inline Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
     return shot;
 }
 
-/// Returns the camera file for the camera of `pen_shot`, without the tip.
+/// Returns the camera file for the camera of `pen_shot`, without the position of the tip.
 inline Camera pen_camera() {
     Camera camera;
     camera.width_px = 320;

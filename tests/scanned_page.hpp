@@ -1,5 +1,5 @@
 /// Simulates a printer and a flatbed scanner, independently of src/simulate. Dots are discs at
-/// their true places, drawn with anti-aliasing, blur and noise.
+/// their true positions, drawn with anti-aliasing, blur and noise.
 #pragma once
 
 #include <cstdint>

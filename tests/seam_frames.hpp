@@ -24,7 +24,7 @@ struct SeamShot {
     int width_px = 188;
     int height_px = 120;
     double spacing_px = 11;
-    Cell cell;  ///< cell at the image centre; the position also includes the fraction
+    Cell cell;  ///< cell at the image centre, to which `fraction_x` and `fraction_y` are added
     Section section;
     double fraction_x = 0;
     double fraction_y = 0;

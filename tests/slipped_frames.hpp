@@ -1,7 +1,6 @@
 /// Frames of sheets that are not planar: wrinkled paper, and sheets with two halves that are
-/// displaced relative to each other, as by a printer with a bad paper feed or at the seam of two
-/// sheets. The true pose is the pose of the shot. It refers to the part of the paper at the image
-/// centre.
+/// displaced relative to each other, as caused by a bad paper feed or by a seam between two sheets.
+/// The true pose is the pose of the shot. It refers to the part of the paper at the image centre.
 #pragma once
 
 #include <array>

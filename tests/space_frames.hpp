@@ -1,4 +1,5 @@
-/// Frames of a tilted camera over a sheet with a place in the world, and its true poses.
+/// Frames of a tilted camera over a sheet whose pose in the world is known, and the true poses of
+/// the camera.
 #pragma once
 
 #include <array>
@@ -64,8 +65,8 @@ inline Eigen::Quaterniond true_space_rotation(std::size_t frame) {
                               Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
 }
 
-/// Expects that position and rotation of a geometry_msgs/Pose, or of a Transform, are the true pose
-/// of a frame, and that the error is consistent with `covariance`.
+/// Expects that the position and rotation of a geometry_msgs/Pose or Transform are the true pose of
+/// a frame, and that the error is consistent with `covariance`.
 inline void expect_true_space_pose(std::size_t frame, const nlohmann::json& position,
                                    const nlohmann::json& rotation,
                                    const nlohmann::json& covariance) {
@@ -73,7 +74,7 @@ inline void expect_true_space_pose(std::size_t frame, const nlohmann::json& posi
     const Eigen::Quaterniond seen(rotation["w"].get<double>(), rotation["x"].get<double>(),
                                   rotation["y"].get<double>(), rotation["z"].get<double>());
     EXPECT_NEAR(seen.norm(), 1, 1e-8);
-    // The covariance is that of (x, y, z, rotation vector about the axes of the world).
+    // The covariance refers to (x, y, z) and a rotation vector about the axes of the world.
     const Eigen::AngleAxisd turn(true_space_rotation(frame) * seen.conjugate());
     Eigen::Matrix<double, 6, 1> error;
     error << true_space_position(frame) - at,

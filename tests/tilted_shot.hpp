@@ -25,7 +25,7 @@ inline Shot tilted_shot() {
     return shot;
 }
 
-/// Returns the focal length of the camera of the shot.
+/// Returns the focal length of the shot's camera.
 inline double focal_px_of(const Shot& shot) {
     return kTiltedDistance_mm / shot.camera.mm_per_px;
 }

@@ -30,7 +30,7 @@ TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
 
 // Each of these frames shows two patterns with the same orientation, whose grids are shifted by
 // about a fifth of the spacing. Regression: `locate` read the columns of one pattern and the rows
-// of the other pattern, and reported the position that both together encode.
+// of the other pattern, and reported the position that this combination encodes.
 TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Overlay {
@@ -47,9 +47,9 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     }
 }
 
-// Each of these frames shows a seam between two sections. The digits between lines on different
-// sides of the seam belong to neither section, but occur elsewhere in the code. Regression:
-// `locate` reported the position at which they occur.
+// Each of these frames shows a seam between two sections. The digits computed from lines on
+// opposite sides of the seam belong to neither section, but occur elsewhere in the code.
+// Regression: `locate` reported that other position.
 TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Seam {

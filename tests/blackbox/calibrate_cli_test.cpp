@@ -39,8 +39,8 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
-// Locates frames with an unknown lens. Its distortion moves the image corner by up to 5 % of its
-// distance from the centre, inwards or outwards.
+// Locates frames of an unknown lens, whose distortion moves the image corners inwards or outwards
+// by up to 5 % of their distance from the centre.
 TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     const auto corner_px = [](int width, int height) {
         return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);

@@ -102,7 +102,7 @@ TEST_F(CheckPrintCommand, fit_makes_the_millimetres_of_the_sheet_file_true) {
     EXPECT_NEAR(sheets()[1].print_scale_y, 0.98, 2e-4);
     EXPECT_EQ(sheets()[0].print_scale_x, 1);
 
-    // A scan of a sheet that is not in the file does not change the file.
+    // A scan of a sheet that is not in the sheet file must not change the file.
     const std::string before = file("sheets.json");
     write_jpeg("other.jpg", scan_of_60_x_50_mm(settings), 600);
     EXPECT_EQ(run("check-print other.jpg --fit --sheets sheets.json"), 1);
@@ -135,8 +135,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(exit_code_, 0) << output_;
     EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo"));
 
-    // The file scan.jpg contains no resolution. The file screen.jpg contains 72 dpi, which is not
-    // the resolution of a scan.
+    // scan.jpg contains no resolution. screen.jpg contains 72 dpi, which is not the resolution of a
+    // scan.
     const GreyImage scan = test::scan_page(sheet, {});
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);
@@ -178,7 +178,7 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
 
     // The EXIF data of a scanner contain no exposure, so the check uses the resolution in the file.
     // The image was scanned at 330 dpi, but the file contains 300 dpi, so the page seems to be
-    // scaled to 110 %. In a photo, the scale is checked only if --dpi is given.
+    // scaled to 110 %. For a photo, the scale is checked only if --dpi is given.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));
@@ -354,7 +354,7 @@ TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
         "print --test-page -o test.png --spacing 0.5",  // a test page has several spacings
         "print --test-page -o test.png --origin 1,1",   //
         "print --test-page -o test.png --dpi 300",      // too coarse for a spacing of 0.381 mm
-        "print --test-page -o test.png --paper 40x40",  // no room
+        "print --test-page -o test.png --paper 40x40",  // no room for dots
     };
     for (const char* arguments : wrong) {
         run(arguments);

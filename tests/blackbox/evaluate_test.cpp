@@ -117,7 +117,7 @@ TEST_F(EvaluateCommand, ProfileAndSpacingAreTakenFromTheTruthUnlessGiven) {
 TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     ASSERT_EQ(run("simulate -o frames --frames 5 --k -8.7e-6 --angle 30 --at 5000,6000"), 0);
     // The robot's centre is 5 mm from the camera along the image x axis. The heading of the robot
-    // is a quarter turn from this axis.
+    // is a quarter turn away from this axis.
     std::ofstream(directory_ / "robot.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: "
            "-8.7e-06, centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: "
@@ -128,8 +128,8 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     const json image = result();
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
-    // With the scale and tilt from the camera file, the fit has five parameters. With only the
-    // lens, it has eight, so the angles of the two fits differ.
+    // With the scale and tilt from the camera file, the fit has five parameters. With only the lens
+    // parameters, it has eight, and therefore yields other angles.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 5);  // truth.csv contains the pose of the image centre
@@ -183,8 +183,8 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames of a sheet whose poses were measured twice. A ruler measured them in the coordinates of
-/// the sheet. A motion stage measured them in coordinates with another origin, direction and unit.
+/// Frames of a sheet whose poses were measured twice: with a ruler, in the coordinates of the
+/// sheet, and with a motion stage, in coordinates with another origin, direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {

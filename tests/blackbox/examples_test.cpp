@@ -42,7 +42,7 @@ TEST_F(Examples, LocateOneTellsWhereAnImageLooks) {
 }
 
 TEST_F(Examples, FollowGoesWithTheRobot) {
-    // The camera takes 200 frames per second of a robot that drives at 300 mm/s. Then the robot is
+    // A camera at 200 frames per second observes a robot that drives at 300 mm/s and is then
     // lifted.
     const Drive drive;
     const DriveCamera camera(188, 120);
@@ -60,8 +60,9 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         ASSERT_EQ(std::sscanf(lines[i].c_str(), "x %*f mm, y %*f mm, %lf and %lf mm/s", &vx, &vy),
                   2)
             << lines[i];
-        // The tracker knows the velocity after the second frame. Without the velocity, the
-        // prediction is too far from the true pose, so only the third and later frames are tracked.
+        // The tracker can estimate the velocity only after the second frame. Without the velocity,
+        // the prediction is too far from the true pose, so only the third and later frames are
+        // tracked.
         EXPECT_EQ(lines[i].ends_with("tracked"), i >= 2) << lines[i];
         const DriveState truth = drive.at(first + static_cast<int>(i));
         if (i >= 4) {

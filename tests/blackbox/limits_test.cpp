@@ -1,4 +1,4 @@
-// Tests that `locate` reads frames at the limits in docs/limits.md.
+// Tests that `locate` locates frames at the limits given in docs/limits.md.
 #include <algorithm>
 #include <cctype>
 #include <memory>

@@ -1,5 +1,5 @@
 // Tests `dotpose calibrate --live` without a display. The tool must accept only frames that add
-// information, report the missing requirements, and end automatically.
+// information, report which requirements are not met, and end automatically.
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -70,7 +70,7 @@ TEST_F(LiveCalibration, EndsByItselfOnceNothingIsMissing) {
     EXPECT_LT(used(), 45);
     EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "kept"), {}), used());
     // The video shows each image three times. The calibration must use each image only once, so
-    // that the result is the same as that of the images.
+    // that the result equals that of the images.
     const std::string report = output_;
     const std::string file_of_images = file("camera.yaml");
     put_raw("resting.raw");
@@ -143,8 +143,8 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
     EXPECT_THAT(errors_, HasSubstr(" and 0 taken (0 out of focus, "));
 }
 
-/// Returns shell commands that calibrate with an endless source, and send Ctrl-C after `frames`
-/// frames have been taken.
+/// Returns shell commands that calibrate with an endless source, and send Ctrl-C after the program
+/// has accepted `frames` frames.
 std::string interrupted_after(int frames) {
     return fmt::format(
         "mkfifo pipe; touch told; (cat resting.raw; exec sleep 60) > pipe & writer=$!\n"

@@ -1,5 +1,5 @@
-// Tests the advice of `dotpose locate` on images that cannot be located, or only after a change of
-// the image or the options.
+// Tests the advice of `dotpose locate` on images that cannot be located, or that can be located
+// only if the image or the options are changed.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -26,7 +26,7 @@ TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     EXPECT_THAT(records().at(0)["message"], HasSubstr("show more of the sheet"));
 }
 
-// Bits are read in all cells, also in cells without a dot, so the number of bits is not twice the
+// Bits are read in all cells, including cells without a dot, so the number of bits is not twice the
 // number of dots.
 TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
     dotpose::Setup setup;
@@ -129,7 +129,7 @@ TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     EXPECT_NEAR(record["x_grid"], x_grid(wide.pose), 0.005);
     EXPECT_NEAR(record["y_grid"], y_grid(wide.pose), 0.005);
     EXPECT_NEAR(record["spacing_px"], 24, 0.05);
-    // The reference point is 1000 px away along the image x axis.
+    // The reference point is 1000 px from the image centre, along the image x axis.
     run("--reference 3100,150 wide.pgm");
     const double along = 1000.0 / 24;
     EXPECT_NEAR(records().at(0)["x_grid"],

@@ -137,7 +137,7 @@ TEST_F(LocateCommand, sixteen_bits_and_transparency_change_nothing) {
     const GreyImage image = render(shot(2));
     write_pgm(directory_ / "grey.pgm", image.view());
     std::vector<std::uint16_t> deep;
-    std::vector<std::uint8_t> ink;  // black pixels, with the image in their opacity
+    std::vector<std::uint8_t> ink;  // black pixels whose opacity encodes the image
     for (const std::uint8_t level : image.pixels) {
         deep.push_back(static_cast<std::uint16_t>(level * 257));
         ink.push_back(0);
@@ -330,8 +330,8 @@ TEST_F(LocateCommand, the_lens_is_used) {
     EXPECT_LT(with_lens["residual_px"], 0.5);
     run("a.pgm");
     const json without = records().at(0);
-    // Without --k, the pose fit must also estimate the lens distortion. It then uses fewer dots,
-    // and the fix is less accurate.
+    // Without --k, the pose fit must also estimate the lens distortion. The fit then uses fewer
+    // dots, and the fix is less accurate.
     if (without["status"] == "ok") {
         EXPECT_LT(without["dots_used"], 0.95 * with_lens["dots_used"].get<double>()) << without;
         EXPECT_GT(without["sigma_x_mm"], 1.2 * with_lens["sigma_x_mm"].get<double>()) << without;
@@ -453,7 +453,7 @@ TEST_F(LocateCommand, wrong_usage_is_status_2_with_a_message) {
         "--code 7 a.pgm",           // not a name
         "--spacing 0 a.pgm",        // not a length
         "--spacing -1 a.pgm",       //
-        "--k 1 a.pgm",              // outside the range of all lenses
+        "--k 1 a.pgm",              // stronger than any lens
         "--k nan a.pgm",            //
         "--k wide a.pgm",           //
         "--reference 1 a.pgm",      // only one coordinate

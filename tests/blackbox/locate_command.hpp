@@ -27,7 +27,7 @@ inline std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// Returns the cells of one CSV line (RFC 4180, without line breaks in cells).
+/// Returns the fields of one CSV line (RFC 4180, without line breaks inside fields).
 inline std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells(1);
     bool is_quoted = false;
@@ -81,7 +81,7 @@ class LocateCommand : public ToolCommand {
         image.pixels.assign(static_cast<std::size_t>(width_px * height_px), 200);
         write_pgm(directory_ / name, image.view());
     }
-    /// Writes an image with libpng's simplified interface, which requires that 16-bit samples are
+    /// Writes an image with libpng's simplified interface, which requires 16-bit samples to be
     /// linear in the light intensity.
     void write_as_png(const std::string& name, const GreyImage& image, png_uint_32 format,
                       const void* samples) const {

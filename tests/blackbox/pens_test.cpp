@@ -1,5 +1,5 @@
-// Tests the commands for pens: `calibrate --pivot`, the tip in the lines of `locate` and `watch`,
-// and `ink`.
+// Tests the commands for pens: `calibrate --pivot`, the pen tip in the output lines of `locate` and
+// `watch`, and `ink`.
 #include <cmath>
 #include <fstream>
 #include <numbers>

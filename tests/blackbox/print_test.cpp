@@ -70,7 +70,7 @@ TEST_F(PrintCommand, images_carry_the_resolution_asked_for) {
     };
     for (const auto& [option, dpi, per_metre] :
          {Case{"--dpi 300", 300, 11811}, {"", 600, 23622}, {"--dpi 1200", 1200, 47244}}) {
-        // The page has 1 x 2 inches, so its width in pixels is the resolution in dpi.
+        // The page measures 1 x 2 inches, so its width in pixels equals the resolution in dpi.
         ASSERT_EQ(run(std::string("print --paper 25.4x50.8 -o a.png ") + option), 0);
         const std::string png = file("a.png");
         EXPECT_EQ(number_at(png, 16), dpi);
@@ -110,7 +110,7 @@ TEST_F(PrintCommand, wrong_usage_is_status_2_with_one_message_and_no_file) {
         "",                                  // no --out
         "-o a.jpg",                          // unknown format
         "-o a.png --paper A9",               // unknown paper
-        "-o a.png --margin 200",             // no room
+        "-o a.png --margin 200",             // no room for dots
         "-o a.png --spacing 0",              // not a length
         "-o a.png --spacing -1",             //
         "-o a.png --spacing nan",            //

@@ -22,8 +22,8 @@ constexpr double kY_grid = 3224.485;
 constexpr double kTheta_deg = -1.45;
 constexpr double kSpacing_px = 20.2;
 
-/// Returns the image rotated by a quarter turn, pixel by pixel. The x axis of the result is the
-/// upward direction of the original.
+/// Returns the image rotated by a quarter turn, pixel by pixel. The x axis of the result points
+/// upwards in the original.
 GreyImage turned(const GreyImage& image) {
     GreyImage result{image.pixels, image.height_px, image.width_px};
     for (int v = 0; v < result.height_px; ++v) {

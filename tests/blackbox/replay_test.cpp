@@ -17,7 +17,7 @@ constexpr const char* kHeader =
     "frame,t_s,file,status,dots_seen,p_wrong,state,events,verdict,plane,track_x_mm,track_y_mm,"
     "vx_mm_s,vy_mm_s\n";
 
-/// Ten frames per second of a run:
+/// A run at ten frames per second:
 /// - a drive of 30 mm along x at 100 mm/s,
 /// - three lost frames,
 /// - a new start 1 m away, and a drive of 40 mm to the side at 200 mm/s,
@@ -107,7 +107,7 @@ TEST_F(Replay, PrintsAndDraws) {
     const std::string picture = file("run.svg");
     EXPECT_THAT(picture, HasSubstr("speed [mm/s]"));
     EXPECT_THAT(picture, HasSubstr("</svg>"));
-    // The times without a fix are marked in each of the three plots over time.
+    // The intervals without a fix are marked in each of the three time plots.
     std::size_t bands = 0;
     for (std::size_t at = picture.find("fill-opacity=\"0.10\""); at != std::string::npos;
          at = picture.find("fill-opacity=\"0.10\"", at + 1)) {

@@ -43,7 +43,7 @@ class RunFiles : public ToolCommand {
         std::string reason;
     };
 
-    /// Expects that each command is refused with its reason and changes no file.
+    /// Expects that each command is refused for the given reason and changes no file.
     void expect_refused(const std::vector<Refusal>& refusals) {
         const std::string before = state();
         for (const auto& [command, reason] : refusals) {
@@ -127,7 +127,7 @@ TEST_F(RunFiles, a_camera_file_may_be_completed_but_not_turned_into_another_form
     expect_refused({"calibrate --camera ros.yaml --drive g/frame_000000.pgm -o ros.yaml"},
                    " would overwrite the input ");
     // The output replaces one of the inputs, which is allowed here. The command fails later,
-    // because three frames at random places are not a drive.
+    // because three frames at random places do not form a drive.
     EXPECT_EQ(run("calibrate --camera c.yaml --drive g/*.pgm -o c.yaml"), 1);
 }
 

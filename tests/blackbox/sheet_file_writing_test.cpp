@@ -141,7 +141,8 @@ TEST_F(SheetFileWriting, prints_at_the_same_time_all_get_regions_of_their_own) {
     std::vector<std::uint32_t> origins;
     for (const json& sheet : sheets())
         origins.push_back(sheet["origin_x"]);
-    // Each region has 59 columns. The gaps before and between the regions have 1024 columns.
+    // Each region is 59 columns wide. The gaps before and between the regions are 1024 columns
+    // wide.
     EXPECT_THAT(origins, ElementsAre(1024, 2107, 3190, 4273, 5356, 6439, 7522, 8605));
 }
 

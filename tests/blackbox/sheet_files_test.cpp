@@ -107,9 +107,9 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     EXPECT_NE(records().at(0)["status"], "ok") << records().at(0);
 }
 
-/// Returns the image of a camera above the printed page. Each camera pixel is the mean of 2 x 2
-/// printer pixels, and the image centre is at the upper left corner of the printer pixel (u, v).
-/// The surroundings of the page are white.
+/// Returns the image that a camera sees above the printed page. Each camera pixel is the mean of 2
+/// x 2 printer pixels, and the image centre is at the upper left corner of the printer pixel (u,
+/// v). The surroundings of the page are white.
 GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
     const auto level_at = [&page](int column, int row) {
         const bool is_inside =
@@ -134,8 +134,8 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     ASSERT_EQ(print("-o other.svg --paper 40x40 --sheets sheets.json --name other"), 0);
     ASSERT_EQ(print("-o page.png --dpi 1200 --paper 50x40 --sheets sheets.json --name page"), 0);
     const GreyImage page = read_image((directory_ / "page.png").string());
-    // The last two places are on the margins: one to the left of the first column of dots, and one
-    // above the first row.
+    // The last two positions are on the margins: one to the left of the first column of dots, and
+    // one above the first row.
     for (const auto& [u, v] :
          {std::pair(500, 500), {1111, 700}, {1800, 1333}, {200, 900}, {1200, 190}}) {
         const json record = locate_with_sheets(cut_out(page, u, v, 280, 260));
@@ -207,7 +207,7 @@ TEST_F(SheetFiles, may_mix_codes_and_spacings) {
             EXPECT_EQ(record["sheet"], file[i]["name"]);
             EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm);
             EXPECT_NEAR(record["y_sheet_mm"], 18.5, kTolerance_mm);
-            // Positions of the pattern in mm are computed with the spacing of the sheet.
+            // Pattern positions in mm are computed with the spacing of the sheet.
             EXPECT_NEAR(record["x_mm"],
                         record["x_grid"].get<double>() * file[i]["spacing_mm"].get<double>(), 1e-5);
         }

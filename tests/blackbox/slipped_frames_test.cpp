@@ -1,4 +1,4 @@
-// Tests sheets that are not planar, with `locate` and with the tool.
+// Tests fixes on sheets that are not planar, with `Locator` and with the tool.
 #include "../slipped_frames.hpp"
 
 #include <algorithm>
@@ -80,8 +80,8 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    // The limit of 3 % allows for the small number of frames. If the true fraction is 1 %, more
-    // than 3 % of the frames are counted by chance in one of 70 runs.
+    // The limit of 3 % allows for the small number of frames. If the true fraction is 1 %, only one
+    // run in 70 exceeds 3 % by chance.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
     // Only half of the steps must be detected, because the others affect only a corner of the view
     // or are smaller than the scatter of the dots.

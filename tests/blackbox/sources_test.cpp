@@ -24,8 +24,8 @@ class Sources : public ToolCommand {
   protected:
     static constexpr int kFrames = 6;
 
-    /// Writes simulated frames to the folder frames, and the same frames without loss to drive.mkv
-    /// and drive.raw.
+    /// Writes simulated frames to the folder `frames`, and losslessly encodes the same frames to
+    /// drive.mkv and drive.raw.
     void SetUp() override {
         ASSERT_EQ(run("simulate -o frames --seed 91 --frames " + std::to_string(kFrames)), 0);
         ASSERT_EQ(encode("-c:v ffv1 drive.mkv"), 0) << errors_;
@@ -51,7 +51,8 @@ class Sources : public ToolCommand {
         return all;
     }
 
-    /// Returns the lines of the last run, without the fields that depend on the source or the time.
+    /// Returns the output lines of the last run, without the fields that depend on the source or
+    /// the time.
     std::vector<json> poses() const {
         std::vector<json> all = records();
         for (json& record : all) {
@@ -207,8 +208,8 @@ TEST_F(Sources, WrongOnesAreNamed) {
     EXPECT_THAT(errors_, HasSubstr("leaves the frame of 188x120 px"));
 }
 
-// With --roi, `locate` uses a part of each frame. The camera file still describes the whole frame,
-// and the pose is still that of the reference point of the whole frame.
+// With --roi, `locate` processes only a region of each frame. The camera file still describes the
+// whole frame, and the reported pose is still that of the whole frame's reference point.
 TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
     std::ofstream(directory_ / "camera.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: 0, "
@@ -231,7 +232,7 @@ TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
     const json other_part = pose("--reference 93.5,59.5 --roi 20,10,150x100 ");
     EXPECT_NEAR(other_part["x_mm"], other["x_mm"], 0.01);
     EXPECT_NEAR(other_part["y_mm"], other["y_mm"], 0.01);
-    // The frames must have the size in the camera file, and must contain the part.
+    // The frames must have the size given in the camera file, and must contain the region.
     ASSERT_EQ(run("simulate -o large --size 200x120 --frames 1"), 0);
     EXPECT_EQ(run("locate --camera camera.yaml --roi 20,10,150x100 large"), 1);
     EXPECT_THAT(errors_, HasSubstr("frame_000000.pgm: the camera file is for images of 188 x 120 "

@@ -107,7 +107,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_NEAR(record["y_m"].get<double>(), 1 - 0.012, 3e-5);
     EXPECT_NEAR(record["yaw_rad"].get<double>(), -0.3, 0.001);
 
-    // If the camera file contains mm_per_px, the print scales are determined, too.
+    // If the camera file contains mm_per_px, the print scales can also be determined.
     std::ofstream(directory_ / "camera.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 376, height_px: 240, k_per_px2: 0, "
            "centre_px: [187.5, 119.5], mm_per_px: [0.046, 0.046]}";

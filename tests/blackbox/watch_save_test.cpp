@@ -94,7 +94,7 @@ class WatchHint : public WatchSave {};
 TEST_F(WatchHint, AtTheEndOfAShortRun) {
     ASSERT_EQ(watch(""), 0);
     EXPECT_THAT(errors_, Not(HasSubstr("not located")));
-    // The frames are almost black and contain noise, as from a camera in the dark.
+    // Almost black frames with noise, like those of a camera in the dark.
     std::string frames = file("slow.raw");
     for (std::uint32_t i = 0; i < frames.size(); ++i) {
         const std::uint32_t noise = (i * 2654435761U >> 20) % 4;

@@ -1,4 +1,5 @@
-// Tests the messages of `dotpose watch` about its sources, and sources that end inside a frame.
+// Tests the messages of `dotpose watch` about its sources, and sources that end in the middle of a
+// frame.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -24,7 +25,7 @@ int count(const std::string& text, const std::string& part) {
 
 TEST_F(WatchSources, SaysOnceWhyMostFramesFail) {
     const DriveCamera camera(188, 120);
-    // This frame is almost black and contains noise, as from a camera in the dark.
+    // An almost black frame with noise, like that of a camera in the dark.
     GreyImage dark{{}, 188, 120};
     for (std::uint32_t i = 0; i < 188 * 120; ++i)
         dark.pixels.push_back(static_cast<std::uint8_t>((i * 2654435761U >> 20) % 2 * 2));
@@ -70,7 +71,7 @@ TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
     put_video(2, "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi --frames 1 --roi 60,60,200x120 ") + kTrack), 0);
     const json part = parsed(output_).at(0);
-    // The part of the frame and the whole frame have the same centre, (159.5, 119.5).
+    // The region of interest has the same centre as the whole frame, (159.5, 119.5).
     const DriveState truth = drive_.at(0);
     EXPECT_NEAR(part["x_m"].get<double>() * 1000, truth.x_mm, 0.02);
     EXPECT_LT(part["dots_seen"], 300);
@@ -117,7 +118,7 @@ TEST_F(WatchSources, SaysWhatIsWrongWithTheSource) {
 
 TEST_F(WatchSources, TellsWhereRawFramesEnd) {
     put_raw(31);
-    // The file is cut inside the 31st frame.
+    // The file is truncated in the middle of the 31st frame.
     std::ofstream(directory_ / "cut.raw", std::ios::binary)
         << file("drive.raw").substr(0, 30 * kWidth * kHeight + 1000);
     EXPECT_EQ(run("watch - " + std::string(kRaw) + " " + kTrack, (directory_ / "cut.raw").string()),

@@ -44,7 +44,7 @@ DriveReading reading_of(const json& line) {
 DriveErrors errors_of(const std::vector<json>& lines, const Drive& drive, int first = 0) {
     DriveErrors errors;
     for (const json& line : lines) {
-        // Finds the frame by its time, because a damaged video lacks frames.
+        // Finds the frame by its time, because frames are missing from a damaged video.
         const int frame = static_cast<int>(std::lround(line["t_s"].get<double>() * kDriveFps));
         errors.add(drive.at(first + frame), reading_of(line));
     }
@@ -98,7 +98,7 @@ void expect_accurate(const std::vector<json>& lines, const Drive& drive) {
     const int lifted = frame_at(0.3) + frame_at(0.15);
     EXPECT_EQ(errors.wrong(), 0);
     EXPECT_GE(errors.fixes(), drive.frames() - lifted - 2);
-    // Nearly all errors are errors of the print. The filter cannot remove them, but it must not add
+    // Nearly all errors are due to the print. The filter cannot remove them, but it must not add
     // errors.
     EXPECT_LT(errors.filtered_um(), 1.01 * errors.raw_um());
     EXPECT_LT(errors.velocity_mm_s(), 0.3);
@@ -187,8 +187,8 @@ TEST_F(Watch, GoesThroughImages) {
     EXPECT_EQ(lines[2]["frame"], 3);
     EXPECT_DOUBLE_EQ(lines[2]["t_s"], 0.06);
     EXPECT_EQ(lines[0]["sheet"], "left");
-    // The first frame has no prediction. In the following frames, dots are measured at their
-    // predicted places.
+    // The first frame has no prediction. In all later frames, the dots are measured at their
+    // predicted positions.
     EXPECT_EQ(lines[0]["attempt"], "first");
     for (std::size_t i = 1; i < lines.size(); ++i)
         EXPECT_EQ(lines[i]["attempt"], "tracked");

@@ -1,11 +1,11 @@
 // Reads topics with eProsima Fast DDS, as a ROS 2 node with this middleware does. dotpose publishes
-// with Cyclone DDS, so this program tests that both work together. Prints each sample as a line:
-// topic, ROS type, and the received bytes in hexadecimal.
+// with Cyclone DDS, so this program tests that the two implementations work together. Prints each
+// sample as a line: topic, ROS type, and the received bytes in hexadecimal.
 //
 //   dotpose_dds_reader best-effort|reliable NAME TOPIC TYPE [TOPIC TYPE]...
 //
 // TOPIC is a ROS topic, and TYPE a type such as nav_msgs/Odometry. The program creates the file
-// NAME when all topics have writers. It ends when the writers have left, or after five minutes.
+// NAME when all topics have writers. It ends when all writers are gone, or after five minutes.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -34,7 +34,7 @@ using namespace eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
-/// Type support that stores samples as the bytes that were received.
+/// Type support that stores each sample as the bytes that were received.
 class RawType : public TopicDataType {
   public:
     explicit RawType(const std::string& name) {

@@ -39,7 +39,7 @@ constexpr double kFps = 50;
 constexpr double kSpacing_mm = 0.508;
 
 /// A robot that rests, drives half a circle at up to 170 mm/s, and rests again. The second rest is
-/// long enough that the pacer reduces the rate to one frame per second.
+/// long enough for the pacer to reduce the rate to one frame per second.
 constexpr double kStart_s = 0.2;
 constexpr double kStop_s = 2.2;
 constexpr double kEnd_s = 10;
@@ -205,8 +205,8 @@ class EmulatedDevice : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Tests the packets of the desktop program. The next test requires that the packets of the
-/// emulator are the same.
+/// Tests the packets of the desktop program. The next test requires the emulator to send the same
+/// packets.
 TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
     PacketReader reader;
     DeviceMemory memory;
@@ -244,8 +244,8 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
     // about 300 frames.
     EXPECT_LE(missed, 3);
     ASSERT_GT(times_us.size(), 300U);
-    // During the drive and for 5 s after it, every frame is processed. Later, one frame per second
-    // is processed.
+    // During the drive and for 5 s after it, every frame is processed. After that, one frame per
+    // second is processed.
     for (std::size_t i = 0; i < 300; ++i)
         ASSERT_EQ(times_us[i], static_cast<std::int64_t>(i) * kFrameTime_us);
     EXPECT_EQ(times_us.back() - times_us[times_us.size() - 2], 1'000'000);

@@ -9,7 +9,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Locates a uniform frame of this size, with memory for frames of this size.
+/// Locates a uniform frame, with memory for frames of exactly this size.
 template <int Width, int Height>
 Fix locate_black() {
     static DeviceMemoryFor<Width, Height> memory;

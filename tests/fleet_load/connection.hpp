@@ -22,8 +22,8 @@ class Connection {
     Connection(Connection&& other) noexcept;
     Connection& operator=(Connection&&) = delete;
 
-    /// Returns true if the number of unanswered messages is below the limit, so another message may
-    /// be published.
+    /// Returns true if the number of unacknowledged messages is below the limit, so another message
+    /// may be published.
     bool has_room() const { return published_ - answered_ < kMaxUnanswered; }
     void publish(const std::string& topic, const std::string& payload);
 
@@ -48,7 +48,8 @@ class Connection {
     std::string incoming_;
     std::int64_t published_ = 0;
     std::int64_t answered_ = 0;
-    bool is_ready_ = false;  ///< true after a connect answer or a subscribe request was received
+    bool is_ready_ = false;  ///< true after a connect acknowledgement or a subscribe request has
+                             ///< been received
 };
 
 std::int64_t monotonic_us();

@@ -1,6 +1,6 @@
-// Publishes the states of many robots with QoS 1, and prints the numbers of sent and answered
-// states. Each robot publishes at a constant rate, and numbers its states from 0. docs/fleet.md
-// contains the results.
+// Publishes the states of many robots with QoS 1, and prints how many states were sent and
+// acknowledged. Each robot publishes at a constant rate, and numbers its states from 0.
+// docs/fleet.md contains the results.
 #include <algorithm>
 #include <atomic>
 #include <cstdint>

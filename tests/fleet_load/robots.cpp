@@ -35,7 +35,7 @@ cli::RobotState state_at(int robot, int point) {
     return state;
 }
 
-/// Returns the part of a message that does not depend on the number and the time.
+/// Returns the part of a message that follows its number and time.
 std::string tail_of(const cli::RobotState& state) {
     const std::string text = cli::json_of(state);
     return text.substr(text.find(R"(","version")"));

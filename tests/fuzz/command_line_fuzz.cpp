@@ -1,5 +1,5 @@
-// Fuzzes the options that several commands share. Each line of the input is an argument. An
-// argument that is not accepted must be refused with an error.
+// Fuzzes the options that several commands share. Each line of the input is an argument. Invalid
+// arguments must be refused with an error.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

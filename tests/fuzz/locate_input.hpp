@@ -46,7 +46,7 @@ struct LocateHeader {
     std::int32_t reference_dy_q8 = 0;
     // Parameters of drawn dots.
     std::uint16_t angle = 0;             ///< 65536 is a full turn
-    std::uint16_t spacing_q8 = 8 * 256;  ///< in px; values below 4 px are taken as 4 px
+    std::uint16_t spacing_q8 = 8 * 256;  ///< in px (values below 4 px are treated as 4 px)
 };
 static_assert(sizeof(LocateHeader) == 44 && std::is_trivially_copyable_v<LocateHeader>);
 
@@ -67,9 +67,9 @@ inline DeviceOptions options_of(const LocateHeader& header) {
     return options;
 }
 
-/// Returns one of two kinds of predictions. The first kind is an arbitrary map to an arbitrary
-/// place, read from the last bytes of the input (which are also pixels). The second kind is the fix
-/// of the frame, moved by up to 2 spacings and 11 degrees.
+/// Returns one of two kinds of predictions. The first kind is arbitrary, and is read from the last
+/// bytes of the input, which are also pixels. The second kind is the fix of the frame, moved by up
+/// to 2 spacings and 11 degrees.
 inline Prediction prediction_of(const LocateHeader& header, std::span<const std::uint8_t> rest,
                                 const Fix& fix) {
     static_assert(std::is_trivially_copyable_v<Prediction>);

@@ -1,6 +1,6 @@
-// Fuzzes the options of `locate` on frames that can be located. `locate` must end, and a fix must
-// be within the limits of the options. An input is a list of changes to the default options. Each
-// change consists of the index of a field and its new value.
+// Fuzzes the options of `locate` on frames that can be located. `locate` must terminate, and a fix
+// must be within the limits of the options. An input is a list of changes to the default options.
+// Each change consists of the index of a field and its new value.
 #include <array>
 #include <cstring>
 #include <memory>

@@ -1,5 +1,5 @@
-// Fuzzes `overlay_pdf` with arbitrary documents, with and without changes of their colours. It must
-// write the document with dots, or throw Error.
+// Fuzzes `overlay_pdf` with arbitrary documents, with and without conversion of their colours. It
+// must write the document with dots, or throw Error.
 #include <filesystem>
 
 #include "dotpose/tools/overlay.hpp"

@@ -1,5 +1,5 @@
 // Fuzzes `parse_print_map`. It must return a valid map, or throw Error. Random inputs have a wrong
-// checksum, so the fuzz target replaces it by the right one.
+// checksum, so the fuzz target replaces it with the correct one.
 #include <cstdlib>
 #include <string>
 

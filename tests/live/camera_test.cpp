@@ -41,7 +41,7 @@ class Cameras : public ToolCommand {
     void SetUp() override {
         ToolCommand::SetUp();
         save_drive_sheets(directory_ / "sheets.json");
-        // The robot rests.
+        // The robot is at rest.
         const DriveCamera camera(188, 120);
         std::ofstream raw(directory_ / "camera.raw", std::ios::binary);
         for (int i = 0; i < 10; ++i) {

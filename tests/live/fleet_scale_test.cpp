@@ -44,7 +44,8 @@ class FleetScale : public Mqtt {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     }
 
-    /// Returns the states in the logs of several fleets. A state occurs as often as it was logged.
+    /// Returns the states in the logs of several fleets. Each state occurs as many times as it was
+    /// logged.
     std::multiset<Logged> logged(const std::vector<fs::path>& folders) {
         std::multiset<Logged> states;
         for (const fs::path& folder : folders) {
@@ -158,7 +159,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
     for (const fs::path& folder : folders) {
         wait_until([&] { return logged({folder}).size() >= before + 100 * 60; }, 60s);
     }
-    std::this_thread::sleep_for(500ms);  // repeated states would arrive in this time
+    std::this_thread::sleep_for(500ms);  // repeated states would arrive during this time
     for (WatchedFleet* fleet : {&in_east, &in_west}) {
         const std::string table = fleet->table();
         EXPECT_THAT(table, HasSubstr("101 robots, "));

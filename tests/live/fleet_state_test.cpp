@@ -50,7 +50,7 @@ TEST(FleetConditions, FollowTheStatesAndTheSilence) {
 TEST(FleetConditions, FollowTheConnection) {
     Receiver r;
     r.receive({.robot = "anna"});
-    // The time in the last will is that of the connection, here an hour ago.
+    // The time in the last will is the time of the connection, here an hour ago.
     r.connect("anna", "CONNECTIONBROKEN", 3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::silent);
     EXPECT_EQ(r.robot("anna").reason, "connection broke");
@@ -212,7 +212,7 @@ TEST(FleetPage, FiveHundredRobotsInTwentyFourRows) {
     EXPECT_THAT(page_of(page, r)[23], StartsWith("21-40 of 500"));
     page.take(cli::Key::end);
     lines = page_of(page, r);
-    EXPECT_THAT(lines[20], StartsWith("robot1 "));  // gone
+    EXPECT_THAT(lines[20], StartsWith("robot1 "));  // this robot is gone
     EXPECT_THAT(lines[23], StartsWith("481-500 of 500"));
     page.take(cli::Key::up);
     EXPECT_THAT(page_of(page, r)[23], StartsWith("480-499 of 500"));

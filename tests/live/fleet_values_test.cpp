@@ -47,8 +47,8 @@ json table_of(const Receiver& r, Command request) {
     return json::parse(table_value(snapshot_of(r), hall(), Delivery::all, request));
 }
 
-/// Receives the states of four robots, of which one is silent, one is lost, and one is on an
-/// unknown sheet.
+/// Receives the states of four robots, one of which is silent, one lost, and one on an unknown
+/// sheet.
 void receive_four(Receiver& r) {
     r.receive({.robot = "silent1", .x_m = 0.5, .map = "hall"});
     r.pass(6);
@@ -158,7 +158,7 @@ TEST(FleetValues, OneRobotWithItsPathAndAlerts) {
     EXPECT_EQ(value(77), nullptr);
 }
 
-/// A map message of the fleet: a header in JSON, then binary records.
+/// A map message of the fleet: a JSON header, followed by binary records.
 struct MapMessage {
     explicit MapMessage(const std::string& bytes) {
         std::uint32_t size = 0;
@@ -216,7 +216,7 @@ TEST(FleetMapValues, TrailsAreLimitedInTotal) {
     const MapMessage message(trails_value(snapshot_of(r), r.fleet, {}, {}));
     EXPECT_EQ(message.head["count"], 150);
     const auto points = message.at<std::uint32_t>(4);
-    EXPECT_EQ(points, 100U);  // every second of the newest 200 points
+    EXPECT_EQ(points, 100U);  // every other point of the newest 200
     EXPECT_LE(150 * points, cli::kMaxTrailPoints);
     EXPECT_EQ(message.records.size(), 150 * (8 + 8 * points));
     const double origin_mm = message.head["origin_mm"][0];

@@ -1,5 +1,5 @@
 // Tests that `dotpose listen` writes the same log and publishes the same states for a device as
-// `dotpose watch` for frames.
+// `dotpose watch` does for frames.
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -39,7 +39,7 @@ class ListenFleet : public Mqtt {
                   0)
             << errors_;
     }
-    /// Returns the rows of a CSV file. Each row maps the names of columns to cells.
+    /// Returns the rows of a CSV file. Each row maps column names to cells.
     std::vector<std::map<std::string, std::string>> rows(const std::string& name) const {
         std::istringstream lines(file(name));
         std::vector<std::string> columns;

@@ -1,5 +1,5 @@
-// Tests which messages the publisher sends to a mosquitto broker and which it drops, also if the
-// broker stops and restarts.
+// Tests which messages the publisher sends to a mosquitto broker and which it drops, including
+// while the broker is stopped and restarted.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>
@@ -193,7 +193,7 @@ TEST_F(Mqtt, FindsItsBrokerAgainAsFastWithTls) {
     ASSERT_TRUE(publisher.is_connected()) << news_.text();
     broker.stop();
     wait_until([&] { return !publisher.is_connected(); });
-    std::this_thread::sleep_for(1500ms);  // some failing attempts
+    std::this_thread::sleep_for(1500ms);  // several failing attempts
     broker.start();
     // The publisher retries every half second. The library alone would wait for ten seconds.
     wait_until([&] { return publisher.is_connected(); }, 4s);
@@ -221,7 +221,8 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Makes a publisher publish its presence as a word on the topic `presence`.
+/// Returns the options, extended to make the publisher publish its presence as a word on the topic
+/// `presence`.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";
     options.presence = [](publish::Presence presence) -> std::string {

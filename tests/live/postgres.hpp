@@ -14,7 +14,7 @@
 
 namespace dotpose::test {
 
-/// A PostgreSQL cluster. PostgreSQL does not run as root. If the test runs as root, the cluster
+/// A PostgreSQL cluster. PostgreSQL refuses to run as root. If the test runs as root, the cluster
 /// therefore belongs to the user `postgres`, which Debian's package creates.
 class Postgres {
   public:

@@ -1,5 +1,4 @@
-// Tests the pose of the camera in space in the messages that `dotpose watch --mqtt` sends, as
-// another program receives them.
+// Tests the camera pose in space that another program receives from `dotpose watch --mqtt`.
 #include <numbers>
 #include <sstream>
 #include <string>

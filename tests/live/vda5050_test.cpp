@@ -56,7 +56,7 @@ JsonSchema connection() {
     return JsonSchema({{"type", "object"}, {"required", required}, {"properties", properties}});
 }
 
-/// Regular expression of a time in UTC according to ISO 8601.
+/// Regular expression for a time in UTC according to ISO 8601.
 constexpr const char* kTimestamp =
     "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]+Z$";
 

@@ -1,7 +1,8 @@
-# Runs the tool of another platform (TOOL, a list) and the tool of this machine (NATIVE) with the
-# same arguments in two empty folders. Compares their lines, exit codes and files.
+# Runs the tool of another platform (TOOL, a list) and the tool of this machine (NATIVE) with the same arguments in two
+# empty folders. Compares their output lines, exit codes and files.
 
-# run(PROGRAM NAME ARGUMENT...): sets NAME_lines and NAME_code. Reads `input`, a file, if it is set.
+# run(PROGRAM NAME ARGUMENT...): sets NAME_lines and NAME_code. If `input` is set, the program reads this file as
+# standard input.
 function(run program name)
     set(from)
     if(input)

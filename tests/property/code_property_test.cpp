@@ -74,8 +74,9 @@ Grid encode(const Draw& draw) {
     return grid;
 }
 
-/// Checks that the window, turned by the draw's quarter turns, is refused or decoded to a place
-/// that contains the turned window. Returns a description of the failure, or "" if there is none.
+/// Checks that the window, turned by the draw's quarter turns, is either refused or decoded to a
+/// place that contains the turned window. Returns a description of the failure, or "" if there is
+/// none.
 std::string check_turned(const Draw& draw, const Grid& upright) {
     Grid seen = upright;
     for (int i = 0; i < draw.quarter_turns; ++i)

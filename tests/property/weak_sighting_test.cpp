@@ -146,7 +146,7 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     return sums;
 }
 
-/// Draws views of a place until p_wrong of a view is between 2^-30 and 2^-10. For this view,
+/// Draws views of a place until the p_wrong of one view is between 2^-30 and 2^-10. For this view,
 /// returns the minimum margin of the tracker's bound over all gate sizes. The margin is log2 of the
 /// bound divided by the sum of the odds in the gate.
 double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {

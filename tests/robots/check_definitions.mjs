@@ -8,7 +8,7 @@ import { parse } from "@foxglove/rosmsg";
 
 import { definitionsOf } from "./definitions.mjs";
 
-/** Returns the members of a message as texts. */
+/** Returns the members of a message as text. */
 function members(definition) {
   return definition.definitions
     .filter((member) => !member.isConstant)
@@ -16,12 +16,12 @@ function members(definition) {
     .join(", ");
 }
 
-/** Numbers of field types in type_description_interfaces/FieldType. */
+/** Type numbers from type_description_interfaces/FieldType. */
 const typeIds = { message: 1, uint8: 3, int32: 6, uint32: 7, float64: 11, byte: 16, string: 17 };
 const kOfArrays = 48;
 const kOfSequences = 144;
 
-/** Original types in the definitions of ROS, where the npm package has replaced `byte`. */
+/** Members whose original type `byte` the npm package has replaced with another type. */
 const asInRos = { "diagnostic_msgs/DiagnosticStatus level": "byte" };
 
 function described({ name, definitions }) {

@@ -139,7 +139,8 @@ inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
         before_y = y;
     }
     EXPECT_EQ(next, transforms.size());
-    // The robot was found at the start, after it was put down, and after it was moved to the side.
+    // The transform from map to odom jumps whenever the robot is found: at the start, after it was
+    // put down, and after it was moved to the side.
     EXPECT_EQ(jumps, 3);
 }
 

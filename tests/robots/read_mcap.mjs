@@ -1,10 +1,10 @@
-// Reads an MCAP file with independent readers, and prints every message as a line of JSON: topic,
-// type, time, quality of service and content. The stream reader and the indexed reader must agree,
-// and all checksums must be correct. Otherwise prints the fault and exits with 1.
+// Reads an MCAP file with independent readers, and prints every message as a line of JSON: topic, type, time, quality
+// of service and content. The stream reader and the indexed reader must agree, and all checksums must be correct.
+// Otherwise prints the fault and exits with 1.
 //
 //   node read_mcap.mjs FILE [--stream]
 //
-// --stream: uses only the stream reader, for a file without its end.
+// --stream: uses only the stream reader, for a truncated file.
 import { open, readFile } from "node:fs/promises";
 
 import { crc32 } from "@foxglove/crc";
@@ -83,7 +83,7 @@ async function indexed(path, bytes) {
   };
   const reader = await McapIndexedReader.Initialize({ readable });
   if (reader.header.profile !== "ros2") fail(`profile ${reader.header.profile}`);
-  // The readers check the checksums of chunks and summary, but not the checksum of all data.
+  // The readers check the checksums of the chunks and of the summary, but not the checksum of all data.
   const data = bytes.subarray(0, Number(reader.dataEndOffset));
   if (reader.dataSectionCrc !== crc32(data)) fail("the check sum of the data is wrong");
   const decoder = new Decoder();
@@ -102,7 +102,7 @@ const [path, option] = process.argv.slice(2);
 const isCut = option === "--stream";
 const bytes = new Uint8Array(await readFile(path));
 const lines = await streamed(bytes, isCut);
-// Messages with equal times may be in another order.
+// Messages with equal times may be in any order.
 if (!isCut && (await indexed(path, bytes)).sort().join() !== lines.slice().sort().join())
   fail("the readers disagree");
 for (const line of lines) console.log(line);

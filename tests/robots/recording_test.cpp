@@ -1,5 +1,5 @@
 // Tests recording and replaying a simulated drive over two sheets. Compares the messages with the
-// lines of the same run.
+// output lines of the same run.
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -115,7 +115,7 @@ TEST_F(Recording, TellsWhereTheCameraSits) {
     EXPECT_EQ(mount["child_frame_id"], "camera_optical");
     EXPECT_NEAR(mount["transform"]["translation"]["x"], 0.00458, 1e-9);
     // `ros2 bag play` publishes the topic with the recorded quality of service. It must be
-    // transient local, because listeners of transforms require it.
+    // transient local, because transform listeners require this.
     EXPECT_THAT(mounts[0]["offered"], HasSubstr("\n  durability: 1\n"));
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_THAT(poses.at(0)["offered"], HasSubstr("\n  durability: 2\n"));
@@ -130,7 +130,7 @@ TEST_F(Recording, HasThePosesInSpaceOfTheCamera) {
               0)
         << errors_;
     expect_true_space_poses(recorded("run.mcap"));
-    // Logs have the same poses.
+    // Replayed logs contain the same poses.
     for (const char* log : {"run.csv", "run.json"}) {
         ASSERT_EQ(run(std::string("replay ") + log + " -o again.mcap --robot anna"), 0) << errors_;
         expect_true_space_poses(recorded("again.mcap"));

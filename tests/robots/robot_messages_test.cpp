@@ -119,7 +119,7 @@ TEST(RobotMessages, OdometryBeginsWhereTheRobotIsFirstSeen) {
     EXPECT_NEAR(then.odometry->pose.pose.position.x, 0.1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.pose.position.y, 0.2, 1e-12);
     // The axes of odom are those of the world rotated by 90 degrees, so the variances of x and y
-    // are exchanged.
+    // are swapped.
     EXPECT_NEAR(then.odometry->pose.covariance[0], 2, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[7], 1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[35], 3, 1e-12);
@@ -162,8 +162,8 @@ TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
     EXPECT_NEAR(twist.twist.linear.x, 0.3, 1e-12);
     EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
     EXPECT_EQ(twist.twist.angular.z, -0.5);
-    // The robot drives along the y axis of the world. With an angle error of 1 rad, 0.3 m/s of its
-    // speed are sideways. The variance of the angle is 3.
+    // The robot drives along the y axis of the world at 0.3 m/s. To first order, an angle error of
+    // 1 rad adds 0.3 m/s to the sideways velocity. The variance of the angle is 3.
     EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
     EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
     EXPECT_NEAR(twist.covariance[35], 6, 1e-12);
@@ -224,7 +224,7 @@ TEST(RobotUpdates, ThePatternHasYUp) {
     const PlanarCovariance& covariance = *seen.fix->covariance;
     EXPECT_DOUBLE_EQ(covariance[0][0], 4 * 0.25e-6);
     EXPECT_DOUBLE_EQ(covariance[0][1], -0.25e-6);
-    EXPECT_DOUBLE_EQ(covariance[1][2], 0.5 * 0.5e-3);  // y and the angle both change their sign
+    EXPECT_DOUBLE_EQ(covariance[1][2], 0.5 * 0.5e-3);  // y and the angle both change sign
     EXPECT_DOUBLE_EQ(covariance[2][2], 16);
     ASSERT_TRUE(seen.motion);
     EXPECT_DOUBLE_EQ(seen.motion->pose.y_m, -1);
@@ -253,7 +253,7 @@ TEST(RobotUpdates, TheWorldHasYUpAlready) {
     EXPECT_FALSE(ros::update_of(followed, true, 0).fix);
 }
 
-/// Returns a frame of a camera 20 mm above the pattern that looks straight down.
+/// Returns a frame of a camera that looks straight down from 20 mm above the pattern.
 Followed followed_in_space() {
     Followed followed = followed_in_pattern();
     SpacePose& space = followed.located.space.emplace();
@@ -278,7 +278,7 @@ TEST(RobotUpdates, TheCameraIsInTheMap) {
     EXPECT_DOUBLE_EQ(pose.position.z, 0.02);
     // The z axis of the optical frame points down: half a turn about x.
     EXPECT_DOUBLE_EQ(std::abs(pose.orientation.x), 1);
-    // The y and z axes of the camera and of the pattern point opposite to those of the map.
+    // The y and z axes of the camera and of the pattern are opposite to those of the map.
     const ros::Covariance36& covariance = messages.camera->pose.covariance;
     EXPECT_DOUBLE_EQ(covariance[0], 4e-6);
     EXPECT_DOUBLE_EQ(covariance[1], -1e-6);
@@ -374,8 +374,8 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     pinhole.pinhole = Pinhole{400, 400, {90, 60}};
     EXPECT_NEAR(camera_mount(pinhole)->transform.translation.z, 0.02, 1e-12);
 
-    // The heading of the robot is the image y axis. The image x axis therefore points to the left
-    // of the robot, and the camera is 10 mm to the left of the robot's centre.
+    // The heading of the robot is along the image y axis. The image x axis therefore points to the
+    // left of the robot, and the camera is 10 mm to the left of the robot's centre.
     camera.theta_offset_rad = kRightAngle;
     const auto left = camera_mount(camera);
     EXPECT_NEAR(left->transform.translation.x, 0, 1e-12);

@@ -1,6 +1,5 @@
-// Tests pages of `dotpose overlay` as a camera sees them. A PDF renderer takes the place of the
-// printer, the simulated camera takes frames of the rendered pages, and `dotpose locate` locates
-// the frames.
+// Tests pages of `dotpose overlay` as a camera sees them. A PDF renderer replaces the printer, a
+// simulated camera takes frames of the rendered pages, and `dotpose locate` locates the frames.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -49,8 +48,8 @@ struct Camera {
     const char* overlay_options;
     bool is_infrared;
     int places;
-    int min_found;  ///< minimum number of located places; cameras that see black text miss the
-                    ///< dots under it
+    int min_found;  ///< minimum number of located frames. Cameras that see black text miss the dots
+                    ///< under it.
 };
 
 class OverlaidBook : public testing::TestWithParam<Camera> {
@@ -78,7 +77,7 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
                      GetParam().overlay_options);
     }
 
-    /// Writes frames of random places. Their names are listed in list.txt in the order of the
+    /// Writes frames at random places, and lists their names in list.txt in the order of the
     /// result.
     std::vector<TakenFrame> take_frames() const {
         constexpr std::uint64_t kSeed = 41;

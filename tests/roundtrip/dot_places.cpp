@@ -12,9 +12,9 @@ struct Point {
     double y = 0;
 };
 
-/// Returns the centroid of the ink around an intersection. At this window size, the ink of the dot
-/// is included and that of its neighbours is not, because a dot ends 0.25 spacings from its
-/// intersection and its neighbours begin at 0.75 spacings.
+/// Returns the centroid of the ink around an intersection. The window includes all ink of the dot
+/// and none of its neighbours, because a dot ends 0.25 spacings from its intersection and its
+/// neighbours begin at 0.75 spacings.
 std::optional<Point> centroid_px(const GreyPage& page, Point centre, double half_px) {
     double ink = 0;
     Point sum;

@@ -1,4 +1,4 @@
-/// The actual places of the dots of a rendered sheet.
+/// Measures the positions of the dots on a rendered sheet.
 #pragma once
 
 #include "dotpose/tools/print.hpp"
@@ -8,17 +8,17 @@ namespace dotpose::roundtrip {
 
 struct DotErrors {
     int dots = 0;
-    int missing = 0;        ///< number of places without any ink
-    int wrong_symbols = 0;  ///< number of dots that are closer to the place of another symbol than
-                            ///< to that of `symbol_at`
-    double mean_um = 0;     ///< mean distance of the centroids from their places, after subtracting
-                            ///< one constant offset
+    int missing = 0;        ///< number of dots without any ink
+    int wrong_symbols = 0;  ///< number of dots that are closer to the position of another symbol
+                            ///< than to that of `symbol_at`
+    double mean_um = 0;     ///< mean distance of the centroids from their nominal positions, after
+                            ///< subtracting one constant offset
     double largest_um = 0;
     double offset_x_um = 0;
     double offset_y_um = 0;
 };
 
-/// Compares every dot with its nominal place. `dpi` is the resolution of `page`.
+/// Compares every dot with its nominal position. `dpi` is the resolution of `page`.
 DotErrors measure_dots(const GreyPage& page, const Sheet& sheet, double dpi);
 
 }  // namespace dotpose::roundtrip

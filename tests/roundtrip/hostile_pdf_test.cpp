@@ -22,7 +22,7 @@ using testing::HasSubstr;
 constexpr const char* kCatalogue = "<< /Type /Catalog /Pages 2 0 R >>";
 constexpr int kDeep = 9000;
 
-/// Compresses data `times` times for the filter FlateDecode.
+/// Compresses data `times` times for the FlateDecode filter.
 std::string packed(std::string data, int times = 1) {
     for (int i = 0; i < times; ++i) {
         uLongf size = compressBound(data.size());
@@ -38,7 +38,7 @@ std::string stream_with(const std::string& keys, const std::string& data) {
     return fmt::format("<< /Length {} {} >>\nstream\n{}\nendstream", data.size(), keys, data);
 }
 
-/// Returns the objects of a document with one page. `more` contains the objects numbered from 5.
+/// Returns the objects of a one-page document. `more` contains the objects numbered from 5.
 std::vector<std::string> page_with(const std::string& keys, const std::string& content = stream(""),
                                    const std::vector<std::string>& more = {}) {
     std::vector<std::string> objects = {
@@ -214,7 +214,7 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
     }
     write(with_cross_reference_stream("/Filter /FlateDecode", packed(std::string(12, '\0'))));
     expect("in.pdf");
-    // In these documents, the cross-reference table or stream is cut off.
+    // In these documents, the cross-reference table or stream is truncated.
     for (const char* cut : {"xref\n0 1\n", "2 0 obj\n", "2 0 obj\n<< /Type (", "trailer <<"}) {
         write(std::string("%PDF-1.5\n") + cut + "\nstartxref\n9\n%%EOF\n");
         expect("in.pdf: damaged PDF");

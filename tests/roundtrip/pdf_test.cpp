@@ -14,7 +14,7 @@
 namespace dotpose::roundtrip {
 namespace {
 
-/// Limits of the distances between the centroids of dots and their nominal places, after
+/// Limits of the distances between the centroids of dots and their nominal positions, after
 /// subtracting one constant offset from all centroids.
 struct Limits {
     double mean_um;
@@ -27,7 +27,7 @@ constexpr Limits kUsual = {4, 12};
 // neighbouring dots may ink the same pixel. The displacement of a symbol is 50 µm.
 constexpr Limits kFineOnCoarse = {6, 30};
 
-// Minimum diameter of a dot whose place can be measured exactly. A smaller dot looks the same
+// Minimum diameter of a dot whose position can be measured exactly. A smaller dot looks the same
 // wherever it is within a pixel. For example, the error is up to 17 µm for a dot of 0.05 mm at 300
 // dpi. A dot that consists of whole pixels has no such error.
 constexpr double kExactDot_px = 2.3;
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
 class OddResolution : public testing::TestWithParam<const char*> {};
 
 // A renderer may move a glyph to whole pixels or to certain fractions of a pixel, so glyphs are
-// used only for dots of whole pixels. Strokes are drawn at their exact places.
+// used only for dots of whole pixels. Strokes are drawn at their exact positions.
 TEST_P(OddResolution, moves_letters_and_leaves_strokes) {
     constexpr int kOdd_dpi = 310;  // a spacing of 6.2 pixels
     SheetOptions options;

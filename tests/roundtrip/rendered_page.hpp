@@ -8,7 +8,7 @@
 
 namespace dotpose::roundtrip {
 
-/// A grey page, row by row. 0 is black.
+/// The grey levels of a page, row by row. 0 is black.
 struct GreyPage {
     int width_px = 0;
     int height_px = 0;

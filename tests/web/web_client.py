@@ -1,4 +1,4 @@
-"""A client of the pages of dotpose that can violate the protocols HTTP and WebSocket, for tests."""
+"""A client of the pages of dotpose that can violate the HTTP and WebSocket protocols, for tests."""
 
 import json
 import socket

@@ -24,7 +24,7 @@ const kTypes = {
     ".webmanifest": "application/manifest+json",
 };
 
-/** Serves dist/ under /page/, because the page must also work below the root of a server. */
+/** Serves dist/ under /page/, because the page must also work in a subdirectory of a server. */
 export async function serve() {
     const server = createServer((request, response) => {
         const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));

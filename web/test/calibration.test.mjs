@@ -15,7 +15,7 @@ const kSpacing_mm = 0.508;
 const kScale_mm_per_px = 0.046;
 const kLens_per_px2 = -8.7e-6;
 const kCorner_px = Math.hypot(kWidth_px / 2, kHeight_px / 2);
-/** Position of the robot's centre, from the image centre along the image axes. */
+/** Position of the robot's centre relative to the image centre, along the image axes. */
 const kMount_mm = { x: 14.5, y: -6.25 };
 /** Direction of the robot minus the direction of the image x axis. */
 const kHeading_rad = Math.PI / 2;
@@ -70,13 +70,13 @@ function pen(index, tilt_deg, side_deg, turn_deg) {
     return pixelsOf(join(into, "frame_000000.pgm"), 320 * 240);
 }
 
-/** Tilts to all sides: small, medium and large ones. */
+/** Frames of a pen that is tilted to all sides, by small, medium and large angles. */
 function pivot() {
     const rings = [12, 24, 36].flatMap((tilt_deg, ring) => Array.from({ length: 10 }, (_, i) => [tilt_deg, 36 * i + 12 * ring, 50 * i]));
     return [[0, 0, 0], [3, 90, 120], ...rings].map((tilts, i) => pen(i, ...tilts));
 }
 
-/** A robot that turns on the spot: its centre stays at `kPlace`. */
+/** Frames of a robot that turns on the spot. Its centre stays at `kPlace`. */
 function turn(steps) {
     return Array.from({ length: steps }, (_, i) => {
         const angle_deg = 7 + (360 / steps) * i;
@@ -87,7 +87,7 @@ function turn(steps) {
     });
 }
 
-/** A robot that drives straight ahead. */
+/** Frames of a robot that drives straight ahead. */
 function drive(frames, step_mm) {
     const angle_deg = 20;
     const heading = (angle_deg * Math.PI) / 180 + kHeading_rad;
@@ -97,7 +97,7 @@ function drive(frames, step_mm) {
     });
 }
 
-/** A camera with a rolling shutter that moves along the x axis of its image. */
+/** Frames of a camera with a rolling shutter that moves along the x axis of its image. */
 function fastDrive(frames, step_mm) {
     const readout_px = ((step_mm / kScale_mm_per_px) * kReadout_ms) / kPeriod_ms;
     return Array.from({ length: frames }, (_, i) =>
@@ -105,7 +105,7 @@ function fastDrive(frames, step_mm) {
     );
 }
 
-/** A camera that rests for a moment at each of 30 places, at any angle. */
+/** Frames of a camera that rests for a moment at each of 30 places, at any angle. */
 function places() {
     const into = join(folder, "places");
     dotpose("simulate", "-o", into, "--frames", "30", "--seed", "5", "--section", "3,5", "--k", String(kLens_per_px2));
@@ -164,7 +164,7 @@ function cameraIn(file) {
     return values;
 }
 
-/** Returns the position of the reference point from the image centre. */
+/** Returns the position of the reference point relative to the image centre. */
 function mountOf(camera) {
     const [u, v] = camera.reference_px;
     return { x: (u - (kWidth_px - 1) / 2) * camera.mm_per_px[0], y: (v - (kHeight_px - 1) / 2) * camera.mm_per_px[1] };
@@ -191,7 +191,7 @@ async function calibrate(page, run, step, frames) {
 before(async () => {
     folder = mkdtempSync(join(tmpdir(), "dotpose-calibration-"));
     mkdirSync(join(folder, "shot"));
-    // Three frames at each place, so the camera is steady.
+    // Each frame is shown three times, so that the camera appears to be at rest.
     const rests = places().flatMap((frame) => [frame, frame, frame]);
     shots = { rests, turn: turn(24), drive: drive(50, 1.6), fast: fastDrive(60, 1.4), pivot: pivot() };
     browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
@@ -210,7 +210,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
         await page.waitForSelector("[data-step=lens]:enabled");
         assert.equal(await page.locator(".steps .known").count(), 0);
 
-        // Coverage in words, while frames are taken.
+        // The page describes the coverage in words while frames are taken.
         await page.click("[data-step=lens]");
         await page.waitForSelector("#calibration-needs li");
         assert.match(await page.textContent("#calibration-needs"), /\w+/);
@@ -329,7 +329,7 @@ test("the tip of a pen is calibrated by pivoting, and the run uses it", async ()
         await page.waitForFunction(() => document.querySelectorAll("#calibration-needs li").length === 9);
         assert.match(await page.textContent("#calibration-needs"), /tilt the pen farther.*towards the right edge.*towards the upper right corner/);
         assert.match(await page.textContent("#calibration-now"), /the tip stays at its point/);
-        // A pen that does not pivot has no tip.
+        // Fewer than six frames of the pen do not determine its tip.
         await page.waitForFunction(() => /^1 frame /.test(document.getElementById("calibration-frames").textContent));
         run.show(shots.pivot.slice(0, 2));
         await page.waitForTimeout(6 * kPeriod_ms);
@@ -355,7 +355,7 @@ test("the tip of a pen is calibrated by pivoting, and the run uses it", async ()
         assert.ok(Math.abs(camera.focal_px - kPen.focal_px) < 1e-6);
         assert.match(await page.textContent("#calibration-steps"), /0\.50\d ± .* mm from the camera/);
 
-        // The next frames have the tip.
+        // The next frames contain the tip.
         run.show(shots.pivot.slice(5, 6));
         await page.waitForFunction(() => document.getElementById("live-status").textContent === "live");
         let line;

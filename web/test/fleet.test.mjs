@@ -105,7 +105,6 @@ test("the table is filtered, ordered naturally and turned page by page", async (
     await stop();
 });
 
-/** Returns the number of pixels of the map that have a colour of the style sheet. */
 test("names from the network are text", async () => {
     const hostile = "<img src=x onerror=alert(1)>";
     new Robot(hostile, { map: "<script>alert(2)<\/script>", sheet: "\u202e\n<b>../../etc/passwd" });

@@ -20,7 +20,7 @@ function pixelsOf(page, colour) {
     }, colour);
 }
 
-/** Returns the share of the columns of the graph's lower band that show no state. */
+/** Returns the fraction of the columns in the graph's lower band that show no state. */
 function emptyShare(page) {
     return page.evaluate(() => {
         const { width, height } = document.getElementById("fleet-stored-graph");
@@ -114,7 +114,7 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
     await untilInView(page, 1);
     await page.click("#fleet-fit");
     await page.waitForTimeout(2000);
-    // Measures the segments of the ends of trails, which are drawn over the ground with this opacity.
+    // Measures the segments of the ends of trails, which are recognised by their opacity.
     const longest = await page.evaluate(async () => {
         const { moveTo, lineTo } = CanvasRenderingContext2D.prototype;
         const [segments, xs] = [[], []];

@@ -12,7 +12,7 @@ import { kTool, launch } from "./browser.mjs";
 
 export const kLoad = join(dirname(kTool), "dotpose_fleet_load");
 export const kSilentAfter_s = 3;
-/** Time that the page may need after the limit of a condition. */
+/** Time that the page may take to show a condition after its time limit has passed. */
 export const kShown_s = 2;
 
 export let folder;
@@ -85,7 +85,7 @@ export class Robot {
         this.place = { map: "hall", sheet: "", y_m: 0.1, ...place };
         this.number = 0;
         this.is_lost = false;
-        /** Returns the place of state n, in m. */
+        /** Returns the position of state n, in m. */
         this.path = (n) => [0.1 + 0.01 * n, this.place.y_m];
         /** Further members of localized states. */
         this.more = {};

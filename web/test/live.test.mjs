@@ -1,5 +1,5 @@
-// Tests the page of `dotpose watch --web`: a simulated drive as a video file, whose known poses are
-// read from the page.
+// Tests the page of `dotpose watch --web` with a simulated drive as a video file. The poses that the page shows are
+// compared with the true poses.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -15,7 +15,7 @@ let folder;
 let browser;
 let drive;
 
-/** Simulates a drive over a sheet with 100 mm/s at 50 frames/s. Returns the video and the true poses. */
+/** Simulates a drive over a sheet at 100 mm/s and 50 frames/s. Returns the video and the true poses. */
 function makeDrive(name, frames, ...options) {
     const sheets = join(folder, "sheets.json");
     const video = join(folder, name);
@@ -29,7 +29,7 @@ function watch({ video }, options = [], address = "0") {
     return watchSource([video, "--realtime", "--fps", "10", "--web-recordings", folder], options, address);
 }
 
-/** Returns the frame, the pose and the state that the page shows at one time. */
+/** Returns the frame, the pose and the state that the page shows at one moment. */
 function shownPose(page) {
     return page.evaluate(() => {
         const text = (id) => document.getElementById(id).textContent;
@@ -85,7 +85,7 @@ test("the page shows the frame, the map, refusals and recordings", async () => {
     try {
         const { page, complaints } = await open(browser.context, run.url);
         await page.waitForFunction(isLive);
-        // The frame is drawn: the canvas has grey paper, and the colours of the axes over it.
+        // The frame has been drawn if the canvas contains grey paper with the colours of the axes on top.
         await page.waitForFunction(() => {
             const canvas = document.getElementById("live-frame");
             const context = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
@@ -99,12 +99,12 @@ test("the page shows the frame, the map, refusals and recordings", async () => {
             }
             return grey > data.length / 16 && red > 50;
         });
-        // Names from files are text.
+        // Names from files are shown as plain text.
         await page.waitForFunction(() => document.getElementById("live-map-name").textContent === "The path over <b>table</b>");
         assert.match((await shownPose(page)).x_name, /<b>table<\/b>/);
         assert.match(await page.textContent("#live-refused"), /none/);
         assert.equal(await page.textContent("#live-advice"), "The newest frame was located.");
-        // For a good frame, the page does not advise to change the light or the focus.
+        // For a good frame, the page does not advise changing the light or the focus.
         assert.equal(await page.textContent("#live-picture-advice"), "The picture is bright and sharp enough.");
         assert.ok(Number.parseInt(await page.textContent("#live-contrast-text"), 10) > 60);
 

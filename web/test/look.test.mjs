@@ -162,7 +162,7 @@ function viewsOf(at, size, frames = 1) {
     return makeClip(still, { frames, size, options: ["--section", "0,0", "--at", at.join()] });
 }
 
-/** Opens a picture, which must be located (`ok`) or not. */
+/** Opens a picture. `ok` is true if it must be located. */
 async function openPicture(page, buffer, ok) {
     await page.setInputFiles("#look-file", { name: "view.png", mimeType: "image/png", buffer });
     await page.waitForFunction((is_ok) => (document.getElementById("look-x").textContent !== "–") === is_ok, ok);
@@ -197,7 +197,7 @@ test("a small view is located on a known sheet, and only there", async () => {
     assert.deepEqual([line.prior, line.sheet], ["only_sheets", "table"]);
     assert.ok(Math.abs(line.x_sheet_mm - expected_mm[0]) < 0.02 && Math.abs(line.y_sheet_mm - expected_mm[1]) < 0.02);
 
-    // The list is kept, and a forgotten sheet is not known any more.
+    // The list is kept, and a forgotten sheet is no longer known.
     await page.click("nav [data-view=print]");
     await page.click("[aria-label='Forget the sheet table']");
     await page.click("nav [data-view=look]");

@@ -1,4 +1,4 @@
-// Tests the pose of the camera in space in the view "Look": a simulated tilted camera, whose poses are compared with
+// Tests the pose of the camera in space in the view "Look". The poses of a simulated tilted camera are compared with
 // the truth and with the command-line tool.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -23,7 +23,7 @@ let folder;
 let server;
 let browser;
 let clip;
-/** Lines of the tool with poses in space, of 40 frames of the view. */
+/** Output lines of the tool for 40 frames of the view, with poses in space. */
 let lines;
 
 before(async () => {
@@ -125,7 +125,7 @@ test("a focal length alone is sufficient, and without it there is no pose in spa
     await page.fill("#look-focal", String(kFocal_px));
     await page.press("#look-focal", "Enter");
     near((await shown(page)).height[0], kHeight_mm, 0.05, "height");
-    // A focal length of twice the value is a camera at twice the distance.
+    // With twice the focal length, the camera appears to be at twice the distance.
     await page.fill("#look-focal", String(2 * kFocal_px));
     await page.press("#look-focal", "Enter");
     await page.waitForFunction((mm) => parseFloat(document.getElementById("look-height").textContent) > 1.5 * mm, kHeight_mm);

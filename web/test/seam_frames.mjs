@@ -1,4 +1,4 @@
-// Frames over the seam between two sheets, made of simulated frames of each sheet.
+// Frames over the seam between two sheets, composed of simulated frames of each sheet.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { dotpose } from "./browser.mjs";
@@ -28,7 +28,7 @@ function render(folder, sheet, { x_mm, y_mm }, theta_rad, seed) {
     return readFileSync(join(name, "frame_000000.pgm")).subarray(-kWidth_px * kHeight_px);
 }
 
-/** Returns the point on the right page of a point on the left page. */
+/** Converts a point on the left page to a point on the right page. */
 function onRight({ x_mm, y_mm }) {
     const [c, s] = [Math.cos(kRight.turn_rad), Math.sin(kRight.turn_rad)];
     const [x, y] = [x_mm - kRight.x_mm, y_mm - kRight.y_mm];
@@ -40,7 +40,7 @@ function isOnDots({ x_mm, y_mm }) {
     return Math.min(x_mm, y_mm) > kFirst_mm - 0.2 && Math.max(x_mm, y_mm) < kLast_mm;
 }
 
-/** Returns a frame of a point on the left page. */
+/** Returns a frame centred on a point of the left page. */
 function seamFrame(folder, at, theta_rad, seed) {
     const left = render(folder, entry("left", 2048), at, theta_rad, seed);
     const right = render(folder, entry("right", 6144), onRight(at), theta_rad - kRight.turn_rad, seed);
@@ -56,8 +56,8 @@ function seamFrame(folder, at, theta_rad, seed) {
 }
 
 /**
- * Makes a sheet file with two sheets, of which the left one has a place, and frames over their seam.
- * Returns the true place of the right one.
+ * Makes a sheet file with two sheets, and frames over their seam. Only the left sheet has a pose in the world. Returns
+ * the true pose of the right sheet.
  */
 export function makeSeamFrames(folder) {
     mkdirSync(folder);

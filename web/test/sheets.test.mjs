@@ -21,7 +21,7 @@ function sheetOf(name) {
     return JSON.parse(readFileSync(file, "utf8")).sheets.find((sheet) => sheet.name === name);
 }
 
-/** Returns the place of a sheet as `dotpose sheets` prints it. */
+/** Returns the pose of a sheet as `dotpose sheets` prints it. */
 function placeOf(name) {
     const text = dotpose("sheets", "show", name, "--sheets", file);
     const found = /corner is at x (\S+) mm, y (\S+) mm in the world, yaw (\S+) deg/.exec(text);
@@ -53,7 +53,7 @@ async function message(page, pattern) {
     await page.evaluate(() => (document.getElementById("sheets-message").textContent = ""));
 }
 
-/** Returns a function from points of the world to points of the window. */
+/** Returns a function that maps points of the world to points of the window. */
 async function mapOf(page) {
     await page.evaluate(() => document.getElementById("sheets-map").scrollIntoView({ block: "center" }));
     const box = await page.locator("#sheets-map").boundingBox();
@@ -159,7 +159,7 @@ test("a sheet is moved and turned by mouse and keyboard, and the edits are undon
         await message(page, /Done again/);
         assert.deepEqual(placeOf("shelf"), moved);
 
-        // A sheet without a place gets one where it is dropped.
+        // A sheet without a pose gets one where it is dropped.
         await select(page, "door");
         assert.equal(placeOf("door"), null);
         await page.focus("#sheets-map");
@@ -250,7 +250,7 @@ test("sheets are renamed and removed like on the command line, and both are undo
         assert.deepEqual(names(), [kTable, "door", "shelf"]);
         assert.deepEqual(placeOf("shelf"), { x_mm: 150, y_mm: 0, yaw_deg: 0 });
 
-        // A page that another program prints meanwhile gets the free cells.
+        // A page that another program prints in the meantime gets the free cells.
         await select(page, "shelf");
         await page.click("#sheet-remove");
         await message(page, /^shelf is removed/);
@@ -259,7 +259,7 @@ test("sheets are renamed and removed like on the command line, and both are undo
         await undo(/^Refused: .*'window'.*can no longer be undone/);
         assert.deepEqual(names(), [kTable, "door", "window"]);
 
-        // The run needs a sheet.
+        // The run needs at least one sheet.
         for (const name of ["window", "door"]) {
             await select(page, name);
             await page.click("#sheet-remove");
@@ -289,7 +289,7 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         assert.equal(await page.inputValue("#place-x"), "777");
         assert.equal(await page.inputValue("#place-y"), "44");
 
-        // An edit of the sheet as it was before is refused.
+        // An edit that is based on an earlier revision of the sheet is refused.
         const answer = await command(page, { do: "sheet-place", name: "shelf", revision: 1, x_mm: 1, y_mm: 2, yaw_deg: 3 });
         assert.equal(answer.is_ok, false);
         assert.match(answer.message, /'shelf' was changed by someone else/);
@@ -411,7 +411,7 @@ test("the places of sheets are measured with the running camera", async () => {
         await page.locator("#stitch-frames", { hasText: /^\d{2,} of/ }).waitFor();
         assert.match(await page.textContent("#stitch-sheets"), /left.*keeps its place/);
         await requireAccessible(page);
-        // Discarded places are not written.
+        // Discarded poses are not written.
         await page.click("#stitch-discard");
         await page.waitForSelector("#stitch-start:visible");
         assert.equal(placeOf("right"), null);

@@ -1,5 +1,5 @@
-// Tests the pose of the camera in space on the page of `dotpose watch --web`: simulated frames of a tilted camera,
-// whose known angles are read from the page.
+// Tests the pose of the camera in space on the page of `dotpose watch --web`. The angles that the page shows for
+// simulated frames of a tilted camera are compared with the true angles.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -21,7 +21,7 @@ before(async () => {
     folder = mkdtempSync(join(tmpdir(), "dotpose-space-"));
     const view = ["--size", "320x240", "--working-distance", String(kDistance_mm), `--tilt=0,${kTilt_deg}`, "--angle", String(kTurn_deg)];
     dotpose("simulate", "-o", join(folder, "frames"), "--frames", "60", ...view);
-    // The same view of a sheet that has a place in the world. All frames show the same place.
+    // The same view, on a sheet with a known pose in the world. All frames show the same place.
     const sheets = join(folder, "sheets.json");
     dotpose("print", "-o", join(folder, "page.svg"), "--paper", "A5", "--origin", "1000,2000", "--sheets", sheets, "--name", "desk");
     dotpose("sheets", "place", "desk", "--sheets", sheets, "--x", "100", "--y", "50", "--yaw", String(kYaw_deg));
@@ -82,7 +82,7 @@ test("the page shows height, tilt, azimuth and turn, and draws the camera", asyn
         await requireAccessible(page);
         return shownIn(page);
     });
-    // The paper comes closer along the image x axis, so the camera leans in this direction.
+    // The paper comes nearer along the image x axis, so the camera leans in this direction.
     near(shown, "height_mm", kHeight_mm, 0.05);
     near(shown, "tilt_deg", kTilt_deg, 0.1);
     near(shown, "azimuth_deg", kTurn_deg, 0.3);

@@ -1,6 +1,6 @@
-// Takes the pictures of docs/web.md and docs/fleet.md. Run `node tools/take_live_pictures.mjs [PART]` after the build of the
-// tool; PART is watch, sheets, stitch or fleet. With DOTPOSE_PICTURES=../docs/pictures, test/calibration.test.mjs
-// takes those of the calibration. Needs ffmpeg.
+// Takes the pictures of docs/web.md and docs/fleet.md. Run `node tools/take_live_pictures.mjs [PART]` after the build
+// of the tool. PART is watch, sheets, stitch or fleet. With DOTPOSE_PICTURES=../docs/pictures,
+// test/calibration.test.mjs takes those of the calibration. Needs ffmpeg.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";
@@ -16,7 +16,7 @@ const kPictures = fileURLToPath(new URL("../../docs/pictures/", import.meta.url)
 const folder = mkdtempSync(join(tmpdir(), "dotpose-pictures-"));
 const browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 const programs = [];
-// Names of files are shown in the pages.
+// The pages show the names of the files, so the files are named without their folder.
 process.chdir(folder);
 
 function pause(seconds) {
@@ -31,7 +31,7 @@ function start(command, ...args) {
     return started;
 }
 
-/** Makes three sheets with places, and a drive over them. */
+/** Makes four sheets with poses in the world, and a drive over them. */
 function makeDrive() {
     const sheets = "sheets.json";
     ["table", "shelf", "door", "dock"].forEach((name, i) => {

@@ -1,4 +1,4 @@
-/// Seeds that are written by hand: valid input of each reader.
+/// Hand-written seeds: valid input for each reader.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Computes the place of a fix on a sheet and in the world.
+/// Computes the position of a fix on a sheet and in the world.
 bool place(const std::filesystem::path& folder) {
     std::ofstream(folder / "sheets.json")
         << R"({"format": "dotpose-sheets", "version": 1, "sheets": [{"name": "table", "page": 1,

@@ -134,7 +134,7 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.covered_share(), bars + edge);
 }
 
-// Most of each tile of this scan is blank paper around the card.
+// Most of the area of each tile in this scan is blank paper around the card.
 TEST(CheckPrint, dots_of_a_small_card_on_a_noisy_scan_are_not_covered) {
     SheetOptions options;
     options.paper = {20, 20};
@@ -162,7 +162,7 @@ TEST(CheckPrint, maps_distortion) {
     settings.wave_mm = 0.3;
     const PrintCheck result = check(scan_page(make_sheet(options), settings), 300);
     ASSERT_EQ(result.fields.size(), 1U);
-    // The tolerance is large, because the fitted scale absorbs a part of the sine wave.
+    // The tolerance is large, because the fitted scale absorbs part of the sine wave.
     EXPECT_NEAR(result.fields[0].largest_distortion_mm, settings.wave_mm, 0.1);
     EXPECT_LT(result.fields[0].scatter_mm, 0.01);
     EXPECT_THAT(remarks(result), Contains("distorted"));

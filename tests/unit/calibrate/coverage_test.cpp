@@ -150,7 +150,7 @@ TEST(CornerSigma, IsThatOfTheDivisionModel) {
     const double d = 1 + camera.k_per_px2 * (x * x + y * y);
     camera.sigma = {{"k_per_px2", 2e-8}, {"centre_u_px", 0}, {"centre_v_px", 0}};
     // Eq. 2 of the paper is p = r / (1 + k r^2), so dp/dk = -r r^2 / (1 + k r^2)^2. The derivative
-    // at the middle of the image is subtracted. It is zero to eight digits.
+    // at the middle of the image is subtracted, but is zero to eight digits.
     const double by_k = std::pow(std::hypot(x, y), 3) / (d * d) * 2e-8;
     EXPECT_NEAR(corner_sigma_px(camera), by_k, 1e-5 * by_k);
 

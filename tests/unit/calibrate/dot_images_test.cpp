@@ -1,4 +1,4 @@
-// Tests the measurement of dots at expected places. The true centres come from the simulator's
+// Tests the measurement of dots at expected positions. The true centres come from the simulator's
 // projection.
 #include "calibrate/dot_images.hpp"
 

@@ -23,7 +23,8 @@ double light_at(double u, double v) {
     return (1 - 0.2 * (x * x + y * y)) * (0.95 - 0.05 * x);
 }
 
-/// Returns an image of white paper in this light. A tenth of the pixels are dark, at random places.
+/// Returns an image of white paper in this light. A tenth of the pixels, chosen at random, are
+/// dark.
 GreyImage dots_at_random(int index) {
     std::mt19937 random(kDotSeed + static_cast<std::uint32_t>(index));
     GreyImage image{{}, kColumns, kRows};
@@ -62,7 +63,7 @@ TEST(CalibrateFlatField, FindsTheLight) {
             EXPECT_NEAR(field[j][i], light_at(u, v) / brightest, 0.03) << i << ", " << j;
         }
     }
-    // A tenth of the pixels are dots, whose level is 23 % of that of the paper. The standard
+    // A tenth of the pixels are dots, whose level is 23 % of the paper level. The standard
     // deviation of a pixel is therefore 25 % of its mean in one frame. In the mean of 400 frames it
     // is a 20th of this value, 1.26 %.
     EXPECT_NEAR(found.residual, 0.0127, 0.004);

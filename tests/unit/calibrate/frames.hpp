@@ -65,7 +65,8 @@ inline Camera true_camera(const CameraModel& model) {
 /// Position of the image centre relative to the robot's centre, along the image axes.
 inline constexpr Vec2 kCameraOnRobot_mm{-14.5, 6.25};
 
-/// Returns the frame of a robot at a place. The image x axis points in the direction `theta_rad`.
+/// Returns the frame of a robot at a position. The image x axis points in the direction
+/// `theta_rad`.
 inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int index, double x_mm,
                              double y_mm, double theta_rad) {
     Setup setup;
@@ -78,7 +79,7 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
                            x_mm + c * x - s * y, y_mm + s * x + c * y, theta_rad));
 }
 
-/// The robot turns on the spot at this place.
+/// Position at which the robot turns on the spot.
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
@@ -121,8 +122,8 @@ inline RobotError robot_error(const Camera& camera, const CameraModel& model, st
 
 // ---- A table with four sheets ----
 
-/// Number of dots per side of a sheet. Between the pattern and the edge of the sheet is a narrow
-/// margin.
+/// Number of dots per side of a sheet. There is a narrow margin between the pattern and the edge of
+/// the sheet.
 inline constexpr int kSide_cells = 120;
 inline constexpr double kMargin_mm = 0.3;
 inline constexpr double kPage_mm = (kSide_cells - 1) * kDefaultSpacing_mm + 2 * kMargin_mm;
@@ -164,7 +165,7 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// Returns the camera's frame at a place of the table. It renders each sheet alone and takes the
+/// Returns the camera's frame at a position on the table. It renders each sheet alone and takes the
 /// darkest value of each pixel.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {
@@ -179,8 +180,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         const double dy = y_mm - lying.y_mm;
         const double c = std::cos(lying.turn_rad);
         const double s = std::sin(lying.turn_rad);
-        // If the camera is farther from the middle of a sheet along one axis, it sees no dot of
-        // this sheet.
+        // At larger distances from the middle of a sheet, along either axis, the camera sees none
+        // of its dots.
         constexpr double kTooFar_mm = kPage_mm / 2 + 12;
         if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
         if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;
@@ -193,8 +194,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // The light and the noise of all sheets are equal, so the darkest value of a pixel is that
-        // of a dot if any sheet has a dot there.
+        // All sheets have the same light and noise, so the darkest value of a pixel is that of a
+        // dot if any sheet has a dot there.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)
             result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);

@@ -51,8 +51,8 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_lens(result, truth);
     ASSERT_TRUE(result.is_mounted);
     const PaperScale& paper = result.camera.paper.value();
-    // The mean scale over the field of 188 x 120 px is determined more accurately than the scale at
-    // the centre of the field.
+    // The mean scale over the field of view of 188 x 120 px is determined more accurately than the
+    // scale at its centre.
     EXPECT_NEAR(paper.mm_per_px_x, truth.mm_per_px, 5e-4 * truth.mm_per_px);
     EXPECT_NEAR(paper.mm_per_px_y, truth.mm_per_px, 5e-4 * truth.mm_per_px);
     expect_near_truth(result.camera, "mm_per_px_x", paper.mm_per_px_x, truth.mm_per_px);

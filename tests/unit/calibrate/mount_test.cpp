@@ -91,10 +91,10 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// The variance of the reference is the sum of the variances that are due to the turn, to the image
-// centre and to the image axis. In the camera file, the standard deviation of the centre is 4 µm
-// per axis and that of the direction of the axis is 3e-4 rad. At a distance of 15.8 mm from the
-// camera, these two together contribute sqrt(4^2 + (15.8e3 * 3e-4)^2 / 2) = 5.2 µm per axis.
+// The variance of the reference is the sum of the variances due to the turn, to the image centre
+// and to the image axis. In the camera file, the standard deviation of the centre is 4 µm per axis
+// and that of the direction of the axis is 3e-4 rad. At a distance of 15.8 mm from the camera,
+// these two together contribute sqrt(4^2 + (15.8e3 * 3e-4)^2 / 2) = 5.2 µm per axis.
 TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
     const CameraModel model = paper_camera();
     const auto frame_at = [&](int i) {

@@ -1,4 +1,4 @@
-// Tests the calibration of the tip of a pen with simulated frames of a known tip.
+// Tests the calibration of the tip of a pen, with simulated frames of a pen whose tip is known.
 #include <array>
 #include <cmath>
 #include <cstdint>

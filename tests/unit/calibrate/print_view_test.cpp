@@ -39,8 +39,8 @@ TEST(PrintView, tells_cameras_from_scanners) {
     for (const double tilt : {0.5, 1.0, 10.0, 25.0}) {
         const auto signs = signs_of_camera(photo(tilt * kDegree, 0, 0), kMiddle_px);
         ASSERT_TRUE(signs) << tilt;
-        // The far end of the page is farther from the camera than the near end. The difference of
-        // their distances, relative to 260 mm, is 180 mm * sin(tilt) / 260 mm.
+        // The far end of the page is farther from the camera than the near end. The difference
+        // between their distances, relative to 260 mm, is 180 mm * sin(tilt) / 260 mm.
         EXPECT_NEAR(signs->perspective, 180 * std::sin(tilt * kDegree) / 260, 1e-6);
         EXPECT_NEAR(signs->lens, 0, 1e-6);
     }

@@ -103,7 +103,7 @@ struct View {
                     Vector3{x_mm - position_mm[0], y_mm - position_mm[1], -position_mm[2]});
         return {focal_px * seen[0] / seen[2], focal_px * seen[1] / seen[2]};
     }
-    /// Returns the pixel at which a lens with the distortion k shows a point on the paper, relative
+    /// Returns the pixel to which a lens with the distortion k maps a point on the paper, relative
     /// to the optical axis.
     std::array<double, 2> distorted(double x_mm, double y_mm, double k) const {
         const auto [a, b] = straight(x_mm, y_mm);
@@ -384,8 +384,8 @@ TEST(SpacePose, OfAStraightCameraIsItsPlaneAndDistance) {
 }
 
 TEST(SpacePose, LeansToTheSideOnWhichThePaperIsNear) {
-    // The nearest paper is at the top of the image, and the image x axis is the x axis of the
-    // paper. The camera therefore leans towards -y, and its optical axis points towards +y.
+    // The nearest part of the paper is at the top of the image, and the image x axis is the x axis
+    // of the paper. The camera therefore leans towards -y, and its optical axis points towards +y.
     Shot shot = tilted_shot(21, 20, 0);
     shot.pose.theta_rad = 0;
     const auto pose = located(shot, camera_of(shot.camera));

@@ -72,7 +72,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     for (const Seam& seam : stitching.seams)
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
-    // World positions must be correct on different sheets, also far away from the seams.
+    // World positions must be correct on different sheets, including far from the seams.
     Locator locator{DeviceOptions{}};
     Camera camera = true_camera(model);
     // The reference point is 20 mm to the right of the image, so that a wrong scale causes a
@@ -191,8 +191,8 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         return text.str();
     };
     EXPECT_THAT(picture(), HasSubstr("not all of these sheets had a world pose"));
-    // In the sheet file, the sheet is 1 mm to the right of its true place. The error is 1 mm along
-    // x and 0 along y, which is 0.71 mm rms per axis.
+    // In the sheet file, the sheet is 1 mm to the right of its true position. The error is 1 mm
+    // along x and 0 along y, which is 0.71 mm rms per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
     EXPECT_THAT(picture(), testing::AllOf(HasSubstr(">Before<"), HasSubstr(">After<"),

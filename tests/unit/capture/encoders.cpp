@@ -234,7 +234,7 @@ Bytes encode_bmp(const Raster& raster, const Bytes& palette) {
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     constexpr std::uint64_t kDirectoryAt = 8;
     constexpr std::uint64_t kEntries = 10;
-    // After the directory come the number of bits of each channel, the palette, and the pixels.
+    // The directory is followed by the bit depth of each channel, the palette, and the pixels.
     constexpr std::uint64_t kBitsAt = kDirectoryAt + 2 + kEntries * 12 + 4;
     constexpr std::uint64_t kPaletteAt = kBitsAt + 8;
     const Bytes colours = tiff_palette(palette, big_endian);

@@ -29,7 +29,7 @@ class Writer {
 };
 
 /// Samples row by row, with `channels` channels per pixel and `bits` bits per sample. `bits` is 8
-/// or 16, or also less than 8 for PNG.
+/// or 16. For PNG, it may also be less than 8.
 struct Raster {
     int width_px = 0;
     int height_px = 0;
@@ -42,18 +42,18 @@ struct Raster {
 Bytes encode_pnm(const Raster& raster, bool as_text, int max_value);
 
 /// Encodes 1 to 4 channels: grey, grey and opacity, RGB, or RGBA. If there is a palette of RGB
-/// triples, the only channel contains indices into it.
+/// triples, the single channel contains indices into it.
 Bytes encode_png(const Raster& raster, const Bytes& palette = {}, const Bytes& exif = {});
 
 /// Encodes 8-bit samples. One channel contains indices into the palette of RGB triples. Three
 /// channels are RGB.
 Bytes encode_bmp(const Raster& raster, const Bytes& palette = {});
 
-/// Encodes an uncompressed file of one strip, with the directory before the pixels. Channels and
-/// palette are as in encode_png.
+/// Encodes an uncompressed file with a single strip, with the directory before the pixels. Channels
+/// and palette are as in encode_png.
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette = {});
 
-/// Encodes a baseline file. Each 8-bit sample becomes a flat block of 8 x 8 px, which JPEG
+/// Encodes a baseline JPEG. Each 8-bit sample becomes a flat block of 8 x 8 px, which JPEG
 /// reproduces exactly. One channel is grey. Three channels are Y, Cb and Cr. Four channels are
 /// CMYK, stored inverted as Adobe's programs do.
 Bytes encode_jpeg(const Raster& raster);

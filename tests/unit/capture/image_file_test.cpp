@@ -359,7 +359,7 @@ TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {
 
 TEST_F(ImageFileTest, reads_headers_with_line_breaks_of_two_characters) {
     // The first pixel has the value 10, which is also the code of a line feed. Only the file size
-    // shows whether this byte is a pixel or a part of the header.
+    // shows whether this byte is a pixel or part of the header.
     const auto first_pixel = [this](const std::string& file) {
         std::ofstream(directory / "a.pgm", std::ios::binary) << file;
         return int{read_image(directory / "a.pgm").pixels.front()};
@@ -396,7 +396,7 @@ TEST_F(ImageFileTest, survives_random_damage) {
         int refused = 0;
         for (int round = 0; round < kRounds; ++round) {
             Bytes bytes = sample.bytes;
-            // Every second round damages only the first 200 bytes. They contain the headers, where
+            // Every second round damages only the first 200 bytes, which contain the headers, where
             // damage has the largest effect.
             const std::size_t reach = round % 2 == 0 ? bytes.size() : std::size_t{200};
             for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips) {

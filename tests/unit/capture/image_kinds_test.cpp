@@ -153,7 +153,7 @@ TEST_F(TiffKinds, HaveTilesAndStripsOf16BitsAndCompression) {
     const auto strips = [](TIFF* tiff) {
         TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 7);
         TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_LZW);
-        TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_BOTRIGHT);  // is ignored
+        TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_BOTRIGHT);  // ignored
     };
     for (const Bytes& file : {file_of(tiles, levels), file_of(strips, levels)}) {
         const Bytes pixels = pixels_of(file);
@@ -211,8 +211,8 @@ TEST(JpegKinds, AreProgressive) {
     EXPECT_EQ(pixels_of(file).size(), 64U * 64U);
 }
 
-// A file that is cut anywhere must be refused. If it is cut between two scans, nothing in it refers
-// to the missing scans.
+// A file that is truncated anywhere must be refused. If it is truncated between two scans, nothing
+// in the file refers to the missing scans.
 TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     const Bytes file = progressive_jpeg();
     int refused = 0;
@@ -223,7 +223,7 @@ TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     EXPECT_EQ(refused, static_cast<int>(file.size() - file.size() / 4));
 }
 
-// A file of some kilobytes with thousands of scans would keep the decoder busy for hours.
+// A file of a few kilobytes with thousands of scans would keep the decoder busy for hours.
 TEST(JpegKinds, AreRefusedWithTooManyScans) {
     Bytes file = progressive_jpeg();
     const Bytes marker{0xFF, 0xDA};

@@ -1,4 +1,4 @@
-// Tests the detection of the kind of a source, and lists of sources.
+// Tests the detection of source kinds, and lists of sources.
 #include "capture/source_list.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests the decoding of windows. A window of the code must be found at its place, and any other
+// Tests the decoding of windows. A window of the code must be decoded to its place, and any other
 // window must be refused.
 #include <array>
 #include <cstdint>
@@ -192,8 +192,8 @@ TEST(Decode, RefusesPublishedWindowsThatStandTwice) {
 }
 
 TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
-    // Two strings of 8 bits of the main sequence differ in at least 2 bits, so one wrong bit is
-    // always detected.
+    // Two 8-bit strings of the main sequence differ in at least 2 bits, so one wrong bit is always
+    // detected.
     std::mt19937 rng(kSeed);
     for (int n = 0; n < 300; ++n) {
         const CodeVariant code = kCodeVariants[static_cast<std::size_t>(n % 3)];
@@ -214,7 +214,8 @@ TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
 
 TEST(Decode, NeverGuessesFromAChanged6x6) {
     // 6 x 6 windows have no redundancy, so most windows with a changed bit occur elsewhere in the
-    // code. The decoder must return the place at which such a window occurs, and refuse all others.
+    // code. The decoder must return the place at which such a window occurs, and refuse all other
+    // windows.
     std::mt19937 rng(kSeed);
     int elsewhere = 0;
     constexpr int kDraws = 20'000;

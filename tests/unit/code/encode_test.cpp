@@ -86,7 +86,7 @@ TEST(Encode, MainBitsAreCyclic) {
     // 2^32 - 1 = 63 * 68174084 + 3, and the main sequence starts with six zeros and a one.
     constexpr std::uint32_t kLast = std::numeric_limits<std::uint32_t>::max();
     EXPECT_EQ(main_bit(kLast), 0);
-    EXPECT_EQ(main_bit(kLast - 60), 1);  // place 6
+    EXPECT_EQ(main_bit(kLast - 60), 1);  // index 6 of the main sequence
 }
 
 TEST(Encode, DeltasStayWithin5To58AndReachBoth) {

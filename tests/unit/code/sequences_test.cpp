@@ -15,7 +15,8 @@
 namespace dotpose::code_test::sequences_test {
 namespace {
 
-/// Returns all strings of the given length in a cyclic sequence, indexed by place.
+/// Returns all strings of the given length in a cyclic sequence, indexed by the position of their
+/// first digit.
 std::vector<std::string> strings_of(const std::string& cycle, std::size_t length) {
     std::vector<std::string> result;
     for (std::size_t start = 0; start < cycle.size(); ++start) {

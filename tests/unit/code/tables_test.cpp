@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kSeed = 61;
 
-/// Returns 32-bit numbers near both ends of the range, and random ones.
+/// Returns random 32-bit numbers, and numbers near both ends of the range.
 std::vector<std::uint32_t> many_numbers() {
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t n = 0; n < 70000; ++n) {

@@ -19,8 +19,8 @@ constexpr std::size_t kMaxLines = 16;
 using Lines = std::array<std::size_t, kMaxLines + 1>;
 using Unshared = std::pair<std::size_t, std::size_t>;
 
-/// Element n of the result is the maximum number of equal offsets among n lines. These are the
-/// first n lines, or the last n lines if `from_last` is set.
+/// Returns, at index n, the maximum number of equal offsets among the first n lines, or among the
+/// last n lines if `from_last` is set.
 Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bool from_last) {
     std::array<std::size_t, kSections> counts{};
     Lines most{};
@@ -31,7 +31,7 @@ Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bo
     return most;
 }
 
-/// Returns the minimum number of lines that `place` does not share with any one other place of the
+/// Returns the minimum number of lines that `place` does not share with another place of the
 /// sequence. The first number is for a single shift of all lines. The second number is for two
 /// shifts, one on each side of a border between lines.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
@@ -68,8 +68,8 @@ TEST(UnsharedLines, AreAsCounted) {
 
 using Counts = std::array<int, kMaxCounted>;
 
-/// Counts the pairs of another place of the sequence and a shift for which at least one line is
-/// shared with `place`. Element n - 1 of the result is the number of pairs for which exactly n
+/// Counts the combinations of another place of the sequence and a shift that share at least one
+/// line with `place`. Element n - 1 of the result is the number of combinations for which exactly n
 /// lines are not shared.
 Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t lines) {
     Counts counts{};

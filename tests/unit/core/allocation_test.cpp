@@ -91,7 +91,7 @@ int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& 
 
 TEST(Allocation, IsSeenWhereItHappens) {
     const int before = allocations;
-    // Compilers may remove new-expressions, but not direct calls of the operator.
+    // Compilers may remove new-expressions, but not direct calls to the operator.
     ::operator delete(::operator new(1));
     EXPECT_EQ(allocations - before, 1);
 }

@@ -58,7 +58,7 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     }
 }
 
-/// The low and the high threshold at one column of the band that was measured last.
+/// The low and the high threshold at one column of the most recently measured band.
 struct Levels {
     int low = 0;
     int high = 0;
@@ -71,7 +71,7 @@ inline Levels levels_of_tile(const AdaptiveThreshold& threshold, int tile) {
     return levels_at(threshold, tile * kTileWidth_px);
 }
 
-/// Returns the blobs of an image that may be dots, before the size filter.
+/// Returns the blobs of an image that are candidates for dots, before the size filter.
 inline std::vector<DetectedDot> blobs_of(const GreyImage& image, Workspace& w,
                                          const ThresholdOptions& options = {}) {
     const core::DotList list{w.dots, w.dot_count, w.dots_kept_within_px};

@@ -32,7 +32,8 @@ inline core::FloatPlane random_float_plane(double spacing_px, double tilt, Rng& 
     return p;
 }
 
-/// Returns the image point of a point of the pattern. Uses Newton's method with finite differences.
+/// Returns the image point that shows a pattern point. Uses Newton's method with finite
+/// differences.
 inline Vec2 image_of(const core::FloatPlane& plane, Vec2 pattern) {
     Vec2 px;
     for (int step = 0; step < 30; ++step) {

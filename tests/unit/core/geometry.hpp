@@ -88,7 +88,7 @@ struct PlacedDot {
 };
 
 /// Returns the dots of all cells |i|, |j| <= `reach` inside the image, displaced by displacement(i,
-/// j) in spacings.
+/// j), in spacings.
 template <typename Displacement>
 std::vector<PlacedDot> placed_dots(const Mesh& mesh, int reach, Vec2 image_px,
                                    Displacement displacement) {
@@ -112,7 +112,8 @@ inline std::vector<DetectedDot> dots_of(const std::vector<PlacedDot>& placed) {
     return dots;
 }
 
-/// Returns a displacement by a sixth of the spacing, in a random one of the four directions.
+/// Returns a displacement by a sixth of the spacing in one of the four directions, chosen at
+/// random.
 inline Vec2 random_displacement(Rng& rng) {
     const auto symbol = static_cast<Symbol>(rng.below(4));
     return {dx(symbol) / 6.0, dy(symbol) / 6.0};
@@ -129,8 +130,8 @@ struct View {
     Vec2 image_px{188, 120};
 
     Vec2 centre_px() const { return {(image_px.x - 1) / 2, (image_px.y - 1) / 2}; }
-    /// Steps on the pattern, in spacings, for a step of one px along u or v of the image. These are
-    /// the columns of R(theta) / spacing_px.
+    /// Steps on the pattern, in spacings, that correspond to one px along u or v of the image.
+    /// These are the columns of R(theta) / spacing_px.
     Vec2 du() const { return {std::cos(theta_rad) / spacing_px, std::sin(theta_rad) / spacing_px}; }
     Vec2 dv() const { return {-du().y, du().x}; }
     Vec2 pattern(Vec2 p_px) const {
@@ -138,8 +139,8 @@ struct View {
         return at_centre + r.x * du() + r.y * dv();
     }
     Mesh mesh() const {
-        // The inverse rotation, because a step along the x axis of the pattern is the image vector
-        // (cos, -sin).
+        // Uses the inverse rotation, because a step along the x axis of the pattern is the image
+        // vector (cos, -sin).
         Mesh m = square_mesh(spacing_px, -theta_rad, {});
         m.origin = centre_px() - at_centre.x * m.u - at_centre.y * m.v;
         return m;

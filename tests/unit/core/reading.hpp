@@ -28,7 +28,7 @@ struct Reading {
         : Reading(view_, turn_, dots_of(pattern_dots(view_))) {}
 
     const Grid& grid() const { return owned.grid; }
-    /// Returns the true decoding of the grid, from geometry.
+    /// Returns the true decoding of the grid, computed from geometry.
     Decoding truth() const {
         Decoding true_decoding = decoding;
         true_decoding.pattern_from_grid = turn;

@@ -175,7 +175,7 @@ TEST(AffineFitInt32, AgreesWithTheFitInDoublePrecision) {
 }
 
 TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
-    // Targets are exact places of a known plane, rounded to `bits` bits.
+    // Targets are exact points of a known plane, rounded to `bits` bits.
     Rng rng(kSeed);
     for (int i = 0; i < 100; ++i) {
         const int bits = i % 11;

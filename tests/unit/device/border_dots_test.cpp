@@ -15,7 +15,7 @@ using namespace core;
 
 constexpr int kSide_px = 36;
 
-/// A tracking with one stored image, which shows dots on white paper.
+/// The tracking state of a device, with one stored image that shows dots on white paper.
 class Drawn {
   public:
     Drawn() {
@@ -53,8 +53,8 @@ class Drawn {
 TEST(BorderDots, AreWhereTheyWereDrawn) {
     Rng rng(12);
     for (int round = 0; round < 400; ++round) {
-        // The distance from the border is along one axis. Along the other axis, the dot is
-        // anywhere.
+        // The distance from the border is along one axis. The position along the other axis is
+        // arbitrary.
         const double depth_px = rng.uniform(-0.4, 1.4);
         const double along_px = rng.uniform(-0.4, kSide_px - 0.6);
         const double across_px = round % 2 == 0 ? depth_px : kSide_px - 1 - depth_px;

@@ -72,7 +72,7 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         const Mesh mesh = small_mesh(rng);
         const auto placed = displaced_dots(mesh, 20, kImage_px, rng);
         // One dot in six is missing. For one dot in twelve, a spurious dot is added at a random
-        // place. A stroke hides a strip.
+        // position. A stroke hides a strip.
         const double strip = rng.uniform(20, 160);
         std::vector<DetectedDot> dots;
         for (const PlacedDot& d : placed) {
@@ -85,8 +85,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
                   Status::ok);
-        // The correct cells must be found in spite of these changes. The tolerance is large,
-        // because spurious dots increase the errors.
+        // The correct cells must be found despite these changes. The tolerance is large, because
+        // spurious dots increase the errors.
         expect_grid(plane, placed, intersections(mesh, placed), 0.25);
         if (testing::Test::HasFatalFailure()) return;
     }

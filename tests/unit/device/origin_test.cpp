@@ -1,5 +1,5 @@
-// Tests the origin of the grid, which is computed from the phases of the dots, if dots are
-// displaced, missing or spurious.
+// Tests the origin of the grid, which is computed from the phases of the dots, with displaced,
+// missing and spurious dots.
 #include "device/origin.hpp"
 
 #include <numeric>
@@ -70,7 +70,7 @@ TEST(Origin, IsThatOfAPlainGrid) {
 TEST(Origin, IsTheMeanOfDisplacedDots) {
     // Each dot is displaced by 1/6 spacing along one random axis, which is 0.12 spacings rms per
     // axis. The mean of 9 x 9 dots is displaced by 0.013 spacings, and that of a dozen dots by
-    // 0.035 spacings. If the grid were found half a cell off, the error would be 0.5 spacings.
+    // 0.035 spacings. If the grid were half a cell off, the error would be 0.5 spacings.
     for_many_grids([](const Mesh& mesh, Rng& rng) {
         const auto dots = dots_of(
             placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); }));
@@ -85,7 +85,7 @@ TEST(Origin, BearsDotsThatAreMissingOrFalse) {
              placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); })) {
             const double fate = rng.uniform();
             if (fate > 0.2) dots.push_back(dot_at(d.centre_px));
-            // One cell in ten has a second dot at a random place.
+            // One cell in ten has a second dot at a random position.
             if (fate < 0.9) continue;
             dots.push_back(dot_at(
                 mesh.at(d.cell.x + rng.uniform(-0.5, 0.5), d.cell.y + rng.uniform(-0.5, 0.5))));
@@ -96,7 +96,7 @@ TEST(Origin, BearsDotsThatAreMissingOrFalse) {
 
 TEST(Origin, OnlyDotsAFewCellsAwayHaveASay) {
     // The origin must not depend on distant dots. If an axis is slightly too long, the expected
-    // places of distant dots are wrong by up to half a cell.
+    // positions of distant dots are wrong by up to half a cell.
     for_many_grids([](const Mesh& mesh, Rng&) {
         const auto displaced_far_away = [](int i, int j) {
             return std::max(std::abs(i), std::abs(j)) <= 6 ? Vec2{} : Vec2{0.3, -0.3};

@@ -127,7 +127,8 @@ TEST(SheetOdds, TooManyWrongBitsAreRefused) {
 
 TEST(SheetOdds, MaximumOfWrongBitsFollowsFromChance) {
     // 4 * 145 * 135 places are 2^16.3 hypotheses. If 48 bits agree without an error, the
-    // probability of chance is 2^-31.7. If one of the 48 bits is wrong, the probability is 2^-26.
+    // probability of a match by chance is 2^-31.7. If one of the 48 bits is wrong, the probability
+    // is 2^-26.
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 24, 6, {}), 0);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 22, 6, {}), -1);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 200, 16, {}), 400);

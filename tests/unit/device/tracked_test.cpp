@@ -98,7 +98,7 @@ TEST_F(DeviceTracked, FollowsPaleDots) {
     int predicted = 0;
     int found = 0;
     for (std::uint64_t i = 0; i < 60; ++i) {
-        // Dots of 8.3 px per spacing are hardly larger than a pixel, so blur makes them pale.
+        // At 8.3 px per spacing, dots are hardly larger than a pixel, so blur makes them pale.
         const Shot shot = shot_of(i, Preset::nominal, 0.0612);
         const GreyImage image = render(shot);
         const Fix before = fresh(image);
@@ -135,8 +135,8 @@ TEST_F(DeviceTracked, FollowsTheShearOfRollingShutters) {
     Locator desktop;
     struct Motion {
         double px;          ///< motion of the scene during the readout
-        int min_predicted;  ///< minimum number of frames that a desktop locates, of 40
-        int min_percent;    ///< minimum fraction of these frames that a device tracks
+        int min_predicted;  ///< minimum number of frames, out of 40, that a desktop locates
+        int min_percent;    ///< minimum percentage of these frames that a device tracks
     };
     for (const Motion& motion : {Motion{24, 40, 85}, Motion{36, 38, 65}, Motion{72, 28, 55}}) {
         int predicted = 0;

@@ -102,7 +102,7 @@ TYPED_TEST(DeviceWorkspace, LocatesAndTracksFramesOfItsSize) {
         EXPECT_EQ(next.attempt, Attempt::tracked);
         EXPECT_EQ(next.section, fix.section);
         EXPECT_GT(next.dots_used, 100) << i;
-        // The centre of the plane is the centre of the frame, not of the part that was tracked.
+        // The centre of the plane is the centre of the frame, not of the tracked region.
         EXPECT_EQ(next.pattern_from_image.centre_q8.x, (TypeParam::kWidth_px - 1) * 128);
         EXPECT_EQ(next.pattern_from_image.centre_q8.y, (TypeParam::kHeight_px - 1) * 128);
         tracked_squares += std::pow(distance(next, shot), 2);

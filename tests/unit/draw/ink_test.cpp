@@ -1,4 +1,4 @@
-// Tests the files with the ink of a pen.
+// Tests the files that contain the ink of a pen.
 #include "dotpose/tools/ink.hpp"
 
 #include <string>

@@ -22,8 +22,8 @@ constexpr double kTurn_rad = 0.3;
 constexpr double kScale = 1.002;
 constexpr double kOffset_rad = 1.1;
 
-/// Returns frames at the places of a grid. The truth is rotated, scaled and shifted by (5, -7) mm,
-/// and the located places have errors of up to 2 µm.
+/// Returns frames at the points of a grid. The true positions are rotated, scaled and shifted by
+/// (5, -7) mm, and the located positions have errors of up to 2 µm.
 std::vector<MeasuredFrame> frames() {
     std::vector<MeasuredFrame> result;
     for (int i = 0; i < 25; ++i) {
@@ -45,7 +45,7 @@ std::vector<MeasuredFrame> frames() {
 
 TEST(Measured, AlignsByASimilarityInSpiteOfOutliers) {
     std::vector<MeasuredFrame> all = frames();
-    std::swap(all[3].truth, all[20].truth);  // two lines of the file of poses are exchanged
+    std::swap(all[3].truth, all[20].truth);  // as if two lines of the pose file were exchanged
     const Similarity by = align(all);
     EXPECT_NEAR(by.scale, kScale, 1e-4);
     EXPECT_NEAR(by.turn_rad, kTurn_rad, 1e-4);

@@ -53,7 +53,7 @@ TEST_F(TruthFile, HasPlacesOnSheetsOrInTheWorld) {
     EXPECT_EQ(on_sheet[0].place->x_mm, 12.5);
     EXPECT_NEAR(on_sheet[0].place->angle_rad.value(), std::numbers::pi, 1e-12);
     EXPECT_FALSE(on_sheet[1].place);
-    // Poses in the world take precedence over places on sheets.
+    // World poses take precedence over positions on sheets.
     const auto in_world = read("file,x_sheet_mm,y_sheet_mm,x_m,y_m\na.pgm,1,2,0.25,-0.5\n");
     EXPECT_TRUE(in_world[0].place->is_in_world);
     EXPECT_EQ(in_world[0].place->x_mm, 250);

@@ -387,7 +387,7 @@ TEST(UseCamera, SetsLensAndReferenceForItsOwnSizeOnly) {
     EXPECT_THROW(use_camera(camera, 189, 120, options), BadArgument);
 }
 
-// If a part of the image is read, the point of the paper at a pixel, the reference point and the
+// If only part of the image is read, the point of the paper at a pixel, the reference point and the
 // heading remain the same.
 TEST(PartOf, SeesTheSamePaper) {
     Camera camera;

@@ -54,7 +54,7 @@ PrintMap small_map() {
     return {{page}};
 }
 
-/// The bytes of a map as earlier programs wrote them: without the errors.
+/// The bytes of a map as earlier versions wrote them, without the errors.
 std::string version_1_bytes() {
     PrintMap map = small_map();
     map.pages[0].errors = {};

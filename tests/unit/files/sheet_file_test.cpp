@@ -81,7 +81,7 @@ TEST(SheetFile, allocates_regions_that_keep_their_distance) {
     std::mt19937 random(4);
     std::printf("seed 4\n");
     SheetFile file(directory / "s.json");
-    // Some regions are entered by other programs, also in other sections and code variants.
+    // Other programs add some regions, including regions in other sections and code variants.
     for (int i = 0; i < 10; ++i) {
         SheetEntry other = entry("old " + std::to_string(i), {});
         other.sheet.origin = {static_cast<std::uint32_t>(random() % 6000),
@@ -144,7 +144,7 @@ TEST(SheetFile, allocates_from_the_top_left_and_fills_holes) {
         EXPECT_EQ(pages[i].page, static_cast<int>(i) + 1);
         EXPECT_EQ(pages[i].sheet.origin, (Cell{1024 + i * (columns + 1024), 1024}));
     }
-    // The first row of pages has a hole for exactly one page.
+    // The first row of pages has a gap for exactly one page.
     file.add(entry("later", {1024 + 4 * (columns + 1024), 1024}));
     EXPECT_EQ(file.allocate("hole", sheet)[0].sheet.origin,
               (Cell{1024 + 3 * (columns + 1024), 1024}));
@@ -251,7 +251,7 @@ TEST(SheetFile, what_is_saved_is_read_back_exactly) {
     const auto sheets = read_sheets(directory / "s.json");
     ASSERT_EQ(sheets.size(), 3U);
     expect_equal(sheets[0], full);
-    // Saving a file that was only read changes no byte.
+    // Saving a file that was only read leaves every byte unchanged.
     const std::string text = read_file(directory / "s.json");
     SheetFile file(directory / "s.json");
     file.save();

@@ -268,7 +268,8 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
         };
         const auto expected = expected_covariance(fix, [&](const Fix& moved) {
             const WorldPlace place = place_of(moved);
-            // Angles are relative to that of the fix, so that they do not jump at half a turn.
+            // Angles are taken relative to the angle of the fix, so that they do not jump at half a
+            // turn.
             const double yaw =
                 std::remainder(place.yaw_rad - place_of(fix).yaw_rad, 2 * std::numbers::pi);
             return std::array{place.x_m, place.y_m, yaw};
@@ -279,7 +280,7 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
 
 TEST(covariance_in_the_world, of_a_page_turned_by_a_quarter) {
     // On this page, x points along the world's y axis and y along the world's x axis. Angles change
-    // their sign.
+    // sign.
     const PoseCovariance on_sheet = {{{1, 2, 3}, {2, 5, 6}, {3, 6, 9}}};
     const PoseCovariance in_world = world_covariance(on_sheet, kPi / 2);
     const Matrix expected = {{{5, 2, -6}, {2, 1, -3}, {-6, -3, 9}}};

@@ -1,4 +1,4 @@
-// Tests print parameters of pages, and changes of names, in sheet files.
+// Tests the print parameters of pages, and the renaming of sheets, in sheet files.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -174,7 +174,7 @@ TEST_F(SheetReservations, no_page_is_without_its_entry_whenever_its_printer_is_k
     constexpr int kStep_us = 100;
     for (int n = 0; n < kPrints; ++n)
         print_and_die(path_.parent_path(), n, (n + 1) * kStep_us);
-    // read_sheets would throw if two sheets had common cells.
+    // read_sheets would throw if two sheets shared cells.
     const auto sheets = fs::exists(path_) ? read_sheets(path_) : std::vector<SheetEntry>();
     for (int n = 0; n < kPrints; ++n) {
         const std::string name = "n" + std::to_string(n);

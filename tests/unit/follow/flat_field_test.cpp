@@ -21,8 +21,8 @@ Camera camera_with(std::vector<std::vector<double>> flat_field, int width_px, in
 }
 
 TEST(FlatField, IsInterpolatedBetweenItsValues) {
-    // The brightness decreases linearly to a half from the first to the last column, and to a half
-    // from the first to the last row.
+    // The brightness decreases linearly by half from the first to the last column, and by half from
+    // the first to the last row.
     const FlatFieldCorrection correction(camera_with({{1, 0.5}, {0.5, 0.25}}, 3, 3));
     // Levels of paper in this light, if the level is 200 in full light: 200 * (1 - u / 4) * (1 - v
     // / 4).

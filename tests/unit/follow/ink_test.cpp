@@ -51,7 +51,7 @@ double rms_mm(const InkPage& page, const std::vector<PenSample>& path) {
     return std::sqrt(squares / count);
 }
 
-/// Expects the strokes of the path. Each end of a stroke may be wrong by one frame.
+/// Expects the strokes of the path. Each end of a stroke may be off by one frame.
 void expect_strokes(const InkPage& page, const std::vector<PenSample>& path) {
     std::vector<std::pair<std::size_t, std::size_t>> truth;
     for (std::size_t i = 0; i < path.size(); ++i) {

@@ -90,7 +90,7 @@ TEST_F(PrintMapping, TheCovarianceContainsTheErrorOfTheMap) {
     EXPECT_GT(added, 0);
     EXPECT_LT(added, largest * largest);
     EXPECT_EQ(with.with.absolute_um(), without.with.absolute_um());
-    // The map is less exact at the edges of the page, where no test frame has its centre.
+    // The map is less accurate at the edges of the page, where no test frame has its centre.
     const double mean = std::pow(1000 * map_->pages[0].error_mm, 2);
     EXPECT_GT(mean, added);
     EXPECT_LT(mean, 16 * added);
@@ -123,7 +123,7 @@ TEST_F(PrintMapping, AnUpdateAddsViewsAndKeepsThePlace) {
         views_after += after.views[i];
     }
     EXPECT_GT(views_after, views_before * 5 / 4);
-    // The slow errors of the earlier map remain.
+    // The slowly varying errors of the earlier map remain.
     EXPECT_GE(updated.pages[0].error_mm, map_->pages[0].error_mm);
     const MapTest test = test_map(*print_, updated.map, 40);
     EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
@@ -142,9 +142,9 @@ TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
     EXPECT_LE(test.with.absolute_um(), 0.2);
 }
 
-/// The tracked attempt measures dots in windows at their nominal places, so it would pull the
-/// centres of dots with jitter towards these places. Fixes of a sequence must be as exact as those
-/// of single images.
+/// The tracked attempt measures dots in windows at their nominal positions, which would pull the
+/// centres of dots with jitter towards these positions. Fixes of a sequence must be as accurate as
+/// those of single images.
 TEST_F(PrintMapping, FollowsAsExactlyAsItLocates) {
     FollowerOptions options;
     options.sheets = {print_->entry()};
@@ -183,13 +183,13 @@ TEST_F(PrintMapping, RefusesSheetsWithoutThePageOfTheMap) {
 
 TEST_F(PrintMapping, ConvergesInFewIterations) {
     const MappedPrint large({.side_mm = 60});
-    // The first rounds would need hundreds of iterations without a preconditioner for deformations
-    // of the whole page.
+    // Without a preconditioner for deformations of the whole page, the first rounds would need
+    // hundreds of iterations.
     EXPECT_LT(map_of(large, 200).pages[0].iterations, 120);
 }
 
-/// The map of such a print reduces the residuals of a frame only slightly, but moves its fix by
-/// microns.
+/// The map of a print without jitter reduces the residuals of a frame only slightly, but moves its
+/// fix by micrometres.
 TEST(PrintMapOfAPrintWithoutJitter, IsUsed) {
     const MappedPrint print({.side_mm = kSide_mm, .jitter_mm = 0});
     const MapTest test = test_map(print, map_of(print, kFrames).map, 20);

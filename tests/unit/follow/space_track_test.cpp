@@ -155,7 +155,7 @@ TEST_P(SpaceTrackRates, SmoothsWithTrueCovariances) {
 INSTANTIATE_TEST_SUITE_P(FramesPerSecond, SpaceTrackRates, testing::Values(30, 60, 200));
 
 /// With accurate sightings at a low rate, the errors of predictions are mostly those of the motion
-/// model. The innovations then have equal signs for many frames.
+/// model. The innovations then keep the same sign for many frames.
 TEST(SpaceTrack, PredictsASmoothMotionWithTrueCovariances) {
     SpaceTracker tracker;
     Eye eye(0.05);
@@ -197,8 +197,8 @@ TEST(SpaceTrack, HasTheVelocityOfTheCamera) {
     EXPECT_FALSE(tracker.predict(2'000'000));
 }
 
-/// Returns the other pose that a view of a plane with weak perspective may have: its tilt has the
-/// opposite direction.
+/// Returns the second possible pose of a plane that is seen with weak perspective. It is tilted in
+/// the opposite direction.
 CameraInSpace mirrored(const CameraInSpace& camera) {
     const Quaterniond half(0, 0, 0, 1);
     const Quaterniond q = rotation_of(camera);
@@ -243,7 +243,7 @@ TEST(SpaceTrack, DoesNotStartWithAnAmbiguousPose) {
     sighting.second = SecondPose{mirrored(sighting.camera), -1};
     EXPECT_TRUE(tracker.update(sighting).is_lost);
     EXPECT_EQ(tracker.track().verdict, SpaceVerdict::rejected);
-    sighting.second->odds_log2 = -60;  // excluded
+    sighting.second->odds_log2 = -60;  // excludes the second pose
     sighting.time_us = 10'000;
     EXPECT_FALSE(tracker.update(sighting).is_lost);
 }
@@ -272,7 +272,7 @@ TEST(SpaceTrack, RejectsOutliersAndFollowsAJump) {
     EXPECT_NEAR(tracker.track().camera.x_mm, hand_at(2.02).x_mm + 500, 0.5);
 }
 
-/// The track of a camera over a page that is turned in the world agrees with `in_world`.
+/// The track of a camera over a page that is turned in the world must agree with `in_world`.
 TEST(SpaceTrack, IsInTheWorldOfTheSheet) {
     SheetEntry entry;
     entry.sheet = make_sheet({});
@@ -335,7 +335,7 @@ TEST(SpaceTrack, IsLostAfterAGap) {
     EXPECT_TRUE(tracker.update(200'001).is_lost);
     EXPECT_FALSE(tracker.predict(300'000));
     EXPECT_TRUE(tracker.update(eye.look_at(hand_at(1), 1)).is_new);
-    // Another plane, and a step back in time, start a new track.
+    // A change of the plane and a step back in time each start a new track.
     SpaceSighting other = eye.look_at(hand_at(1.01), 1.01);
     other.plane = 7;
     EXPECT_TRUE(tracker.update(other).is_new);

@@ -216,7 +216,7 @@ TEST(LocateFirst, ShowsItsDotsAndCellsWhenAsked) {
                 // Dots near the border are not tested, because the border cuts off blobs.
                 const bool is_inside = at.x > 6 && at.y > 6 && at.x < 181 && at.y < 113;
                 const double off_px = nearest_px(others, at);
-                // If a dot touches another dot, the two are one blob or none, so there may be no
+                // If a dot touches another dot, the two form one blob or none, so there may be no
                 // blob near its centre.
                 if (is_inside && off_px > 5) ++alone;
                 EXPECT_TRUE(!is_inside || off_px < 0.3 || off_px > 5) << off_px;

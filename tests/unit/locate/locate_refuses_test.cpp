@@ -1,4 +1,4 @@
-// Tests frames without a fix, and the reasons for their refusal.
+// Tests frames that must be refused, and the reasons for their refusal.
 #include <map>
 #include <memory>
 #include <set>
@@ -114,13 +114,13 @@ TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
         options.effort = effort;
         EXPECT_EQ(Locator(memory, options).locate(image.view()).status, Status::too_few_dots);
     }
-    // This attempt accepts any dark minimum as a dot, so it fails only at the grid.
+    // This attempt accepts any dark minimum as a dot, so it fails only in the search for the grid.
     options.effort = Effort::once;
     EXPECT_EQ(Locator(memory, options).locate(image.view()).status, Status::no_grid);
 }
 
 TEST(LocateRefuses, EveryStageCanRefuse) {
-    // Each of these combinations of options and frame makes another stage refuse the frame.
+    // Each of these combinations of options and frame makes a different stage refuse the frame.
     SmallMemory memory;
     Shot shot = shot_of({.preset = Preset::clean}, kSeed, 0);
     const GreyImage frame = render(shot);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 34;
 
-/// Returns frames of one size, some of which can be located.
+/// Returns frames of the same size. Only some of them can be located.
 std::vector<GreyImage> mixed_frames() {
     std::vector<GreyImage> frames;
     for (std::uint64_t i = 0; i < 8; ++i) {
@@ -145,7 +145,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
         errors_um.push_back(
             std::hypot(fix.x_grid() - x_grid(shot.pose), fix.y_grid() - y_grid(shot.pose)) *
             spacing_um);
-        // If the error were larger, the fix would be at a wrong place.
+        // If the error were larger, the fix would be at the wrong place.
         EXPECT_LT(errors_um.back(), 0.1 * spacing_um);
         EXPECT_EQ(fix.section, shot.page.pattern.section);
         EXPECT_LT(
@@ -265,7 +265,7 @@ TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
     for (int v = 0; v < 3 * frame.height_px; ++v)
         locator.push_row(frame.view().row(v % frame.height_px));
     expect_same(locator.finish(), fix);
-    // A change of options in the middle of a frame drops the frame.
+    // Changing the options in the middle of a frame discards the frame.
     ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
     locator.set_options({});
     EXPECT_EQ(locator.finish().status, Status::bad_argument);
@@ -315,7 +315,8 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
             const Fix fix = Locator(memory, options).locate(frame.view());
             ASSERT_EQ(fix.status, Status::ok);
-            // Place of the pixel according to the camera model, in spacings from the true pose.
+            // Pattern point of the pixel according to the camera model, in spacings from the true
+            // pose.
             const Vec2 pixel = Vec2{93.5, 59.5} + offset;
             const Vec2 from_pose = 1 / kDefaultSpacing_mm *
                                    Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
@@ -352,8 +353,8 @@ TEST(Locate, ALensIsUndone) {
     }
 }
 
-// The second attempt also measures dots that were not found as blobs, at the places given by the
-// code. These dots must count as seen, too.
+// The second attempt also measures dots that were not found as blobs, at the positions predicted by
+// the code. These dots must be counted as seen, too.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

@@ -145,8 +145,8 @@ TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
     EXPECT_EQ(series.located[3], 40);
 }
 
-// Only the order of magnitude of the motion is known. It can be computed exactly from the dots that
-// two frames share.
+// Only the order of magnitude of the motion is known. The exact motion can be computed from the
+// dots that two frames share.
 TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
     const Series series =
         run_series(locator_, {.width_px = 90, .height_px = 90}, 40, 0.8F, 0.3F, false);
@@ -171,8 +171,8 @@ TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     EXPECT_EQ(located, 0);
 }
 
-// Between the views of a series, there are frames without a pattern. Their motions must be added
-// up. Otherwise, these frames must have no effect.
+// Between the views of a series, there are frames without a pattern. Their motions must be
+// accumulated, but the frames must have no other effect.
 TEST_F(FramesReadTogether, FramesWithoutAPatternAreSkipped) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     int located = 0;

@@ -77,7 +77,7 @@ TEST(PartialViews, DotsAmongGraphicsAreLocatedAtOnce) {
     expect_located_at_once(shot_with_graphics);
 }
 
-/// The attempt of devices starts at the centroid of the dots, which noise on blank paper must not
+/// The device attempt starts at the centroid of the dots, which noise on blank paper must not
 /// shift.
 TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
     const auto memory = std::make_unique<LargeMemory>();

@@ -14,7 +14,7 @@ namespace dotpose::core_test::place_evidence_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 4711;
-constexpr int kHalf = 8;  ///< the blocks have the cells [-kHalf, kHalf) along each axis
+constexpr int kHalf = 8;  ///< the blocks contain the cells [-kHalf, kHalf) along each axis
 
 void set_bit(core::BitLines& lines, int line, int cell, int bit) {
     const auto i = static_cast<std::size_t>(line + core::BitBlock::kMiddle);

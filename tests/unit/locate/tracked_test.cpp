@@ -71,8 +71,8 @@ DeviceOptions options_for(const Shot& shot) {
     return options;
 }
 
-/// Returns wrong predictions: some are displaced by whole cells, rotated by quarter turns or in
-/// another section, and one is at a random place.
+/// Returns wrong predictions. Some are displaced by whole cells, rotated by quarter turns, or in
+/// another section. One is at a random place.
 std::vector<Prediction> wrong_predictions(const Shot& shot, Rng& rng) {
     const Prediction truth = true_prediction(shot);
     std::vector<Prediction> wrong;
@@ -259,7 +259,7 @@ Prediction garbled(Prediction p, Rng& rng) {
                              &p.displacement_q16,
                              &p.sigma_q16,
                              &p.sigma_theta_bam};
-    // Either one field is random, or about half of the fields.
+    // Either one field is random, or about half of the fields are.
     const std::uint32_t share = rng.below(2) == 0 ? 1 : 8;
     const std::size_t one = rng.below(static_cast<std::uint32_t>(numbers.size() + 4));
     const auto is_hit = [&](std::size_t i) { return i == one || rng.below(16) < share - 1; };

@@ -1,4 +1,4 @@
-// Tests a rolling shutter that sees a scene turn while it reads the rows. Tests single frames, and
+// Tests frames of a rolling shutter whose scene turns while the rows are read: single frames, and
 // drives with predictions from the last fix.
 #include <cmath>
 #include <numbers>

@@ -8,7 +8,7 @@
 
 namespace dotpose::print_test {
 
-/// A temporary directory that is empty at first. The destructor removes it.
+/// A temporary directory that is initially empty. The destructor removes it.
 class TemporaryDirectory {
   public:
     TemporaryDirectory();
@@ -35,7 +35,7 @@ struct Bitmap {
     int bits_per_pixel = 0;
     double x_dpi = 0;
     double y_dpi = 0;
-    std::vector<char> ink;  ///< row by row; 1 is black, 0 is white
+    std::vector<char> ink;  ///< row by row (1 is black, 0 is white)
 
     bool at(int u, int v) const {
         return ink.at(static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px) +

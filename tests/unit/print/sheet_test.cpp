@@ -193,7 +193,7 @@ TEST(validate_resolution, wants_a_displacement_of_a_printer_pixel) {
 
 TEST(validate_resolution, wants_white_between_dots) {
     SheetOptions options;
-    // At 600 dpi, the minimum distance of two dots is 8 px: the spacing of 12 px, minus two
+    // At 600 dpi, the minimum distance between two dots is 8 px: the spacing of 12 px, minus two
     // displacements of 2 px.
     options.pattern.dot_mm = 0.33;  // 8 px
     EXPECT_THAT([&] { validate_resolution(make_sheet(options), 600); },

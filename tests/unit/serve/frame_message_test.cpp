@@ -32,7 +32,7 @@ Read read(const std::string& message) {
     return {nlohmann::json::parse(message.substr(4, size)), read_image(path)};
 }
 
-/// A located frame, and functions of the true geometry of its camera.
+/// A located frame, and functions based on the true geometry of its camera.
 struct Located {
     explicit Located(double k = 0) {
         Setup setup;
@@ -51,8 +51,7 @@ struct Located {
         overlay = overlay_of(image.view(), locator.trace());
     }
 
-    /// Returns the point of the pattern at a point of the overlay, in spacings from the cell of the
-    /// pose.
+    /// Returns the pattern point at a point of the overlay, in spacings from the cell of the pose.
     Vec2 pattern_point(draw::Point point) const {
         const Vec2 offset_mm =
             Projection(shot.camera, shot.pose).offset_from_pixel({point.x - 0.5, point.y - 0.5});

@@ -1,4 +1,4 @@
-// Tests the image of one dot: place, area, spread and printing errors.
+// Tests the image of one dot: position, area, spread and printing errors.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace dotpose::simulate_test {
 namespace {
 
-// Returns a pose near the dot, at a place and angle that differ between trials.
+// Returns a pose near the dot, at a random position and angle.
 CameraPose pose_near_dot(Rng& rng) {
     CameraPose pose;
     pose.cell = kDotCell;
@@ -128,7 +128,7 @@ TEST(Dot, InkMassIsTheDotsAreaWhateverBlursIt) {
     }
 }
 
-// Many dots together remove the sum of the light that each removes alone. This is also true if
+// Together, dots remove the sum of the light that each dot removes alone. This is true even if
 // their blurred images overlap or are cut off by the frame, because light is additive.
 TEST(Dot, ManyTakeAwayTheSumOfEach) {
     Rng rng(6);
@@ -144,7 +144,7 @@ TEST(Dot, ManyTakeAwayTheSumOfEach) {
     std::vector<double> sum(paper.begin(), paper.end());
     simulate::Ink all;
     for (int i = 0; i < 40; ++i) {
-        // Columns are 3 px apart and rows are random, so that dots do not cover each other.
+        // Columns are 3 px apart and rows are random, so that dots do not overlap.
         const double u = 3 * (i % 23) - 2.5;
         const double v = i < 23 ? rng.uniform(-2, 20) : rng.uniform(23, 45);
         simulate::Ink one;

@@ -15,7 +15,7 @@ inline double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
-/// A page whose only dot is that of cell (1000, 2000).
+/// A page whose only dot is in cell (1000, 2000).
 inline constexpr Cell kDotCell{1000, 2000};
 inline Page one_dot_page() {
     Page page;

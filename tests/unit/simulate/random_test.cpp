@@ -46,7 +46,7 @@ TEST(Random, BelowTakesEachValueEquallyOften) {
 }
 
 // random.hpp defines a normal number as the number of ones among 128 bits, smoothed by a uniform
-// number. This test computes it in this way.
+// number. This test computes it from that definition.
 TEST(Random, NormalCountsOnes) {
     Rng rng(4);
     Rng same(4);

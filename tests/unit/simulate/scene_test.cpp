@@ -7,8 +7,8 @@
 namespace dotpose::simulate_test {
 namespace {
 
-// Returns a shot straight above the grid, without imperfections. Columns and rows of cells are
-// parallel to the columns and rows of the image.
+// Returns a shot taken from straight above the grid, without imperfections. Columns and rows of
+// cells are parallel to the columns and rows of the image.
 Shot straight_shot() {
     Setup setup;
     setup.preset = Preset::clean;

@@ -58,7 +58,8 @@ Pose error_of(const TrackedPose& found, const Pose& pose) {
             std::remainder(found.theta_rad() - pose[2], 2 * kPi)};
 }
 
-/// Solves m x = b by elimination with pivots, as an independent solution in double precision.
+/// Solves m x = b by Gaussian elimination with pivoting, as an independent solution in double
+/// precision.
 std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6> b) {
     std::array<std::array<double, 6>, 6> m{};
     for (std::size_t i = 0; i < 6; ++i) {
@@ -166,7 +167,7 @@ TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
 struct Errors {
     double raw_mm = 0;
     double filtered_mm = 0;
-    double normalised = 0;  ///< mean squared error divided by the variance
+    double normalised = 0;  ///< mean of the squared errors, each divided by its variance
 
     double gain() const { return filtered_mm / raw_mm; }
 };

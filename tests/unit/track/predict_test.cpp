@@ -66,7 +66,8 @@ Pose pose_of(const Prediction& prediction, double dx_px = 0, double dy_px = 0) {
             std::atan2(plane.du_q24.y, plane.du_q24.x)};
 }
 
-/// Returns the pose of a drive at 300 mm/s along a straight line at 30 degrees, turning at 3 rad/s.
+/// Returns the pose of a robot that drives at 300 mm/s along a straight line at 30 degrees while
+/// turning at 3 rad/s.
 Pose driving(std::int64_t time_us) {
     const double t = static_cast<double>(time_us) * 1e-6;
     const double driven = 300 / 0.508 * t;

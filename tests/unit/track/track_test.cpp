@@ -105,7 +105,7 @@ TEST(Tracker, IsLostAfterTheDebounce) {
     EXPECT_TRUE(tracker.track().is_lost);
     EXPECT_FALSE(tracker.has_prior());
     EXPECT_EQ(events_of(tracker.update(170'000, nullptr)), "");
-    // The robot is found again at a place that it could have reached in the meantime.
+    // The robot is found again at a position that it could have reached in the meantime.
     EXPECT_EQ(events_of(see(tracker, at(175'000, 40, 30))), "fix ");
 }
 
@@ -201,8 +201,8 @@ TEST(Tracker, RefusesOtherWeakSightings) {
         tracker.update(time_us - 1, nullptr);
         return see(tracker, sighting).verdict;
     };
-    // Three sightings must be refused: one outside the gate, one whose p_wrong is close to chance,
-    // and one of a lost robot.
+    // Three sightings must be refused: one outside the gate, one whose p_wrong is hardly better
+    // than chance, and one of a lost robot.
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 12, 0, 0.2), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 10, 0, 0.2), -9)), Verdict::too_weak);
     EXPECT_EQ(verdict(165'000, weak(at(165'000, 16.5, 0, 0.33), -12)), Verdict::too_weak);

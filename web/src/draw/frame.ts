@@ -16,26 +16,26 @@ export interface Layers {
 
 export type Pixel = readonly [number, number];
 
-/** The axes of the paper in a frame. */
+/** The axes of the paper, as they appear in a frame. */
 export interface Axes {
     /** The reference point of the pose. */
     at: Pixel;
-    /** Directions of the axes, of length 1. */
+    /** Unit vectors along the axes. */
     x: Pixel;
     y: Pixel;
 }
 
-/** Shapes over a frame, in px from the upper left corner of the frame. */
+/** Shapes drawn over a frame, in px from the upper left corner of the frame. */
 export interface FrameOverlay {
-    /** Centres of the detected dots: u and v alternately. */
+    /** Centres of the detected dots, as alternating u and v. */
     dots: ArrayLike<number>;
-    /** Lines of the grid: u and v of the points of each line alternately. */
+    /** Lines of the grid. Each line is a list of points, as alternating u and v. */
     grid: readonly ArrayLike<number>[];
     /** Spacing of the grid, or 0 if there is no grid. */
     spacing_px: number;
     /** Centres of the dots of the code in view, with their symbols. */
     symbols: readonly { at: Pixel; symbol: number }[];
-    /** Null without a pose. */
+    /** Null if there is no pose. */
     axes: Axes | null;
 }
 

@@ -7,17 +7,17 @@ import { arrow, surfaceOf, themed } from "./surface.js";
 export interface Paper {
     name: string;
     corners: readonly Point_mm[];
-    /** Layout of the dots, which are drawn if it is given. */
+    /** Layout of the dots. The dots are drawn only if it is given. */
     layout?: SheetLayout;
 }
 
 /** Contents of the map, in mm on a page, in the pattern or in the world. */
 export interface MapContent {
     papers: readonly Paper[];
-    /** Parts of the path. */
+    /** Uninterrupted strokes of the path. */
     strokes: readonly (readonly Point_mm[])[];
     now: Point_mm | null;
-    /** Direction of the x axis of the camera, from +x towards +y; null if it is not drawn. */
+    /** Direction of the x axis of the camera, from +x towards +y. Null if it is not drawn. */
     heading_rad: number | null;
     /** Corners of the camera's field of view. */
     view: readonly Point_mm[];

@@ -1,4 +1,4 @@
-// A canvas with coordinates in CSS pixels, at the resolution of the screen.
+// Provides canvases with coordinates in CSS pixels, at the resolution of the screen.
 
 /**
  * Colours for drawing over camera frames. They are distinguishable with all types of colour vision.
@@ -50,7 +50,10 @@ export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     return { context, width, height };
 }
 
-/** Colours of the style sheet by name, for the light and the dark scheme. Reading one takes as long as drawing a shape. */
+/**
+ * Cached colours of the style sheet by name, for the light and the dark scheme. Reading a colour from the style sheet
+ * takes as long as drawing a shape.
+ */
 const colours = [new Map<string, string>(), new Map<string, string>()] as const;
 let dark: MediaQueryList | undefined;
 

@@ -1,5 +1,5 @@
-// Symbols of the code in view. A block of symbols around the view is cached, so small motions of
-// the camera need no new symbols.
+// Finds the symbols of the code in view. A block of symbols around the view is cached, so small motions of the camera
+// require no new symbols.
 import { patternBits, patternFromImage, type Cell, type Code, type Fix } from "dotpose";
 import { kPositions } from "../page/sheet_frame.js";
 import type { CellsInView } from "./messages.js";

@@ -1,4 +1,4 @@
-// The camera's field of view on the paper.
+// Computes the camera's field of view on the paper.
 import { patternFromImage, type Fix } from "dotpose";
 import { pageFromPattern, type Point_mm } from "../page/sheet_frame.js";
 import type { SheetLayout } from "./messages.js";

@@ -3,7 +3,10 @@ import type { Cell, Code, Fix, LocatorOptions, Section } from "dotpose";
 
 /** Intrinsic parameters of a camera. */
 export interface PageCamera {
-    /** Size of the images; null if any size is possible. The optical axis is then through the image centre. */
+    /**
+     * Size of the images. Null if images of any size are accepted. The optical axis then passes through the image
+     * centre.
+     */
     size_px: readonly [number, number] | null;
     focal_px: readonly [number, number];
     axis_px: readonly [number, number];
@@ -14,7 +17,7 @@ export interface PageCamera {
 
 /** Options of the locator that the page sets. */
 export interface ReadOptions extends Pick<LocatorOptions, "code" | "sheets" | "only_sheets"> {
-    /** The camera whose pose in space is wanted. It is not used for images of another size. */
+    /** The camera for which the pose in space is computed. It is ignored for images of another size. */
     camera?: PageCamera | null;
 }
 

@@ -1,4 +1,4 @@
-// The overlay of a reading: its dots, grid, symbols and axes in the frame.
+// Computes the overlay of a reading: its dots, grid, symbols and axes in the frame.
 import { imageFromPattern } from "dotpose";
 import type { Axes, DrawnFrame, FrameOverlay, Pixel } from "../draw/frame.js";
 import { kSymbolStep } from "../draw/surface.js";
@@ -8,8 +8,8 @@ import type { CellsInView, Reading } from "./messages.js";
 const kDisplacement = 1 / 6;
 
 /**
- * Returns the point of the frame, in px from its upper left corner, at a pattern point in spacings.
- * In an image, (0, 0) is the centre of the first pixel.
+ * Returns the point of the frame, in px from its upper left corner, that shows the pattern point (x, y), in spacings.
+ * In image coordinates, (0, 0) is the centre of the first pixel.
  */
 function pixelOf({ fix }: Reading, x: number, y: number): Pixel {
     const { u_px, v_px } = imageFromPattern(fix, x * fix.spacing_mm, y * fix.spacing_mm);

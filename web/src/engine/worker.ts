@@ -13,7 +13,7 @@ const port = self as unknown as {
     onmessage: ((event: MessageEvent<Request>) => void) | null;
 };
 
-/** The locator of the newest reading. Its options are the key. */
+/** The locator of the newest reading, with its options as the key. */
 let current: { key: string; locator: Promise<Locator> } | undefined;
 let previous: Fix | null = null;
 
@@ -30,7 +30,7 @@ function locatorOptions({ camera, ...options }: ReadOptions, width: number, heig
     };
 }
 
-/** Returns a locator for an image. Creates another one if the options have changed. */
+/** Returns a locator for an image. Creates a new one if the options have changed. */
 function locatorFor({ width, height }: Image, options: ReadOptions): Promise<Locator> {
     const used = locatorOptions(options, width, height);
     const key = JSON.stringify(used);

@@ -1,4 +1,4 @@
-// The page of `dotpose fleet --web`: all robots of a broker, live.
+// The page of `dotpose fleet --web`, which shows all robots of a broker, live.
 import { Connection, type Request, type Value } from "../live/connection.js";
 import { announcer, element, show } from "../page/dom.js";
 import { HistoryPanel } from "./history.js";
@@ -14,7 +14,7 @@ const connection = new Connection((is_open) => {
     show({ "live-status": is_open ? "live" : "no connection to dotpose" });
     if (is_open) return;
     announce("No connection to dotpose");
-    // The numbers of robots begin again if the program is restarted.
+    // If the program is restarted, the robots are numbered anew.
     panel.choose(null);
 });
 const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_mm, path_mm }) => {
@@ -25,7 +25,7 @@ const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_
 const table = new RobotTable(connection, (id) => panel.choose(id, true));
 const fleet_map = new FleetMap(connection, (id) => panel.choose(id));
 const history = new HistoryPanel(connection, (tracks) => fleet_map.takeTracks(tracks));
-/** True if the page is to choose the device of `dotpose listen`, the only robot, when it appears. */
+/** True if the page must choose the device of `dotpose listen`, which is the only robot, as soon as it appears. */
 let awaits_device = false;
 const summary = new SummaryView(announce, (state) => {
     table.showOnly(state);

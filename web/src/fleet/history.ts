@@ -1,4 +1,4 @@
-// The stored history of the chosen robot: its track on the map, and its speed and states over time.
+// Shows the stored history of the chosen robot: its track on the map, and its speed and states over time.
 import { surfaceOf, themed } from "../draw/surface.js";
 import type { Connection, Request } from "../live/connection.js";
 import { element, show } from "../page/dom.js";
@@ -13,18 +13,19 @@ function timeText(time_us: number): string {
     return new Date(time_us / 1000).toLocaleString("en-GB");
 }
 
-/** Returns the number of a state in words, with its share of all states. */
+/** Returns the percentage of the states with this motion, as text. */
 function shareText(motion: string, count: number, states: number): string {
     return `${((100 * count) / states).toFixed(count === 0 || count === states ? 0 : 1)} % ${motion}`;
 }
 
-/** Returns the maximum time between consecutive states. A longer time counts as a pause. */
+/** Returns the maximum time between consecutive states. A longer gap is treated as a pause. */
 function maxGap_ms(span_ms: number): number {
     const kMaxGap_ms = 2000;
     return Math.max(kMaxGap_ms, 3 * span_ms);
 }
 
-/** Returns the tracks of the maps of a history. A track has a new stroke after a pause and where the robot was lost. */
+/** Returns a track for each map of a history. A new stroke of a track begins after a pause and after the robot was
+ * lost. */
 export function tracksOf({ maps, map_of, x_mm, y_mm, times_ms, span_ms }: StoredHistory): Track[] {
     const tracks = maps.map((map): Track => ({ map, strokes_mm: [] }));
     let before = -1;
@@ -49,7 +50,7 @@ export class HistoryPanel {
     readonly #to = element("fleet-stored-to", HTMLInputElement);
     readonly #canvas = element("fleet-stored-graph", HTMLCanvasElement);
     #robot = "";
-    /** Number of the newest request. Answers to earlier ones are not shown. */
+    /** Number of the newest request. Answers to earlier requests are not shown. */
     #ask = 0;
     #history: StoredHistory | null = null;
 
@@ -71,7 +72,7 @@ export class HistoryPanel {
         if (has_history) this.#connection.subscribe("history", (value) => this.#take(JSON.parse(value as string) as StoredHistory | null));
     }
 
-    /** Changes the robot. Its name is empty if none is chosen. */
+    /** Chooses a robot. `name` is empty if no robot is chosen. */
     choose(name: string): void {
         if (name === this.#robot) return;
         this.#robot = name;

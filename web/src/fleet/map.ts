@@ -1,4 +1,4 @@
-// The map: all robots of one map, live. The program sends only those that the canvas shows.
+// The live map of all robots on one map. The program sends only the robots that the canvas shows.
 import { drawPaper } from "../draw/map.js";
 import { surfaceOf, themed } from "../draw/surface.js";
 import type { Connection, Value } from "../live/connection.js";
@@ -12,7 +12,7 @@ import { boundsOf, touches, union, Viewport, type Bounds_mm } from "./viewport.j
 
 const kAskPeriod_ms = 150;
 const kRateSpan_ms = 2000;
-/** Time between two updates of the numbers. Each one makes the browser lay out a part of the page. */
+/** Time between two updates of the numbers. Each update makes the browser lay out part of the page. */
 const kCountPeriod_ms = 500;
 /** Minimum number of robots in view whose marks are copied as pixels. */
 const kMinCopied = 500;
@@ -31,7 +31,7 @@ export class FleetMap {
     #is_ground_old = true;
     #setup: Setup | null = null;
     #known: readonly KnownMap[] = [];
-    /** Name of the shown map; empty until a map is known. */
+    /** Name of the shown map. Empty until a map is known. */
     #map = "";
     /** True until the user moves the map. */
     #is_fitted = true;
@@ -50,7 +50,7 @@ export class FleetMap {
     /** `choose` is called with the number of the robot that the user clicks. */
     constructor(connection: Connection, choose: (id: number) => void) {
         this.#connection = connection;
-        // An opaque canvas is not blended with the page.
+        // An opaque canvas need not be blended with the page.
         this.#canvas.getContext("2d", { alpha: false });
         listen(this.#canvas, {
             begin: () => {},
@@ -90,7 +90,7 @@ export class FleetMap {
         this.#requestFrame();
     }
 
-    /** Shows the stored tracks of the chosen robot, the longest one completely. */
+    /** Shows the stored tracks of the chosen robot, and fits the view to the longest one. */
     takeTracks(tracks: readonly Track[]): void {
         this.#tracks = tracks;
         this.#is_ground_old = true;
@@ -157,7 +157,7 @@ export class FleetMap {
         return sheets.filter((sheet) => robots === null || touches(sheet, robots)).reduce<Bounds_mm | null>(union, robots);
     }
 
-    /** Returns true if there is content outside of the part that was fitted. */
+    /** Returns true if there is content outside the area to which the view was fitted. */
     #hasOutgrown(): boolean {
         const content = this.#content();
         if (content === null || this.#fitted === null) return content !== this.#fitted;
@@ -170,7 +170,7 @@ export class FleetMap {
         this.#is_fitted = true;
         this.#measure();
         if (content !== null) {
-            // The margin delays the next adaptation to robots that drive outwards.
+            // The margin delays the next change of the view when robots drive outwards.
             const margin = 0.03 * Math.max(content.x_max - content.x_min, content.y_max - content.y_min);
             this.#fitted = { x_min: content.x_min - margin, x_max: content.x_max + margin, y_min: content.y_min - margin, y_max: content.y_max + margin };
             this.#view.fit(this.#fitted);
@@ -226,7 +226,7 @@ export class FleetMap {
         });
     }
 
-    /** Returns the number of the robot at a point of the canvas, or null. */
+    /** Returns the number of the robot nearest to a point of the canvas, or null if no robot is near. */
     #nearest(x: number, y: number): number | null {
         const positions = this.#positions;
         let [nearest, distance] = [null as number | null, kNear_px];
@@ -246,7 +246,7 @@ export class FleetMap {
             if (this.#copies() !== copied) this.#is_ground_old = true;
             this.#requestFrame();
         }
-        // Waits until these positions are on the screen before the next ones are requested.
+        // Waits until these positions are on the screen before requesting the next ones.
         await new Promise(requestAnimationFrame);
     }
 
@@ -288,7 +288,8 @@ export class FleetMap {
         this.#is_ground_old = false;
     }
 
-    /** Returns true if marks are copied as pixels, which is faster than filling paths from `kMinCopied` robots on. */
+    /** Returns true if marks are copied as pixels. With at least `kMinCopied` robots, this is faster than filling
+     * paths. */
     #copies(): boolean {
         return (this.#positions?.count ?? 0) >= kMinCopied;
     }

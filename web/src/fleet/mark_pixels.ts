@@ -1,11 +1,11 @@
-// Draws thousands of robots by copying the pixels of their marks, which takes a tenth of the time of filling paths if there
-// is no graphics processor. Places are rounded to pixels.
+// Draws thousands of robots by copying the pixels of their marks, which takes a tenth of the time of filling paths if
+// there is no graphics processor. Positions are rounded to whole pixels.
 import { themed } from "../draw/surface.js";
 import { addMark, kDrawingOrder, kSquare, paintMarks, paintSquares, radiusFor } from "./marks.js";
 import { kConditions, type Positions } from "./messages.js";
 import type { Viewport } from "./viewport.js";
 
-/** Number of drawn headings. */
+/** Number of distinct headings of the marks. */
 const kHeadings = 64;
 const kFirstHeading = kConditions.length;
 const kSquareMark = kFirstHeading + kHeadings;
@@ -21,7 +21,7 @@ function blend(over: number, under: number): number {
     return 0xff000000 | red_blue | green;
 }
 
-/** Visible pixels of a mark, with their places relative to its centre. */
+/** Visible pixels of a mark, with their positions relative to its centre. */
 interface Mark {
     x: Int8Array;
     y: Int8Array;
@@ -44,12 +44,13 @@ export class MarkPixels {
     #ground = new Uint32Array(0);
     #image: ImageData | null = null;
     #pixels = new Uint32Array(0);
-    /** The marks of the conditions, of the headings, and the square of unknown robots. */
+    /** The marks of the conditions and of the headings, and the square for unknown robots. */
     #marks: Mark[] = [];
     /** Scale, radius and colour of the marks. */
     #look = "";
 
-    /** Sets what is below the robots. The canvas must be opaque. `scale` is the number of its pixels per unit of the viewport. */
+    /** Sets the background of the robots. The canvas must be opaque. `scale` is the number of canvas pixels per unit
+     * of the viewport. */
     setGround(context: CanvasRenderingContext2D, scale: number, count: number): void {
         const { width, height } = context.canvas;
         this.#ground = new Uint32Array(context.getImageData(0, 0, width, height).data.buffer);

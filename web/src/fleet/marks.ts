@@ -1,4 +1,4 @@
-// Draws robots on a map. Conditions differ in shape and colour.
+// Draws robots on a map. Each condition has its own shape and colour.
 import { themed } from "../draw/surface.js";
 import { kConditions, type Condition, type Positions, type Track, type Trails } from "./messages.js";
 import type { TrailEnds } from "./trail_ends.js";
@@ -17,7 +17,7 @@ export const kSymbols: Record<Condition, string> = { moving: "▲", still: "●"
 
 /** Conditions in the order of drawing: robots that need attention last, so that they are on top. */
 export const kDrawingOrder: readonly Condition[] = ["gone", "still", "moving", "lost", "silent"];
-/** Distance of the sides of a square around an unknown robot from its centre, in radii of the mark. */
+/** Half the side of the square around an unknown robot, in radii of the mark. */
 export const kSquare = 1.8;
 
 /** Returns the radius of a mark. It decreases with the number of robots in view. */
@@ -116,7 +116,7 @@ export function drawTrails(context: CanvasRenderingContext2D, { trails_mm }: Tra
     context.globalAlpha = 1;
 }
 
-/** Draws the way of each robot from the end of its trail to its newest position. */
+/** Draws the path of each robot from the end of its trail to its newest position. */
 export function drawTrailEnds(context: CanvasRenderingContext2D, { trails, ends_mm }: TrailEnds, view: Viewport): void {
     context.strokeStyle = themed("--accent");
     context.globalAlpha = 0.35;
@@ -145,7 +145,8 @@ export function drawPath(context: CanvasRenderingContext2D, path_mm: ArrayLike<n
     context.stroke();
 }
 
-/** Draws the stored track of the chosen robot, wider than the newest part of its path, which covers it. */
+/** Draws the stored track of the chosen robot. Its line is wider than that of the robot's recent path, which is
+ * drawn on top of it. */
 export function drawTrack(context: CanvasRenderingContext2D, { strokes_mm }: Track, view: Viewport): void {
     context.strokeStyle = themed("--warn");
     context.lineWidth = 5;

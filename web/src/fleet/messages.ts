@@ -7,11 +7,11 @@ export const kConditions = ["moving", "still", "lost", "silent", "gone"] as cons
 export type Condition = (typeof kConditions)[number];
 
 export interface Setup {
-    /** Name of the robot of `dotpose listen`; empty for a fleet. */
+    /** Name of the robot of `dotpose listen`. Empty for a fleet. */
     device: string;
     /** True if the page can read stored states. */
     has_history: boolean;
-    /** Name of the map of the sheet file; empty without a file. */
+    /** Name of the map of the sheet file. Empty without a file. */
     map: string;
     sheets: { name: string; corners_mm: Pair[] }[];
     silent_after_s: number;
@@ -22,7 +22,7 @@ export interface Alert {
     time_us: number;
     robot: string;
     state: Condition | "removed";
-    /** Condition before the change; empty for a new robot. */
+    /** Condition before the change. Empty for a new robot. */
     previous: string;
     reason: string;
     map?: string;
@@ -68,7 +68,7 @@ export interface Row {
     missed?: number;
     /** False if the robot is on a map or sheet that the sheet file does not contain. */
     is_known: boolean;
-    /** Newest known place. Missing if no place of the robot is known. */
+    /** Newest known map and sheet of the robot. Missing if none is known. */
     map?: string;
     sheet?: string;
     /** Missing while the robot is lost. */
@@ -91,20 +91,20 @@ export interface Robot extends Row {
     repeated: number;
     deviation_mm?: number;
     camera?: { rate_hz: number; frames: number; refused: Record<string, number> };
-    /** Pose of the camera in space. Missing while the robot is lost, and if its program does not find the pose. */
+    /** Pose of the camera in space. Missing while the robot is lost, or if its program does not compute this pose. */
     space?: { height_mm: number; tilt_deg: number };
-    /** x and y alternately. */
+    /** Alternating x and y. */
     path_mm: number[];
     /** Newest first. */
     events: Alert[];
 }
 
-/** Stored states of a robot, thinned to spans of time. The arrays have one element for each span. */
+/** Stored states of a robot, thinned to one value per span of time. The arrays have one element for each span. */
 export interface StoredHistory {
-    /** Number of the request that this answers. */
+    /** Number of the answered request. */
     ask: number;
     is_reading?: boolean;
-    /** Why there are no states. */
+    /** Reason why there are no states. */
     problem?: string;
     states: number;
     counts: Record<"moving" | "still" | "lost", number>;
@@ -114,20 +114,20 @@ export interface StoredHistory {
     max_speed_mm_s: number;
     is_cut: boolean;
     maps: string[];
-    /** From `first_us`. */
+    /** Time of each span, from `first_us`. */
     times_ms: number[];
-    /** First place in the span; null if the robot was lost. */
+    /** First position in the span. Null if the robot was lost. */
     x_mm: (number | null)[];
     y_mm: (number | null)[];
     /** Index in `maps`. */
     map_of: (number | null)[];
     /** Maximum speed in the span. */
     speeds_mm_s: number[];
-    /** 2 if the robot was lost in the span, otherwise 0 if it moved, 1 if it was still. */
+    /** 2 if the robot was lost in the span. Otherwise 0 if it moved, or 1 if it was still. */
     motions: number[];
 }
 
-/** A stored track on a map: strokes with x and y alternately. */
+/** A stored track on a map. Each stroke contains alternating x and y. */
 export interface Track {
     map: string;
     strokes_mm: number[][];
@@ -190,7 +190,7 @@ export class Positions {
         return (this.#bytes[16 * i + 15]! & kIsUnknown) !== 0;
     }
 
-    /** Returns the index of the robot with a number, or -1. */
+    /** Returns the index of the robot with this number, or -1 if there is none. */
     indexOf(id: number): number {
         for (let i = 0; i < this.count; ++i) if (this.id(i) === id) return i;
         return -1;
@@ -199,11 +199,12 @@ export class Positions {
 
 export interface Trails {
     map: string;
-    /** x and y alternately, by the number of the robot. */
+    /** Alternating x and y of each trail, by the number of the robot. */
     trails_mm: Map<number, Float64Array>;
 }
 
-/** Reads the size of the head, and the head as JSON. Returns the head and its end. */
+/** Parses the head of a message, which consists of a size and JSON. Returns the head, a view of the bytes, and the
+ * end of the head. */
 function headOf(bytes: Uint8Array<ArrayBuffer>): { head: Head; view: DataView; end: number } {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const end = 4 + view.getUint32(0, true);

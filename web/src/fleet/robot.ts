@@ -1,4 +1,4 @@
-// The chosen robot: its newest state, its path and its history, and the button that removes it.
+// Shows the chosen robot: its newest state, its path and its history, and the button that removes it.
 import type { Connection } from "../live/connection.js";
 import { element, make, show } from "../page/dom.js";
 import { length } from "../page/format.js";
@@ -33,7 +33,8 @@ export class RobotPanel {
     #listed = "";
     #reveals = false;
 
-    /** `changed` is called with each new state of the chosen robot; `find` when its place is to be shown. */
+    /** `changed` is called with each new state of the chosen robot. `find` is called when the map must show its
+     * position. */
     constructor(connection: Connection, changed: (robot: Robot | null) => void, find: (robot: Robot) => void) {
         this.#connection = connection;
         this.#changed = changed;

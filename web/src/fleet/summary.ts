@@ -1,4 +1,4 @@
-// Numbers of robots and messages, and the alerts of all robots.
+// Shows the numbers of robots and messages, and the alerts of all robots.
 import { element, make, show } from "../page/dom.js";
 import { kSymbols } from "./marks.js";
 import { kConditions, type Summary } from "./messages.js";

@@ -7,7 +7,7 @@ import { age, number, place, symbolOf } from "./texts.js";
 const kRows = 25;
 const kColumns = 9;
 
-/** A row of the table, whose cells are changed in place, so that they keep the focus. */
+/** A row of the table. Its cells are changed in place, so that they keep the focus. */
 class ShownRow {
     readonly row = make("tr");
     readonly #name = make("button", { type: "button", className: "link" });
@@ -69,7 +69,7 @@ export class RobotTable {
         return { filter, show: this.#show.value, order: this.#order.value, first: this.#first, rows: kRows };
     }
 
-    /** Shows the robots in a state, from the first one. */
+    /** Shows only the robots in a state, starting with the first one. */
     showOnly(show: string): void {
         this.#filter.value = "";
         this.#show.value = show;

@@ -1,14 +1,16 @@
-// The newest part of the trails: the positions of the robots since the trails arrived. Trails arrive once per second.
+// Keeps the newest part of the trails, which consists of the positions of the robots since the trails arrived. Trails
+// arrive once per second.
 import type { Positions, Trails } from "./messages.js";
 
-/** With more robots, only the newest position is kept: the ends are then too short on the screen to be seen as curves. */
+/** With more robots, only the newest position is kept. The ends are then too short on the screen to appear as
+ * curves. */
 const kMaxRobots = 500;
-/** Maximum number of positions of an end, for pages that get no trails for some time. */
+/** Maximum number of positions in an end. It limits the memory of pages that receive no trails for some time. */
 const kMaxPoints = 100;
 
 export class TrailEnds {
     #trails: Trails | null = null;
-    /** x and y alternately, from the end of the trail to the newest position, by the number of the robot. */
+    /** Alternating x and y from the end of the trail to the newest position, by the number of the robot. */
     readonly #ends_mm = new Map<number, number[]>();
 
     get trails(): Trails | null {
@@ -18,7 +20,7 @@ export class TrailEnds {
         return this.#ends_mm.values();
     }
 
-    /** Replaces the trails. The ends begin again at the new trails. */
+    /** Replaces the trails. The ends restart from the new trails. */
     takeTrails(trails: Trails | null): void {
         this.#trails = trails;
         this.#ends_mm.clear();

@@ -7,7 +7,7 @@ export interface Bounds_mm {
     y_max: number;
 }
 
-/** Returns the smallest bounds that contain both. */
+/** Returns the smallest bounds that contain both bounds. */
 export function union(a: Bounds_mm | null, b: Bounds_mm | null): Bounds_mm | null {
     if (a === null || b === null) return a ?? b;
     return {
@@ -76,7 +76,7 @@ export class Viewport {
     readonly x = (x_mm: number) => this.width / 2 + (x_mm - this.#x_mm) * this.#scale;
     readonly y = (y_mm: number) => this.height / 2 + (y_mm - this.#y_mm) * (this.y_up ? -1 : 1) * this.#scale;
 
-    /** Returns the shown part, with a margin for marks that are partly visible. */
+    /** Returns the bounds of the shown part of the map, with a margin for marks that are partly visible. */
     bounds(): Bounds_mm {
         const half_x = (this.width / 2 + kMargin_px) / this.#scale;
         const half_y = (this.height / 2 + kMargin_px) / this.#scale;

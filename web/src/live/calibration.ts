@@ -39,7 +39,7 @@ function setHidden(id: string, is_hidden: boolean): void {
 
 function showGauges(gauges: readonly Gauge[]): void {
     const box = element("calibration-gauges", HTMLElement);
-    // The elements are kept, because screen readers would read new ones again.
+    // The elements are reused, because screen readers would read new elements aloud again.
     if (box.childElementCount !== 3 * gauges.length) {
         box.replaceChildren(
             ...gauges.flatMap((_, i) => [
@@ -67,7 +67,7 @@ function showList(id: string, texts: readonly string[]): void {
     list.replaceChildren(...texts.map((text) => make("li", { textContent: text })));
 }
 
-/** Describes the sectors of a turn that were seen. */
+/** Describes how many sectors of a turn have been seen. */
 function turnsText(seen: readonly boolean[]): string {
     return `Turns: ${seen.filter(Boolean).length} of ${seen.length} directions seen`;
 }

@@ -1,12 +1,12 @@
-// Drawings of a calibration: missing parts of the image, directions, tilts, residuals, a turn.
+// Draws the state of a calibration: missing parts of the image, directions, tilts, residuals, and turns of a robot.
 import { arrow, surfaceOf, themed } from "../draw/surface.js";
 import type { LensCoverage, Residuals, Station } from "./calibration_state.js";
 
 const kMissing = "rgba(213, 60, 40, 0.34)";
-/** Value that reaches the rim of the drawing of the tilts: the change of the scale, or the tangent of the tilt of a pen. */
+/** Values at the rim of the drawing of the tilts: the change of the scale, and the tangent of the tilt of a pen. */
 export const kMaxTilt = 0.15;
 export const kMaxLean = Math.tan((45 * Math.PI) / 180);
-/** Minimum residual that an arrow of maximum length represents, so noise has short arrows. */
+/** Minimum residual that an arrow of maximum length represents. It keeps the arrows of mere noise short. */
 const kMinFullScale_px = 0.05;
 
 /** Marks the parts of the frame that have not shown dots. The frame must be on the canvas. */
@@ -20,8 +20,8 @@ export function drawMissing(canvas: HTMLCanvasElement, { columns, covered }: Len
 }
 
 /**
- * Draws the sectors of a full turn, filled if they were seen, and the direction of the newest frame. The first sector begins
- * at `begin` sectors.
+ * Draws the sectors of a full turn, filled if they have been seen, and the direction of the newest frame. The first
+ * sector begins at the angle of `begin` sectors.
  */
 export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], theta_rad: number | null, begin = 0): void {
     const { context, width, height } = surfaceOf(canvas);
@@ -45,7 +45,7 @@ export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], t
     arrow(context, [x, y], [x + 0.8 * radius * Math.cos(theta_rad), y + 0.8 * radius * Math.sin(theta_rad)], 9);
 }
 
-/** Draws the tilt of each frame as a point: straight down in the middle. */
+/** Draws the tilt of each frame as a point. A camera that looks straight down is in the middle. */
 export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, number][], max: number): void {
     const { context, width, height } = surfaceOf(canvas);
     const [x, y] = [width / 2, height / 2];
@@ -71,7 +71,7 @@ export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, nu
     }
 }
 
-/** Returns the largest mean residual of a part, at least `kMinFullScale_px`. */
+/** Returns the largest mean residual of any part of the image, but at least `kMinFullScale_px`. */
 export function fullScale_px(residuals: readonly number[]): number {
     let full_px = kMinFullScale_px;
     for (let i = 0; i + 1 < residuals.length; i += 2) full_px = Math.max(full_px, Math.hypot(residuals[i]!, residuals[i + 1]!));

@@ -12,13 +12,13 @@ export interface Gauge {
     is_reached: boolean;
 }
 
-/** Frames that were taken for the lens. */
+/** Frames that have been accepted for the calibration of the lens. */
 export interface LensCoverage {
     columns: number;
     /** A digit for each part of the image, row by row: 1 if the part has shown dots. */
     covered: string;
     directions: boolean[];
-    /** Direction of the newest frame; null if it was not located. */
+    /** Direction of the newest frame. Null if it was not located. */
     theta_rad: number | null;
     /** Change of the scale from the middle to a corner of each frame, along u and v. */
     tilts: [number, number][];
@@ -27,7 +27,7 @@ export interface LensCoverage {
     is_taken: boolean;
 }
 
-/** Mean residuals in px of the parts of the image: u and v alternately, row by row. */
+/** Mean residuals of the parts of the image, in px, as alternating u and v, row by row. */
 export interface Residuals {
     columns: number;
     rows: number;
@@ -35,21 +35,24 @@ export interface Residuals {
     after: number[];
 }
 
-/** Position of the camera relative to the centre of rotation, and the centre of this frame alone. */
+/**
+ * Position of the camera relative to the centre of rotation, and the offset of the centre that is computed from this
+ * frame alone.
+ */
 export type Station = [x_mm: number, y_mm: number, theta_rad: number, off_x_mm: number, off_y_mm: number];
 
 export interface Result {
-    /** Labels and texts of the report. */
+    /** Labels and texts of the rows of the report. */
     rows: [string, string][];
     is_good: boolean;
-    /** What more frames could improve. */
+    /** Improvements that more frames could bring. */
     improvements: string[];
     residuals: Residuals | null;
     stations_mm: Station[];
 }
 
 export interface CalibrationState {
-    /** Name of the camera file; null if the program may not calibrate. */
+    /** Name of the camera file. If the program may not calibrate, `CalibrationValue` contains null instead. */
     file: string;
     step: StepName;
     phase: Phase;
@@ -57,15 +60,15 @@ export interface CalibrationState {
     gauges: Gauge[];
     advice: string;
     lens: LensCoverage | null;
-    /** Directions of a turn, or of the tilts of a pen, that were seen. */
+    /** Whether each direction of a turn, or of the tilts of a pen, has been seen. */
     directions: boolean[];
-    /** Tilts of a pen as tangents, to the right and down on the sheet. */
+    /** Tilts of a pen. The components are tangents, to the right and down on the sheet. */
     leans: [number, number][];
-    /** What is missing in a step with a moving robot or pen. */
+    /** Requirements that are not met yet, in a step with a moving robot or pen. */
     needs: string[];
     problem: string;
     result: Result | null;
-    /** What the camera file contains, by step; empty if the value is missing. */
+    /** Values in the camera file, by step. Empty if a value is missing. */
     values: Record<StepName, string>;
 }
 

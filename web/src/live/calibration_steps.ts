@@ -1,4 +1,4 @@
-// The list of the steps of a calibration: what each step finds, what to do, and its value.
+// Shows the steps of a calibration: what each step finds, what to do, and its value.
 import { element, make } from "../page/dom.js";
 import type { CalibrationState, StepName } from "./calibration_state.js";
 
@@ -42,7 +42,7 @@ export const kSteps: readonly Step[] = [
     },
 ];
 
-/** Replaces the plain characters of texts for terminals. */
+/** Replaces the ASCII notation of terminal texts by typographic characters. */
 export function typeset(text: string): string {
     return text.replaceAll("+-", "±").replaceAll("^2", "²");
 }
@@ -69,7 +69,7 @@ export class StepList {
         }
     }
 
-    /** Without a state, the program may not calibrate. */
+    /** Shows a state. If it is null, the program may not calibrate. */
     show(state: CalibrationState | null): void {
         for (const [name, { value, button, item }] of this.#items) {
             const text = state?.values[name] ?? "";

@@ -1,5 +1,5 @@
-// The WebSocket to the program. Each topic delivers its newest value, and the next one only after
-// the previous one was shown, so a slow page or connection receives fewer values, not old ones.
+// The WebSocket to the program. Each topic delivers its newest value, and the next one only after the previous one has
+// been shown, so a slow page or connection receives fewer values rather than outdated ones.
 
 export type Value = string | Uint8Array<ArrayBuffer>;
 export type Show = (value: Value) => Promise<void> | void;
@@ -28,7 +28,7 @@ export class Connection {
         this.#changed = changed;
     }
 
-    /** Connects, and connects again whenever the connection breaks. */
+    /** Connects, and reconnects whenever the connection breaks. */
     open(): void {
         const scheme = location.protocol === "https:" ? "wss" : "ws";
         const socket = new WebSocket(`${scheme}://${location.host}/live`);

@@ -25,7 +25,7 @@ const recorder = new Recorder(connection);
 const picture = new Picture(connection);
 const sheets = new SheetsView(connection);
 let setup: Setup | null = null;
-/** Why a frame was refused, and what to change; empty if that is not known. */
+/** Reason why a frame was refused, and advice. Empty if the reason is not known. */
 let reason = "";
 
 function showSetup(value: Setup): void {
@@ -49,7 +49,7 @@ function takeState(state: State): void {
 }
 
 /**
- * Shows whether the newest frame was located. The program needs some time to find the reason of a refusal. Until the
+ * Shows whether the newest frame was located. The program needs some time to find the reason for a refusal. Until the
  * reason arrives, the name of the status is shown.
  */
 function showResult(status: string): void {

@@ -1,4 +1,4 @@
-// The path of the robot over its sheets.
+// Shows the path of the robot over its sheets.
 import { drawMap, type Paper } from "../draw/map.js";
 import { element, show } from "../page/dom.js";
 import type { Point_mm } from "../page/sheet_frame.js";
@@ -49,7 +49,10 @@ export class PathMap {
         this.redraw();
     }
 
-    /** In the world, returns the visited sheets. In the pattern, sheets are far apart, so only the current one. */
+    /**
+     * Returns the visited sheets if the plane is the world. In the pattern, sheets are far apart, so only the current
+     * sheet is returned.
+     */
     #papers(): Paper[] {
         const sheets = this.#setup?.sheets ?? [];
         const is_shown = (name: string) => (this.#setup?.plane === "world" ? this.#visited.has(name) : name === this.#sheet);

@@ -21,7 +21,7 @@ export function sourceText({ source }: Setup): string {
     return source === "-" ? "standard input" : source;
 }
 
-/** A line of `dotpose watch` (docs/schema/lines-1.json): the keys that the page shows. */
+/** The keys of a line of `dotpose watch` (docs/schema/lines-1.json) that the page shows. */
 export interface Line {
     frame: number;
     t_s: number;
@@ -56,7 +56,7 @@ export interface Line {
 
 export interface State {
     line: Line;
-    /** Frames per second in the last second. */
+    /** Frame rate over the last second. */
     rate_hz: number;
     frames: number;
     fixes: number;
@@ -73,13 +73,13 @@ export interface History {
 }
 
 export interface Path {
-    /** Parts of the path: x and y alternately. */
+    /** Strokes of the path, with alternating x and y. */
     strokes_mm: number[][];
     visited: string[];
 }
 
 export interface Advice {
-    /** Why the newest frame was refused, and what to change; empty if it was located. */
+    /** Reason why the newest frame was refused, and advice. Empty if the frame was located. */
     reason: string;
 }
 
@@ -101,7 +101,7 @@ export interface LiveFrame extends DrawnFrame {
     index: number;
 }
 
-/** Reads a frame message: the size of its head, the head as JSON, and a picture. */
+/** Parses a frame message, which consists of the size of its head, the head as JSON, and a picture. */
 export async function frameOf(bytes: Uint8Array<ArrayBuffer>): Promise<LiveFrame> {
     const kSizeBytes = 4;
     const end = kSizeBytes + new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);

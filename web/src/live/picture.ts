@@ -1,4 +1,4 @@
-// The camera's frame with its overlay, and the aids for focus and exposure.
+// Shows the camera's frame with its overlay, and the aids for focus and exposure.
 import { drawFrame } from "../draw/frame.js";
 import { measureQuality } from "../engine/quality.js";
 import type { ImageQuality } from "../engine/messages.js";
@@ -11,16 +11,16 @@ const kLarge = "frame";
 const kSmall = "small-frame";
 /** Longer side of small frames. */
 const kSmall_px = 480;
-/** Minimum rate of large frames. If they are slower, small frames are requested. */
+/** Minimum rate of large frames. If the rate is lower, small frames are requested. */
 const kMinRate_hz = 3;
 const kMeasured_ms = 4000;
 
-/** Measures the quality of a frame on its picture. */
+/** Measures the quality of a frame from its picture. */
 class Meter {
     readonly #canvas = new OffscreenCanvas(1, 1);
     /**
      * Maximum steepness of edges so far. The steepness of a frame is compared with it, to show how far the focus can be
-     * improved. The sharpness is not suitable for this, because it is large for the noise of a frame without dots.
+     * improved. The sharpness is not suitable for this, because noise gives a frame without dots a high sharpness.
      */
     #best = 0;
 
@@ -50,7 +50,7 @@ class Meter {
         });
     }
 
-    /** Forgets the best sharpness, for example after the lens was changed. */
+    /** Resets the maximum steepness, for example after the lens was changed. */
     restart(): void {
         this.#best = 0;
     }
@@ -67,7 +67,7 @@ export class Picture {
     #is_slow = false;
     readonly #drawMore: () => void;
 
-    /** `drawMore` is called after a frame was drawn, to draw over it. */
+    /** `drawMore` is called after a frame has been drawn, to draw on top of it. */
     constructor(connection: Connection, drawMore = () => {}) {
         this.#connection = connection;
         this.#drawMore = drawMore;
@@ -77,7 +77,7 @@ export class Picture {
         this.request();
     }
 
-    /** Requests frames in the size that the page shows; none while the page or the picture is hidden. */
+    /** Requests frames in the displayed size. Requests none while the page or the picture is hidden. */
     request(): void {
         const shown_px = this.#canvas.clientWidth * window.devicePixelRatio;
         const wanted = document.hidden || shown_px === 0 ? "" : this.#is_slow || shown_px <= kSmall_px ? kSmall : kLarge;
@@ -111,7 +111,8 @@ export class Picture {
         this.#times_ms.push(now_ms);
         while (now_ms - this.#times_ms[0]! > kMeasured_ms) this.#times_ms.shift();
         const passed_s = (now_ms - this.#times_ms[0]!) / 1000;
-        // The rate is not shown in the first second, because two frames that wait at the beginning arrive together.
+        // The rate is not shown in the first second, because two frames that are queued at the beginning arrive
+        // together.
         const rate_hz = passed_s > 1 ? (this.#times_ms.length - 1) / passed_s : 0;
         show({ "live-frame-rate": rate_hz > 0 ? `shown: ${rate_hz.toFixed(0)} frames/s` : "" });
         if (this.#topic !== kLarge || now_ms - this.#times_ms[0]! < kMeasured_ms / 2 || rate_hz >= kMinRate_hz) return;

@@ -1,4 +1,4 @@
-// The numbers of the newest frame.
+// Shows the numbers of the newest frame.
 import { element, show } from "../page/dom.js";
 import { grouped, length, oneIn } from "../page/format.js";
 import type { Line, Setup, State } from "./messages.js";
@@ -13,7 +13,7 @@ interface Place {
     angle_deg: number;
 }
 
-/** Returns the pose on the sheet or, in a world, the tracked pose; null if neither is known. */
+/** Returns the pose on the sheet or, in a world, the tracked pose. Returns null if neither is known. */
 export function placeOf(line: Line, setup: Setup | null): Place | null {
     if (setup?.plane !== "world" && typeof line.x_sheet_mm === "number") {
         return {

@@ -1,10 +1,10 @@
-// Refused frames by reason over time, as stacked bars with a legend and a summary in words.
+// Shows refused frames by reason over time, as stacked bars with a legend and a summary in words.
 import { surfaceOf, themed } from "../draw/surface.js";
 import { element, make, show } from "../page/dom.js";
 import type { History } from "./messages.js";
 
 const kShown_s = 120;
-/** Colours that are distinguishable with all types of colour vision, on light and on dark ground. */
+/** Colours that are distinguishable with all types of colour vision, on light and dark backgrounds. */
 const kInks = ["#d55e00", "#0072b2", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d46", "#7f7f7f"];
 const kOk = "ok";
 

@@ -124,7 +124,7 @@ export class SheetsView implements LiveView {
         show({ "sheets-title": `Sheets in the world: ${sheets.filter(({ world }) => world).length} of ${sheets.length} have a place` });
     }
 
-    /** Ctrl-Z and Ctrl-Y, except in a field, where they undo what was typed. */
+    /** Handles Ctrl-Z and Ctrl-Y, except in an input field, where they undo and redo typing. */
     #key(event: KeyboardEvent): void {
         const is_hidden = element("view-sheets", HTMLElement).hidden;
         if (is_hidden || event.target instanceof HTMLInputElement || !(event.ctrlKey || event.metaKey)) return;

@@ -28,7 +28,7 @@ export class SheetCommands {
         });
     }
 
-    /** Ends the wait for answers, which a new connection would not bring. */
+    /** Stops waiting for answers, because they would not arrive over a new connection. */
     disconnected(): void {
         for (const id of [...this.#waiting.keys()])
             this.#take({
@@ -49,7 +49,7 @@ export class SheetCommands {
 
 let hiding: ReturnType<typeof setTimeout> | undefined;
 
-/** Shows the result of a command. The reason of a refusal stays until the next result. */
+/** Shows the result of a command. The reason for a refusal stays until the next result. */
 export function showAnswer({ is_ok, message }: Pick<Answer, "is_ok" | "message">): void {
     const shown = element("sheets-message", HTMLElement);
     shown.hidden = message === "";

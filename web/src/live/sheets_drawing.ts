@@ -5,10 +5,10 @@ import { cornersOf, middleOf, type Placed, radians, worldOf } from "./sheets_geo
 import type { Sheet } from "./sheets_messages.js";
 
 export const kHandle_px = 9;
-/** Distance of the handle that turns a sheet from its upper edge. */
+/** Distance from the upper edge of a sheet to the handle that turns it. */
 export const kHandleReach_px = 26;
 
-/** Part of the world on the canvas: the world point in the middle, px per mm, and the size in px. */
+/** The part of the world that the canvas shows: the world point in the middle, px per mm, and the size in px. */
 export interface Frame {
     x_mm: number;
     y_mm: number;
@@ -41,7 +41,7 @@ export function worldAt({ x_mm, y_mm, scale, width, height }: Frame, u: number, 
     return { x_mm: x_mm + (u - width / 2) / scale, y_mm: y_mm - (v - height / 2) / scale };
 }
 
-/** Returns the place of the handle that turns a sheet. */
+/** Returns the position of the handle that turns a sheet. */
 export function handleOf(frame: Frame, { sheet, pose }: Placed): Pixel {
     const [u, v] = at(frame, worldOf(pose, sheet.width_mm / 2, 0));
     const yaw = radians(pose.yaw_deg);
@@ -55,7 +55,9 @@ function gridStep(scale: number): number {
     return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step * scale >= kMin_px)!;
 }
 
-/** Returns the multiples of a step in a range. Their number is bounded, also if the step is below the rounding error. */
+/**
+ * Returns the multiples of a step in a range. Their number is bounded, even if the step is below the rounding error.
+ */
 function multiples(from: number, to: number, step: number): number[] {
     const kMax = 200;
     const first = Math.ceil(from / step);
@@ -113,7 +115,7 @@ export function drawSheet(context: CanvasRenderingContext2D, frame: Frame, place
     context.strokeStyle = themed(is_selected ? "--accent" : "--soft");
     context.stroke();
     context.restore();
-    // Marks the upper left corner, because the file contains the place of this corner.
+    // Marks the upper left corner, because the file contains the position of this corner.
     context.fillStyle = themed(is_selected ? "--accent" : "--soft");
     dot(context, corners[0]!, is_selected ? 5 : 3.5);
     drawName(context, frame, placed, corners);

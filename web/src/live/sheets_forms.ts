@@ -1,4 +1,4 @@
-// The numbers of the selected sheet, and new sheets.
+// Forms for the numbers of the selected sheet, and for new sheets.
 import { element, make, show } from "../page/dom.js";
 import { showAnswer, type SheetCommands } from "./sheets_commands.js";
 import { wrapped_deg } from "./sheets_geometry.js";
@@ -30,7 +30,7 @@ class NumberField {
         return this.#input.value !== this.#shown;
     }
 
-    /** The number, with all its digits if it was not changed. */
+    /** The number in the field, or the saved number with all its digits if the user has not changed it. */
     get value(): number {
         return this.is_typed ? Number(this.#input.value) : this.#saved;
     }

@@ -1,5 +1,5 @@
-// Pages in the world: corners, and poses that are moved and turned. The world has y up, pages have y
-// down.
+// Geometry of pages in the world: their corners, and poses that are moved and turned. In the world, y points up. On
+// pages, y points down.
 import type { Point_mm } from "../page/sheet_frame.js";
 import type { Pose, Sheet } from "./sheets_messages.js";
 
@@ -13,13 +13,13 @@ export function wrapped_deg(deg: number): number {
     return turn > 180 ? turn - 360 : turn;
 }
 
-/** Returns the world point of a point on the page. */
+/** Converts a point on the page to a point of the world. */
 export function worldOf(pose: Pose, x_mm: number, y_mm: number): Point_mm {
     const [c, s] = [Math.cos(radians(pose.yaw_deg)), Math.sin(radians(pose.yaw_deg))];
     return { x_mm: pose.x_mm + c * x_mm + s * y_mm, y_mm: pose.y_mm + s * x_mm - c * y_mm };
 }
 
-/** Returns the point on the page of a world point. */
+/** Converts a point of the world to a point on the page. */
 export function pageOf(pose: Pose, point: Point_mm): Point_mm {
     const [c, s] = [Math.cos(radians(pose.yaw_deg)), Math.sin(radians(pose.yaw_deg))];
     const [x, y] = [point.x_mm - pose.x_mm, point.y_mm - pose.y_mm];
@@ -41,12 +41,12 @@ export function isOn(sheet: Sheet, pose: Pose, point: Point_mm): boolean {
 }
 
 function round(value: number, step: number): number {
-    // The division by the inverse gives the nearest double of a decimal step such as 0.1.
+    // For decimal steps such as 0.1, division by the inverse yields the nearest double.
     const inverse = Math.round(1 / step);
     return Math.round(value * inverse) / inverse;
 }
 
-/** Returns the pose with its position in steps of 0.1 mm and its angle in steps of 0.1 degrees. */
+/** Rounds the position of a pose to 0.1 mm, and its angle to 0.1 degrees. */
 export function rounded(pose: Pose): Pose {
     return { x_mm: round(pose.x_mm, 0.1), y_mm: round(pose.y_mm, 0.1), yaw_deg: round(wrapped_deg(pose.yaw_deg), 0.1) };
 }
@@ -81,15 +81,15 @@ export function boxOf(points: readonly Point_mm[]): Box {
     return box;
 }
 
-/** A sheet where the map draws it. */
+/** A sheet, and the pose at which the map draws it. */
 export interface Placed {
     sheet: Sheet;
     pose: Pose;
-    /** False if its place in the world is not known. It is then beside the other sheets. */
+    /** False if the pose of the sheet in the world is not known. The map then draws it below the other sheets. */
     is_known: boolean;
 }
 
-/** Returns all sheets with a pose. Sheets without a place are in rows below the others. */
+/** Returns all sheets with a pose. Sheets without a pose in the world are arranged in rows below the others. */
 export function layOut(sheets: readonly Sheet[]): Placed[] {
     const known: Placed[] = sheets.filter(({ world }) => world).map((sheet) => ({ sheet, pose: sheet.world!, is_known: true }));
     const unknown = sheets.filter(({ world }) => !world);

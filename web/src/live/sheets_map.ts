@@ -20,7 +20,7 @@ export interface MapEvents {
 interface Drag {
     kind: "pan" | "move" | "turn";
     from: Point_mm;
-    /** The sheet under the pointer, as it was before. */
+    /** The sheet under the pointer, as it was before the gesture. */
     on: Placed | undefined;
     has_moved: boolean;
 }
@@ -36,9 +36,9 @@ export class SheetsMap {
     #changed: { name: string; pose: Pose } | null = null;
     #drag: Drag | null = null;
     #key_timer: ReturnType<typeof setTimeout> | undefined;
-    /** Sheet that is being moved with the keyboard, as it was before. */
+    /** Sheet that is being moved with the keyboard, as it was before the first key press. */
     #key_sheet: Sheet | undefined;
-    /** Centre of the canvas in the world, and scale; null while all sheets are shown. */
+    /** Centre of the canvas in the world, and scale. Null while all sheets are shown. */
     #view: { x_mm: number; y_mm: number; scale: number } | null = null;
     #frame: Frame = { x_mm: 0, y_mm: 0, scale: 1, width: 1, height: 1 };
 
@@ -125,7 +125,7 @@ export class SheetsMap {
         const handle = selected && handleOf(this.#frame, selected);
         const is_on_handle = handle && this.#may_edit && Math.hypot(event.offsetX - handle[0], event.offsetY - handle[1]) < 2 * kHandle_px;
         const hit = is_on_handle ? selected : this.#hit(from);
-        // A finger that scrolls the page must not move a sheet, so it moves only the selected one.
+        // A finger that scrolls the page must not move a sheet, so touch moves only the selected sheet.
         const may_move = this.#may_edit && (event.pointerType === "mouse" || hit?.sheet.name === this.#selected);
         if (hit && hit.sheet.name !== this.#selected) this.#events.select(hit.sheet.name);
         const kind = is_on_handle ? "turn" : hit && may_move ? "move" : "pan";
@@ -144,7 +144,7 @@ export class SheetsMap {
         const drag = this.#drag;
         if (!drag) return;
         const [x_mm, y_mm] = [to.x_mm - drag.from.x_mm, to.y_mm - drag.from.y_mm];
-        // A press without a motion selects only.
+        // A press without a motion only selects.
         if (!drag.has_moved && Math.hypot(x_mm, y_mm) * this.#frame.scale < 4) return;
         drag.has_moved = true;
         if (drag.kind === "pan") {
@@ -245,7 +245,7 @@ export class SheetsMap {
         this.#zoom(Math.exp(-event.deltaY / 400), event.offsetX, event.offsetY);
     }
 
-    /** Zooms. The world point under (u, v) keeps its place. */
+    /** Zooms. The world point under (u, v) stays in place. */
     #zoom(factor: number, u: number, v: number): void {
         const [kMin, kMax] = [1e-4, 1e3];
         const { x_mm, y_mm } = worldAt(this.#frame, u, v);

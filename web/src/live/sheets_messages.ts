@@ -31,12 +31,12 @@ export interface Sheet {
 
 export interface SheetFile {
     may_edit: boolean;
-    /** Why the file cannot be read now; empty if it was read. */
+    /** Reason why the file cannot be read now. Empty if it was read. */
     problem: string;
-    /** Descriptions of the edits that can be undone and redone; empty if there are none. */
+    /** Descriptions of the edits that can be undone and redone. Empty if there are none. */
     undo: string;
     redo: string;
-    /** Number of further sheets, which the message does not contain. */
+    /** Number of sheets that the message omits. */
     not_shown: number;
     sheets: Sheet[];
 }

@@ -1,11 +1,14 @@
-// The pose of the camera in space, from the keys of `--pose space`.
+// Shows the pose of the camera in space, from the keys of `--pose space`.
 import { fromWorld, type Quaternion, type SpacePose } from "../page/lean.js";
 import { SpacePanel, type ShownPose } from "../page/space_panel.js";
 import type { Line } from "./messages.js";
 
 const kDegrees = 180 / Math.PI;
 
-/** Returns a pose of a line, whose covariance has degrees; null if the line does not contain the pose. */
+/**
+ * Returns a pose of a line, with its covariance converted from degrees to radians. Returns null if the line does not
+ * contain the pose.
+ */
 function poseOf(z_mm?: number | null, quaternion?: Quaternion | null, covariance?: number[] | null): SpacePose | null {
     if (typeof z_mm !== "number" || !quaternion || !covariance) return null;
     const inRad = covariance.map((value, i) => value / ((i % 6 < 3 ? 1 : kDegrees) * (i < 18 ? 1 : kDegrees)));

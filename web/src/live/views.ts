@@ -1,4 +1,4 @@
-// The views of the page. The address after '#' selects one.
+// Switches between the views of the page. The address after '#' selects a view.
 import { element } from "../page/dom.js";
 
 export interface LiveView {
@@ -11,7 +11,7 @@ export class Views {
     readonly #views: Record<string, LiveView>;
     #current: string;
 
-    /** The first view is the one that the page shows at first. Each view has an element `view-NAME`. */
+    /** The page initially shows the first view. Each view has an element `view-NAME`. */
     constructor(views: Record<string, LiveView>) {
         this.#views = views;
         this.#current = Object.keys(views)[0]!;

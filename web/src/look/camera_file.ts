@@ -22,7 +22,7 @@ function numbers(values: Values, key: string, count: number): number[] {
     return parts;
 }
 
-/** Returns focal lengths and optical axis. */
+/** Returns the focal lengths and the optical axis. */
 function pinholeOf(values: Values, centre_px: [number, number]): Pick<PageCamera, "focal_px" | "axis_px"> {
     if (values.has("pinhole_px")) {
         const [fu, fv, u, v] = numbers(values, "pinhole_px", 4) as [number, number, number, number];
@@ -50,7 +50,7 @@ export function cameraOfFile(text: string): PageCamera {
     return camera;
 }
 
-/** Throws an Error for values that no camera has, with the limits of the command-line tool. */
+/** Throws an Error for values that no camera has. The limits are those of the command-line tool. */
 function requireReal({ size_px, focal_px, axis_px, lens_k_per_px2, centre_px }: PageCamera & { size_px: [number, number] }): void {
     const kMaxFocal_px = 1e6;
     const kMaxCentre_px = 1000;

@@ -1,6 +1,6 @@
-// The log of readings, with a subset of the CSV columns of `dotpose watch --log` (docs/output.md).
-// `dotpose replay` can read the log. The page has no tracker, so the track is the fix, and the
-// velocity is computed from the difference to the previous fix.
+// The log of readings, with a subset of the CSV columns of `dotpose watch --log` (docs/output.md). `dotpose replay` can
+// read the log. The page has no tracker, so the track is the fix, and the velocity is computed from the difference from
+// the previous fix.
 import type { Reading } from "../engine/messages.js";
 import { pageFromPattern } from "../page/sheet_frame.js";
 import type { KnownSheet } from "../print/known_sheets.js";
@@ -16,7 +16,7 @@ interface Frame {
     before: Reading | undefined;
 }
 
-/** Returns a text as a field of a CSV file. */
+/** Replaces commas, quotation marks and white space, to make a text a valid field of a CSV file. */
 const withoutCommas = (text: string) => text.replaceAll(/[,"\s]+/g, (match) => (match.includes(",") ? "; " : " "));
 
 type Column = readonly [name: string, value: (frame: Frame) => string | number, always?: true];

@@ -33,7 +33,7 @@ export class LookView implements View {
     #camera: CameraFrames | undefined;
     #is_opening = false;
     #is_frozen = false;
-    /** True if the newest reading is of a picture that was opened. */
+    /** True if the newest reading is that of an opened picture. */
     #is_still = false;
     #last: Reading | undefined;
     #path: Point_mm[] = [];

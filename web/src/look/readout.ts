@@ -1,4 +1,4 @@
-// The numbers beside the camera frame.
+// Shows the numbers beside the camera frame.
 import type { Reading } from "../engine/messages.js";
 import { element, show } from "../page/dom.js";
 import { degrees, grouped, kPriorNames, length, milliseconds, oneIn } from "../page/format.js";

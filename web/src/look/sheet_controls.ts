@@ -25,7 +25,7 @@ export class SheetControls {
         });
     }
 
-    /** Reads the list of known sheets, which other views change. */
+    /** Reloads the list of known sheets, which other views can change. */
     refresh(): void {
         this.#sheets = knownSheets();
         const count = this.#sheets.length;
@@ -41,7 +41,7 @@ export class SheetControls {
     contextOf(sheet: KnownSheet | null): SheetContext {
         return { is_on_unknown: this.#sheets.length > 0 && sheet === null, only_sheets: this.#only.checked };
     }
-    /** Returns the known sheet on which a fix is, or null. */
+    /** Returns the known sheet that contains a fix, or null if there is none. */
     under(fix: Fix): KnownSheet | null {
         return sheetUnder(fix, this.#sheets);
     }

@@ -17,7 +17,7 @@ export class SpaceControls {
     readonly #focal = element("look-focal", HTMLInputElement);
     readonly #panel = new SpacePanel("look");
     #camera: PageCamera | null = null;
-    /** Name of the camera file; empty if only the focal length was entered. */
+    /** Name of the camera file. Empty if only the focal length was entered. */
     #file = "";
 
     /**
@@ -35,7 +35,7 @@ export class SpaceControls {
         });
     }
 
-    /** The camera; null if no pose in space is wanted. */
+    /** The camera, or null if no pose in space is wanted. */
     get camera(): PageCamera | null {
         return this.#camera;
     }
@@ -51,7 +51,7 @@ export class SpaceControls {
         this.#panel.show({ pose, source: space?.is_ambiguous ? "another tilt is possible" : "", is_in_world: false });
     }
 
-    /** Returns the reason why a frame has no pose in space, or null if the camera can have taken the frame. */
+    /** Returns the reason why a frame has no pose in space, or null if the camera could have taken the frame. */
     complaintOf({ width_px, height_px }: Reading): string | null {
         if (this.#camera === null || fitsCamera(this.#camera, width_px, height_px)) return null;
         const file = this.#camera.size_px!.join(" x ");

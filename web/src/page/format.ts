@@ -6,8 +6,8 @@ export function mm(value: number, digits = 3): string {
 }
 
 /**
- * Formats millimetres with thin spaces between groups of three digits. Positions in the pattern
- * have up to nine digits.
+ * Formats millimetres with thin spaces between groups of three digits. Positions in the pattern have up to nine digits
+ * before the decimal point.
  */
 export function grouped(value_mm: number): string {
     return value_mm.toLocaleString("en", { minimumFractionDigits: 3, maximumFractionDigits: 3 }).replaceAll(",", "\u202f");
@@ -32,7 +32,9 @@ export function oneIn(probability: number): string {
     return `1 in ${10 ** (power % 3)} ${names[Math.floor(power / 3)]}`.trim();
 }
 
-/** Names the places that counted as possible for the probability of a wrong position. */
+/**
+ * Names of the priors: the places that were considered possible when the probability of a wrong position was computed.
+ */
 export const kPriorNames: Record<Prior, string> = {
     plane: "all of the code",
     sheets: "known sheets",

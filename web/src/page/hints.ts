@@ -5,7 +5,7 @@ import type { ImageQuality, Reading } from "../engine/messages.js";
 export interface SheetContext {
     /** True if sheets are known, and the fix is on none of them. */
     is_on_unknown: boolean;
-    /** True if only the known sheets are possible. */
+    /** True if only positions on known sheets are considered possible. */
     only_sheets: boolean;
 }
 

@@ -1,4 +1,4 @@
-// Angles of a camera over the paper, with their standard deviations.
+// Computes the angles of a camera over the paper, with their standard deviations.
 
 export type Quaternion = readonly [x: number, y: number, z: number, w: number];
 
@@ -27,7 +27,7 @@ export interface Lean {
     turn: Angle;
 }
 
-/** Rows of the rotation matrix of a quaternion. */
+/** Returns the rows of the rotation matrix of a quaternion. */
 function matrixOf([x, y, z, w]: Quaternion): [number, number, number][] {
     return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
@@ -72,12 +72,12 @@ export function leanOf({ quaternion_xyzw, covariance }: SpacePose): Lean {
 }
 
 /**
- * Returns the pose in a sheet frame that has the x axis of the world. The pose in the world has y up, z OUT of the paper,
- * metres, and the covariance of a rotation vector in the WORLD.
+ * Returns the pose in a sheet frame that has the x axis of the world. In the world, y points up, z points OUT of the
+ * paper, lengths are in metres, and the covariance is that of a rotation vector in the WORLD.
  */
 export function fromWorld(z_m: number, quaternion_xyzw: Quaternion, covariance: ArrayLike<number>): SpacePose {
     const [x, y, z, w] = quaternion_xyzw;
-    // A half turn about x, which also turns the rotation vector: y and z change their signs.
+    // A half turn about x, which also turns the rotation vector: its y and z change sign.
     const flipped: Quaternion = [w, -z, y, -x];
     const rows = matrixOf(quaternion_xyzw);
     const inCamera = new Float64Array(36);

@@ -1,5 +1,4 @@
-// Conversions between points of a page, in mm from its upper left corner, and points of its
-// pattern.
+// Converts between points of a page, in mm from its upper left corner, and points of its pattern.
 import type { SheetLayout } from "../engine/messages.js";
 
 /** Number of columns and of rows of each section of the code. */

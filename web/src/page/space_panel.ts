@@ -7,11 +7,14 @@ import { leanOf, type Angle, type SpacePose } from "./lean.js";
 const kPaper = { x: 50, y: 88 };
 const kAbove = { x: 150, y: 50 };
 const kRadius = 40;
-/** An angle whose standard deviation is larger is not shown: the azimuth of a camera without a tilt is undefined. */
+/**
+ * An angle with a larger standard deviation is not shown. For example, the azimuth of a camera without a tilt is
+ * undefined.
+ */
 const kMaxSigma_deg = 45;
 const kNothing = "–";
 
-/** The panel, with ids that begin with a prefix. */
+/** The panel. Its ids begin with a prefix. */
 const drawing = (id: string) => `
     <figcaption><span id="${id}-space-name">The camera over the sheet</span> <span class="quiet" id="${id}-space-source"></span></figcaption>
     <svg viewBox="0 0 200 104" role="img" aria-label="The camera from the side, and from above with the axes of the sheet">
@@ -46,16 +49,16 @@ const drawing = (id: string) => `
 
 /** A pose to show. */
 export interface ShownPose {
-    /** The pose; null if it is not known. */
+    /** The pose, or null if it is not known. */
     pose: SpacePose | null;
-    /** Origin of the pose, for example "tracked". */
+    /** Source of the pose, for example "tracked". */
     source: string;
     /** True if the pose is in the world, whose y axis points up. Angles are then counterclockwise. */
     is_in_world: boolean;
 }
 
 const kNames = ["height", "tilt", "azimuth", "turn"];
-/** A value and its standard deviation, as texts. */
+/** A value and its standard deviation, as text. */
 type Texts = [value: string, sigma: string];
 
 function textsOf({ deg, sigma_deg }: Angle, sign = 1): Texts {

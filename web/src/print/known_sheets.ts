@@ -1,5 +1,5 @@
-// Known sheets: those that were printed from this page, and those of the sheet files that were opened.
-// They are stored in the browser.
+// Known sheets: sheets that were printed from this page, and sheets of the sheet files that were opened. They are
+// stored in the browser.
 import { kCodes, type Fix, type KnownRegion } from "dotpose";
 import type { SheetLayout } from "../engine/messages.js";
 import { isOnSheet, kPositions } from "../page/sheet_frame.js";
@@ -10,10 +10,10 @@ export interface KnownSheet {
 }
 
 const kKey = "dotpose-sheets";
-/** The list, if the browser does not allow storage. */
+/** The list of sheets if the browser does not allow storage, or else null. */
 let unstored: KnownSheet[] | null = null;
 
-/** Returns true for a whole number from `min` to `max`. */
+/** Returns true for an integer from `min` to `max`. */
 function isWhole(value: unknown, min: number, max: number): boolean {
     return Number.isInteger(value) && (value as number) >= min && (value as number) <= max;
 }
@@ -58,8 +58,8 @@ export function remember(sheet: KnownSheet): void {
 }
 
 /**
- * Stores the sheets of a file. They replace sheets with the same part of the code. Other sheets
- * with the same name remain, so the sheet of the file gets a name with a number.
+ * Stores the sheets of a file. They replace known sheets with the same part of the code. If another known sheet has the
+ * same name, a number is appended to the name of the sheet from the file.
  */
 export function rememberAll(sheets: readonly KnownSheet[]): void {
     const partOf = ({ layout }: KnownSheet) => JSON.stringify(regionOf(layout));
@@ -90,7 +90,7 @@ export function regionOf({ code, section, origin, columns, rows }: SheetLayout):
     return { code, section, first: origin, columns, rows };
 }
 
-/** Returns the sheet on which a fix is, or null if it is on none of them. */
+/** Returns the sheet that contains a fix, or null if there is none. */
 export function sheetUnder(fix: Fix, sheets: readonly KnownSheet[]): KnownSheet | null {
     if (!fix.ok) return null;
     return sheets.find(({ layout }) => isOnSheet(layout, fix)) ?? null;

@@ -1,4 +1,4 @@
-// Lengths and strings as PDF operands.
+// Converts lengths and strings to PDF operands.
 
 export const kPointsPerMm = 72 / 25.4;
 

@@ -9,7 +9,7 @@ const kMinCells = 8;
 
 type Entry = Record<string, unknown>;
 
-/** The members of one sheet of the file. `path` is its place in the file, for messages. */
+/** The members of one sheet of the file. `path` locates the sheet in the file, for messages. */
 class Members {
     constructor(
         private readonly entry: Entry,
@@ -65,8 +65,8 @@ function sheetOf(entry: unknown, i: number): KnownSheet {
 }
 
 /**
- * Returns the sheets of a sheet file. Throws an Error with the key if the file is not valid. The
- * pages' print scales and places in the world are not read.
+ * Returns the sheets of a sheet file. Throws an Error that names the key if the file is not valid. The print scales of
+ * the pages and their poses in the world are not read.
  */
 export function sheetsOfFile(text: string): KnownSheet[] {
     let document: unknown;

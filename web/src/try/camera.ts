@@ -8,7 +8,7 @@ export interface Slider {
     min: number;
     max: number;
     step: number;
-    /** Returns the text of a value. An image pixel is `px` pixels of the scale of the slider. */
+    /** Returns the text of a value. An image pixel corresponds to `px` pixels on the scale of the slider. */
     shown(value: number, px: number): string;
 }
 
@@ -37,8 +37,8 @@ export interface ImageSize {
     width_px: number;
     height_px: number;
     /**
-     * Width of the field of view, in pixels of the scale of the sliders. Images with more pixels
-     * show the same field in more detail.
+     * Width of the field of view, in pixels on the scale of the sliders. Images with more pixels show the same field in
+     * more detail.
      */
     field_px: number;
 }
@@ -53,7 +53,7 @@ export class SimulatedCamera {
     };
     #seed = 1;
 
-    /** Size of an image pixel, in pixels of the scale of the sliders. */
+    /** Size of an image pixel, in pixels on the scale of the sliders. */
     get px(): number {
         return this.size.field_px / this.size.width_px;
     }
@@ -100,8 +100,8 @@ export class SimulatedCamera {
             ...{ x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad },
             tilt_x_rad: (tilt_deg * Math.PI) / 180,
             tilt_y_rad: 0,
-            // The lens is the same for all images of a field, so the blur in px is proportional to
-            // the number of pixels.
+            // All image sizes with the same field of view use the same lens, so the blur in px is proportional to the
+            // number of pixels.
             blur_px: blur_px / this.px,
             ...{ noise, paper_level, vignetting },
             seed: ++this.#seed,

@@ -14,8 +14,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 31;
 constexpr std::uint32_t kL = code_test::kL;
 
-/// Converts a position that may be past the end of an axis to the equal place at the beginning of
-/// the code.
+/// Converts a position that may be past the end of an axis to the equivalent place at the beginning
+/// of the code.
 Place wrapped(CodeVariant code, std::uint64_t x, std::uint64_t y, Section section) {
     int u = section.u;
     int v = section.v;

@@ -39,8 +39,8 @@ struct Sampled {
         sample_cells(image.view(), paper, FixedLens{}, plane, owned.grid);
     }
     const Grid& grid() const { return owned.grid; }
-    /// Calls use(cell, px, bits, symbol) for each cell, with its place in the image, its bits in an
-    /// upright grid, and its symbol in the code.
+    /// Calls use(cell, px, bits, symbol) for each cell, with its position in the image, its bits in
+    /// an upright grid, and its symbol in the code.
     template <typename Use>
     void visit(Use use) const {
         for (int j = grid().j0; j < grid().j0 + grid().rows; ++j) {
@@ -75,7 +75,7 @@ TEST(SampleCells, ReadsTheBitsOfACleanFrame) {
         sampled.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
             SCOPED_TRACE(testing::Message()
                          << "view " << i << " at " << at.x << ", " << at.y << ", seed " << kSeed);
-            // Bits are unknown where all four possible places of the dot are outside the image.
+            // Bits are unknown where all four possible positions of the dot are outside the image.
             const double outside = view.spacing_px / 6 + 1;
             if (at.x < -outside || at.y < -outside || at.x > view.image_px.x - 1 + outside ||
                 at.y > view.image_px.y - 1 + outside) {

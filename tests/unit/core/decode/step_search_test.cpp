@@ -1,5 +1,5 @@
-// Tests the search that uses the steps between all neighbouring lines. It is necessary if no run of
-// lines determines the position.
+// Tests the search that uses the steps between all neighbouring lines. This search is necessary if
+// no run of lines determines the position.
 #include "core/decode/step_search.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Appends lines with `bits` bits each, of which the fraction `wrong` is wrong. Lines for which
+/// Appends lines of `bits` bits each. The fraction `wrong` of the bits is wrong. Lines for which
 /// `is_hidden` is true have no bits.
 template <typename IsHidden>
 void read_lines(RatiosCase& c, int bits, double wrong, Rng& rng, IsHidden is_hidden) {

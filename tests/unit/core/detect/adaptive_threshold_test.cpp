@@ -12,7 +12,7 @@ namespace {
 using namespace core;
 
 /// Returns an image of uniform paper with dark squares of 2 x 2 px every 8 px. Only some rows of a
-/// tile are measured, and each square covers such a row.
+/// tile are measured, and each square covers one of them.
 GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     GreyImage image = blank(width_px, height_px, paper);
     for (int v = 2; v + 2 <= height_px; v += 8) {
@@ -151,9 +151,9 @@ TEST(AdaptiveThreshold, ADefectPixelIsHalfAsDarkAsInk) {
                         dark_tiles += levels_of_tile(w.threshold, t).low > 0;
                 });
                 const bool is_pair = width == 2 && u % 2 == 0;
-                // The tile that contains the mark and its eight neighbours count as dark. If the
-                // mark is on the border of two tiles, these two tiles and their ten neighbours
-                // count as dark.
+                // The tile that contains the mark and its eight neighbours are treated as dark. If
+                // the mark is on the border between two tiles, both tiles and their ten neighbours
+                // are treated as dark.
                 const bool is_split = width == 2 && u == 31;
                 EXPECT_EQ(dark_tiles, min_contrast == 100 && !is_pair ? 0
                                       : is_split                      ? 12

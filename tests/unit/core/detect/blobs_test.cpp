@@ -1,4 +1,4 @@
-// Tests blobs and their centroids on images drawn by hand.
+// Tests blobs and their centroids on drawn images.
 #include "core/detect/blobs.hpp"
 
 #include <string>
@@ -76,7 +76,7 @@ TEST(Blobs, DotsThatTouchAreOneAndDotsThatDoNotAreTwo) {
     }
 }
 
-/// Expects that the picture gives one blob, with the area and the centroid of all its ink.
+/// Expects that the picture yields one blob, with the area and the centroid of all its ink.
 void expect_one(std::initializer_list<std::string_view> picture) {
     Vec2 sum;
     int area = 0;
@@ -91,8 +91,7 @@ void expect_one(std::initializer_list<std::string_view> picture) {
         shape.append(line).append("\n");
         ++v;
     }
-    // The shape is in one tile for some values of `u0`, and across the border of two tiles for the
-    // others.
+    // Depending on `u0`, the shape is inside one tile or crosses the border between two tiles.
     for (const int u0 : {24, 29, 33}) {
         const auto dots = blobs_of(drawn(picture, u0));
         ASSERT_EQ(dots.size(), 1u) << shape << "at " << u0;
@@ -189,7 +188,7 @@ TEST(Blobs, BigGraphicsAreNoDotsAndHideNone) {
     fill(image, 90, 40, 102, 80, 200);  // a hole in the stroke
     const auto dots = blobs_of(image);
     EXPECT_EQ(dots.size(), beside.size());
-    // The stroke changes the thresholds of all tiles in its band. If a dot is across the border of
+    // The stroke changes the thresholds of all tiles in its band. If a dot crosses the border of
     // this band, its two parts have different thresholds, which shifts its centroid.
     constexpr double kShiftBesideGraphics_px = 0.3;
     for (const Vec2 centre : beside) {
@@ -372,8 +371,8 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheUpperQuartile) {
 }
 
 TEST(Blobs, SaltAndPepperIsSiftedOut) {
-    // Dots have about nine pixels. About 0.3 % of the pixels are isolated black pixels between the
-    // dots.
+    // Each dot consists of about nine pixels. About 0.3 % of the pixels are isolated black pixels
+    // between the dots.
     Rng rng(kSeed);
     GreyImage image = blank(188, 120);
     std::vector<Vec2> centres;

@@ -34,8 +34,8 @@ TEST(Patch, LiesAroundItsCentreWithinTheImage) {
         EXPECT_GE(patch->top_px, 0);
         EXPECT_LE(patch->left_px + patch->width_px * scale, image.width_px);
         EXPECT_LE(patch->top_px + patch->height_px * scale, image.height_px);
-        // If the patch is not shifted because of the border of the image, its middle is at the
-        // requested pixel.
+        // Unless the image border forces a shift of the patch, its middle is at the requested
+        // pixel.
         const double off_u = double{core::middle_u_px(*patch)} - u;
         if (patch->left_px > 0 && patch->left_px + patch->width_px * scale < image.width_px) {
             EXPECT_LE(std::abs(off_u), 1);
@@ -57,7 +57,7 @@ TEST(Patch, IsNeverLargerThanItsMemory) {
     EXPECT_EQ(patch->height_px, Patch::kMaxHeight_px);
 }
 
-/// Returns a patch whose tiles have a given level of paper and a given darkest pixel.
+/// Returns a patch whose tiles have a given paper level and a given darkest pixel.
 std::unique_ptr<Patch> lit_patch(int width_px, int height_px, int paper, int darkest) {
     auto patch = std::make_unique<Patch>();
     patch->width_px = width_px;
@@ -86,7 +86,7 @@ TEST(PatchContrast, IsThatOfTheTypicalTile) {
 TEST(PatchContrast, PaleTilesAreThoseOfDotsAmongGraphics) {
     const auto patch = lit_patch(160, 96, 200, 130);
     EXPECT_FALSE(core::measure_contrast(*patch, core::DotTiles::pale));  // no graphics
-    // Graphics are in 7 of 12 rows of tiles.
+    // Graphics cover 7 of the 12 rows of tiles.
     for (std::size_t row = 0; row < 7; ++row) {
         for (std::size_t column = 0; column < 10; ++column)
             patch->darkness[row * Patch::kTilesPerRow + column] = 255 - 30;

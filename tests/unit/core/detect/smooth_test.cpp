@@ -101,9 +101,9 @@ TEST(Smooth, AGradientOfTheLightBecomesEven) {
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 2) << u << ", " << v;
             }
         }
-        // At less than 4 px from the border, a part of the surroundings is outside the image. The
-        // middle of the other part is up to 2 px from the pixel. Because of the slope of the light,
-        // the mean of this part differs from the level at the pixel.
+        // Within 4 px of the border, part of the surroundings is outside the image. The middle of
+        // the remaining pixels is up to 2 px from the filtered pixel, so the slope of the light
+        // makes their mean differ from the level there.
         expect_even(found, 5);
     }
 }

@@ -273,7 +273,7 @@ TEST(PlaneNormal, CountsAPointOfWeightThreeThreeTimes) {
 }
 
 TEST(PlaneNormal, LeavesOutWhatThePointsDoNotDetermine) {
-    // If all points are on one line, y is a function of x, so some parameters are not determined.
+    // If all points are on one line, y is a function of x, so some parameters are undetermined.
     Rng rng(kSeed);
     Problem problem({0.01F, -0.02F, 0.03F, 0.01F}, rng, true);
     ASSERT_TRUE(problem.normal.decompose());

@@ -1,5 +1,5 @@
-// Tests p_wrong, the upper bound of the probability that a fix is wrong, of the first and tracked
-// attempts. The expected values are sums over all alternatives in double precision.
+// Tests p_wrong, the upper bound of the probability that a fix of the first or tracked attempt is
+// wrong. The expected values are sums over all alternatives in double precision.
 #include "core/integrity/certainty.hpp"
 
 #include <gtest/gtest.h>
@@ -77,8 +77,8 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns a block that agrees equally well with its own place and with an alternative. Of the bits
-/// in which the two places differ, half are those of each place.
+/// Returns a block that agrees equally well with its own place and with an alternative. Half of the
+/// bits in which the two places differ are taken from each place.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;

@@ -9,7 +9,7 @@
 namespace dotpose::core_test {
 
 /// Returns log2((L * 63 * 4) * P(Binomial(n, 1/2) <= e)) for e = 0 to n. The factor is the number
-/// of hypotheses: positions, sections and turns. The binomial coefficients are summed in
+/// of hypotheses: positions, sections and turns. The binomial coefficients are represented by their
 /// logarithms.
 inline std::vector<long double> exact_chance_log2(int n) {
     const long double hypotheses = std::log2(410815348.0L * 63 * 4);

@@ -56,7 +56,7 @@ struct Verdict {
     Fix fix;
 };
 
-/// Returns the number of bits of an axis that differ from the code, if its lines have these rolls.
+/// Returns the number of bits of an axis that contradict the code if its lines have these rolls.
 inline int contradictions(const Block& block, bool is_x, const std::vector<int>& rolls) {
     int wrong = 0;
     for (int row = 0; row < block.rows; ++row) {

@@ -18,8 +18,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
-/// Minimum of the computed sum. Each of the 190,027 pairs of places counts at least 2^-64 at each
-/// of the 63 shifts.
+/// Minimum of the computed sum. Each of the 190,027 pairs of places contributes at least 2^-64 at
+/// each of the 63 shifts.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
 /// Lines that agree with a position. In each line, the roll of the position has the score 1000. The
@@ -106,15 +106,15 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
         ASSERT_GT(exact, 1e-12);
         const RankedLines lines(ratios);
         // With these limits, all pairs of places that share two or more lines with the position are
-        // evaluated. The other pairs count 32 times their expectation.
+        // evaluated. The other pairs contribute 32 times their expected odds.
         const float rest = expected_double_alternatives(kernels(), lines, kLines)[2];
         const auto sum =
             static_cast<double>(sum_of_double_alternatives(kernels(), lines, 1, 0, 64 * rest));
         const double ratio = (sum - kFloor - 31 * static_cast<double>(rest)) / exact;
         // Exponentials are accurate to 2 %, and their exponents are rounded to multiples of 2^-8.
         EXPECT_GE(ratio, 0.96) << "least " << least << ", seed " << kSeed;
-        // Pairs of places that share at most one line with the position count as their expectation,
-        // so the sum may exceed the exact sum.
+        // Pairs of places that share at most one line with the position contribute their expected
+        // odds, so the sum may exceed the exact sum.
         EXPECT_LE(ratio, least == 420 ? 2 : 1.04) << "least " << least << ", seed " << kSeed;
     }
 }

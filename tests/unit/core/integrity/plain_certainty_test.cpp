@@ -123,7 +123,7 @@ TEST(IsPlainlyCertain, RefusesWhatASeamExplainsBetter) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
         Block block = cut_block(CodeVariant::anoto, any_place(rng), 16, 16);
         alone += judge_plainly(block, block.place).is_certain;
-        // Most columns are those of another section.
+        // Most columns belong to another section.
         Place other = block.place;
         other.section.u = static_cast<std::uint8_t>((other.section.u + 30) % 63);
         const Block beyond = cut_block(CodeVariant::anoto, other, 16, 16);

@@ -1,5 +1,5 @@
 // Tests sum_of_planned_alternatives with lines that agree with the reading and, almost as well,
-// with one alternative, and its work in views of few lines.
+// with one alternative. Also tests its work in views with few lines.
 #include "core/integrity/planned_alternatives.hpp"
 
 #include <bit>
@@ -56,7 +56,7 @@ TEST(PlannedAlternatives, DoNotIncludeSingleAlternatives) {
     }
 }
 
-/// Returns a view of ten lines of nine bits without wrong bits, as in a frame of 64 x 64 px.
+/// Returns a view of ten lines with nine correct bits each, as in a frame of 64 x 64 px.
 RatiosCase small_view(Rng& rng) {
     RatiosCase c = at_random_place(rng, 10);
     c.odds_q8 = 1650;
@@ -74,7 +74,8 @@ TEST(PlannedAlternatives, OfSmallViewsEndAtTheWorkLimit) {
             WorkLimit work(most_work);
             return sum_of_alternatives(kernels(), c.ratios(), -30, work);
         };
-        // One set of lines takes more than 1,000 instructions, and the other sums 90,000.
+        // The limit leaves 5,000 instructions after the other sums, which take 90,000. One set of
+        // lines takes more than 1,000.
         EXPECT_GE(sum_with(95'000), 1) << i;
         found += sum_with(kPlenty) < 0x1p-30F ? 1 : 0;
     }

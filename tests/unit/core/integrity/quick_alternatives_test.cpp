@@ -27,8 +27,8 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns the sum of the odds of all other places of one sequence. A place counts once for each
-/// shift at which it shares a line with the reading.
+/// Returns the sum of the odds of all other places of one sequence. A place is counted once for
+/// each shift at which it shares a line with the reading.
 double sum_of_singles(const RatiosCase& c) {
     const auto texts = code_test::secondary_texts(c.code);
     const std::size_t count = c.rolls.size();
@@ -136,7 +136,7 @@ TEST(QuickAlternatives, AreNoFewerThanACloseLookShows) {
         const int counted = alternatives_log2(kernels(), c.ratios());
         // The exact sum may be up to four times too large, because it counts some alternatives
         // twice and is rounded up to a power of two. Small sums are not compared, because up to
-        // 2^-32 of them may be expectations multiplied by 32.
+        // 2^-32 of a sum may consist of expectations multiplied by 32.
         if (counted <= -31) continue;
         EXPECT_GE(quick, counted - 2) << "case " << i << ", seed " << kSeed;
         ++compared;

@@ -100,8 +100,8 @@ inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternativ
     return rolls;
 }
 
-/// Returns the odds of a position with these rolls, relative to the reading. Odds below 2^-64 count
-/// as 2^-64.
+/// Returns the odds of a position with these rolls, relative to the reading. Odds below 2^-64 are
+/// counted as 2^-64.
 inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) {
     double lost = 0;
     for (std::size_t line = 0; line < rolls.size(); ++line) {

@@ -63,7 +63,7 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
             // If the odds on an axis are below 2^-36, `quick_alternatives` does not compute them
-            // exactly, so estimates below 2^-34 count as equal. Rounding may change each
+            // exactly, so estimates below 2^-34 are treated as equal. Rounding may change each
             // `p_wrong_log2` by 1.
             constexpr int kCoarse = -34;
             ASSERT_GE(std::max(quick.fix.p_wrong_log2, kCoarse),
@@ -88,7 +88,7 @@ TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
         Verdict verdict = judge(reading, options, how);
         EXPECT_EQ(verdict.status, Status::ok);
         EXPECT_EQ(verdict.fix.p_wrong_log2, usual.fix.p_wrong_log2);
-        // The limit is lowered below each result. The exact sums may then still confirm the
+        // Lowers the limit below each result in turn. The exact sums may then still confirm the
         // position.
         int looks = 0;
         for (; verdict.status == Status::ok; ++looks) {
@@ -150,7 +150,7 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
             Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
         // After the scores in the storage are cleared, they are equal for all rolls and exclude no
-        // alternative. `verify` must use them, and therefore refuse.
+        // alternative. `verify` must use these scores, and therefore refuse the position.
         storage.fill({});
         EXPECT_EQ(
             verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
@@ -163,7 +163,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         Reading reading(random_view(rng), QuarterTurn{i % 4});
-        // Half of the bits contradict, as if the frame showed another pattern.
+        // Half of the bits contradict the code, as if the frame showed another pattern.
         for (GridCell& cell : reading.owned.cells) {
             if (rng.below(2) == 0) cell.x = static_cast<std::int8_t>(-cell.x);
             if (rng.below(2) == 0) cell.y = static_cast<std::int8_t>(-cell.y);
@@ -178,7 +178,8 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns a difficult view: it is small, and dots are missing, displaced, or have a wrong symbol.
+/// Returns a difficult view, which is small and in which dots are missing, displaced, or have a
+/// wrong symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
     view.code = kCodeVariants[static_cast<std::size_t>(rng.below(3))];

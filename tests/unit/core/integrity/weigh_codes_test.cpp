@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 83;
 
-/// Returns the same lines as if they were lines of another code variant.
+/// Returns the same lines, treated as lines of another code variant.
 RatiosCase as_in(CodeVariant code, const RatiosCase& c) {
     RatiosCase other;
     other.code = code;
@@ -95,7 +95,7 @@ TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
             const OtherCode& there = others.of[static_cast<std::size_t>(other)];
             EXPECT_NEAR(static_cast<double>(there.here()) / (x_here * y_here), 1, 0.06);
             EXPECT_GE(static_cast<double>(there.elsewhere()), 0.94 * exact);
-            // The odds of unlikely places are not computed one by one. Each counts as an upper
+            // The odds of unlikely places are not computed one by one. Each contributes an upper
             // bound, so the sum may exceed the exact sum.
             const double most = x_here + x_elsewhere + y_here + y_elsewhere;
             EXPECT_LE(static_cast<double>(there.elsewhere()), 1.06 * exact + 2e-12 * most + 4e-13);

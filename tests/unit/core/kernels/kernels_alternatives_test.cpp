@@ -15,8 +15,8 @@ namespace {
 
 using namespace core;
 
-/// The places of a reading in the four sequences. It also computes the difference between the roll
-/// of a line at another place of a sequence and that of the reading.
+/// The places of a reading in the four sequences. Also computes the difference between the roll of
+/// a line at another place of a sequence and that of the reading.
 struct OwnPlaces {
     const code::Basis& basis;
     std::array<std::uint32_t, 4> own;
@@ -49,8 +49,8 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                     ASSERT_FALSE(is_similar);
                     continue;
                 }
-                // Computes the maximum sum of the losses of steps with different digits, of which
-                // no two are adjacent.
+                // Computes the maximum sum of the losses of steps with different digits, no two of
+                // which are adjacent.
                 int most = 0;
                 int max_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
@@ -193,8 +193,8 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 }
 
 /// Expected odds in double precision, indexed by the roll offset and by the length of the current
-/// run. The current run consists of the adjacent lines, the last of which is the newest line, in
-/// which the alternative has the roll offset 0 and the digits of the reading.
+/// run. The current run consists of adjacent lines in which the alternative has the roll offset 0
+/// and the digits of the reading. It ends with the newest line.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
 /// Calls `use` for every choice of digits at one step, in the sequences of the bit set `different`

@@ -54,7 +54,7 @@ void record(const BitLines& lines, Record& record) {
     record.add(lines.valid);
 }
 
-/// Returns `count` dots at random places. The remaining elements of the arrays have no dot.
+/// Returns `count` dots at random positions. The remaining elements of the arrays contain no dots.
 std::unique_ptr<PatchDots> random_dots(int count, Rng& rng) {
     auto dots = std::make_unique<PatchDots>();
     dots->count = count;

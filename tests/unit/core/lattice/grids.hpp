@@ -9,8 +9,8 @@
 
 namespace dotpose::core_test {
 
-/// Returns the mesh with random errors in length, angle and place. Their maxima are those of a
-/// first estimate.
+/// Returns the mesh with random errors in length, angle and position. The maximum errors are those
+/// of a first estimate.
 inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     const auto turned = [&](Vec2 a) {
         const double angle = radians(rng.uniform(-1, 1));
@@ -24,7 +24,7 @@ inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
 }
 
 /// Expects that the plane maps the intersection of each dot to the dot's cell, within a tolerance
-/// in spacings. The origin of the plane may be another intersection than the origin of the mesh.
+/// in spacings. The origin of the plane may be at a different intersection than that of the mesh.
 inline void expect_grid(const PlaneFromImage& plane, const std::vector<PlacedDot>& dots,
                         const std::vector<Vec2>& intersections_px, double tolerance) {
     const auto at = [&](Vec2 p) { return real(core::plane_point_q16(plane, fixed(p, 8)), 16); };

@@ -37,9 +37,9 @@ bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
 
 constexpr int kKinds = 6;
 
-/// Returns points of a kind: 0 for scattered points, 1 for clumps, 2 for a line, 3 for a grid, 4
-/// for points some of which coincide, and 5 for a grid whose last point is alone in its row if
-/// `count` is the maximum.
+/// Returns points of one kind: 0 for scattered points, 1 for clumps, 2 for a line, 3 for a grid, 4
+/// for partly coincident points, and 5 for a grid whose last point is alone in its row if `count`
+/// is the maximum.
 std::vector<DetectedDot> points(Rng& rng, int count, int kind) {
     std::vector<DetectedDot> dots;
     for (int i = 0; i < count; ++i) {
@@ -137,7 +137,7 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
             // All edges point down, and horizontal edges point to the right (Fig. 4).
             ASSERT_TRUE(edge.step_q8.y > 0 || (edge.step_q8.y == 0 && edge.step_q8.x >= 0));
         }
-        ASSERT_EQ(static_cast<int>(found.size()), count);  // each edge once
+        ASSERT_EQ(static_cast<int>(found.size()), count);  // each edge is found once
         ASSERT_EQ(found, expected);
     }
 }

@@ -1,5 +1,5 @@
 // Tests the growth of grids from dots of tilted planes, and from dots that do not form a grid. The
-// places of the dots are computed in double precision.
+// positions of the dots are computed in double precision.
 #include "core/lattice/outwards.hpp"
 
 #include <memory>
@@ -18,8 +18,8 @@ constexpr std::uint64_t kSeed = 75;
 
 struct Trouble {
     double missing = 0;
-    double extra = 0;      ///< number of false dots at random places for each true dot
-    double jitter_px = 0;  ///< standard deviation of the places of dots, per axis
+    double extra = 0;      ///< number of false dots at random positions per true dot
+    double jitter_px = 0;  ///< standard deviation of the positions of dots, per axis
     double displacement = 1 / 6.0;
 };
 
@@ -107,7 +107,7 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_LT(difference(grid.grid_from_image, truth, {20, 20}), 0.1);
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
-        // The plane must be accurate enough that the windows around the intersections contain the
+        // The plane must be accurate enough for the windows around the intersections to contain the
         // dots. One grid may be less accurate, because its growth ended early. Such a grid is
         // refused later, when its dots are measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
@@ -154,7 +154,7 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
         core::PatchGrid grid;
-        // These dots are at random places.
+        // These dots are at random positions.
         const auto scattered = empty_patch();
         std::vector<Vec2> dots;
         const int count = 60 + static_cast<int>(rng.below(400));
@@ -167,7 +167,7 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
         const auto plain =
             patch_of(random_float_plane(rng.uniform(7, 15), 1e-4, rng), {0, 0, 0.02, 0}, rng);
         EXPECT_FALSE(core::find_grid(core::kernels(), *plain, core::whole_view(*plain), grid));
-        // Too few dots.
+        // There are too few dots.
         const auto few = patch_of(random_float_plane(11, 0, rng), {}, rng);
         few->dots.count = 39;
         EXPECT_FALSE(core::find_grid(core::kernels(), *few, core::whole_view(*few), grid));

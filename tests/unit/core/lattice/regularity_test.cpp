@@ -1,5 +1,5 @@
-// Tests what growing a grid and refining a grid have in common. Both extend the grid from a rough
-// estimate in the middle over the whole image, and refuse dots that do not form a grid.
+// Tests the common behaviour of growing a grid and refining a grid. Both extend the grid from a
+// rough estimate in the middle over the whole image, and refuse dots that do not form a grid.
 #include "core/lattice/regularity.hpp"
 
 #include <ostream>

@@ -116,7 +116,7 @@ TEST(Fixed, MedianAndQuartileAreThoseOfTheSorted) {
     for (int i = 0; i < 3000 && !HasFailure(); ++i) {
         SCOPED_TRACE("list " + std::to_string(i) + ", seed " + std::to_string(kSeed));
         std::vector<std::int32_t> values(1 + rng.below(300));
-        // The ranges of the values vary, from a few repeated values to all values of 32 bits.
+        // The ranges of the values vary, from a few repeated values to all 32-bit values.
         const std::uint32_t most = UINT32_MAX >> rng.below(32);
         for (std::int32_t& value : values)
             value = static_cast<std::int32_t>((rng.below(UINT32_MAX) & most) - 2);

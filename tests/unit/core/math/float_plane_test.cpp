@@ -100,7 +100,7 @@ TEST(FloatPlane, TellsWhatACameraMaySee) {
     for (int i = 0; i < 200; ++i) {
         const FloatPlane good = random_float_plane(rng.uniform(5, 80), rng.uniform(0, 4e-3), rng);
         ASSERT_TRUE(core::is_within_reason(good, 94, 60));
-        // Refuses NaN and infinity in any number of the plane.
+        // NaN and infinity must be refused in every number of the plane.
         for (float FloatPlane::*number :
              {&FloatPlane::at_x, &FloatPlane::at_y, &FloatPlane::du_x, &FloatPlane::du_y,
               &FloatPlane::dv_x, &FloatPlane::dv_y, &FloatPlane::tilt_x, &FloatPlane::tilt_y,
@@ -125,7 +125,7 @@ TEST(FloatPlane, TellsWhatACameraMaySee) {
         bad = good;
         bad.at_y = 1e6F;
         EXPECT_FALSE(core::is_within_reason(bad, 94, 60));
-        // The plane is seen edge-on, so both steps are almost parallel.
+        // The plane is seen edge-on, so du and dv are almost parallel.
         bad = good;
         bad.dv_x = bad.du_x + 0.1F * good.dv_x;
         bad.dv_y = bad.du_y + 0.1F * good.dv_y;

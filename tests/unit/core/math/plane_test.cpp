@@ -90,8 +90,8 @@ TEST(Plane, ImagePointsAreTheInverse) {
 }
 
 TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
-    // The lens term has any value that a fit can represent, and the points are far from the dots of
-    // the fit. A point may then have no image point, but no intermediate result may overflow.
+    // The lens term takes any value that a fit can represent, and the points are far from the dots
+    // of the fit. A point may then have no image point, but no intermediate result may overflow.
     Rng rng(kSeed);
     for (int i = 0; i < 2000; ++i) {
         SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);
@@ -99,7 +99,7 @@ TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
         const auto any = [&] { return static_cast<std::int32_t>(rng.bits()) >> rng.below(13); };
         plane.lens_q40 = any();
         if (i % 2 == 1) {
-            // The fit to false dots may give any values.
+            // The fit to false dots may yield arbitrary values.
             plane.du_q24 = {any(), any()};
             plane.dv_q24 = {any(), any()};
             plane.perspective_q30 = {any(), any()};

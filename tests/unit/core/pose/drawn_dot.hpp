@@ -11,7 +11,7 @@
 
 namespace dotpose::core_test {
 
-/// Returns true if there is ink at a place, in px from the middle of a dot.
+/// Returns true if there is ink at a position, given in px from the middle of a dot.
 using InkAt = std::function<bool(Vec2)>;
 
 inline InkAt disc(double radius_px) {

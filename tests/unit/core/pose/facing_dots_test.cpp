@@ -1,6 +1,6 @@
 // Tests the correction of the bias of facing dots. Two neighbouring dots face each other if they
 // are displaced towards each other. Their measured centres are then shifted towards each other,
-// whereas those of other dots are not shifted.
+// whereas the measured centres of other dots are not.
 #include "core/pose/facing_dots.hpp"
 
 #include <map>
@@ -20,7 +20,7 @@ constexpr std::uint64_t kSeed = 95;
 constexpr double kDisplacement = 1 / 6.0;
 constexpr double kNoise = 0.005;  // in spacings
 
-/// Measured dots, and their true places in the image. The measured centres of facing dots are
+/// Measured dots, and their true positions in the image. The measured centres of facing dots are
 /// shifted towards each other.
 class FacingFrame {
   public:
@@ -42,7 +42,7 @@ class FacingFrame {
         }
     }
 
-    /// Returns the mean distance, in px, of the measured dots from their true places.
+    /// Returns the mean distance, in px, of the measured dots from their true positions.
     double mean_error_px() const {
         double sum = 0;
         int count = 0;

@@ -1,4 +1,5 @@
-// Tests planes that are fitted to dots. The dots are placed by a plane in double precision.
+// Tests planes that are fitted to dots. The positions of the dots are computed from a plane in
+// double precision.
 #include "core/pose/float_fit.hpp"
 
 #include <gtest/gtest.h>

@@ -38,7 +38,7 @@ bool is_inside(const View& view, Vec2 point_px, double margin_px) {
 
 /// Expects that all dots that are at least `margin_px` from the border are measured, with errors
 /// below the tolerance. Dots closer to the border may be missing or have an error of up to a third
-/// of a pixel, because the border cuts the centroid window.
+/// of a pixel, because the border truncates the centroid window.
 void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int quarters,
                      double margin_px, double tolerance_px, Rng& rng) {
     const GreyImage image = drawn(view, placed, rng.uniform(0, 6.3));

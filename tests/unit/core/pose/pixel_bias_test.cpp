@@ -162,7 +162,7 @@ TEST(PixelBias, IsTakenFromSmallAndLargeDiscs) {
     }
 }
 
-/// An oblique motion blur tilts the dots. The centroid of a dot that is beside the centre of its
+/// An oblique motion blur tilts the dots. The centroid of a dot that is not at the centre of its
 /// window is then shifted along the other axis.
 TEST(PixelBias, IsTakenFromObliquelyMovingDots) {
     const DotAt moving = [](Vec2 phase) { return moving_dot(disc(1), phase, kBlur_px, {1, -0.7}); };

@@ -25,7 +25,7 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     const Vec2 error = error_at(reading, found, pixel);
     EXPECT_NEAR(error.x, 0, tolerance);
     EXPECT_NEAR(error.y, 0, tolerance);
-    // Over half the height of the image, the error of the slope may amount to the tolerance of the
+    // Over half the height of the image, the error of the slope may add up to the tolerance of the
     // position.
     const View& view = reading.view;
     const double slope = 2 * tolerance / view.image_px.y;

@@ -1,5 +1,5 @@
-// Tests fits on sheets that are not planar. The dots are placed by a plane in double precision and
-// a known displacement.
+// Tests fits on sheets that are not planar. The positions of the dots are computed from a plane in
+// double precision and a known displacement.
 #include "core/pose/uneven.hpp"
 
 #include <functional>
@@ -24,7 +24,7 @@ constexpr int kReach_px = 95;
 constexpr double kJitter = 0.02;
 constexpr double kMaxSigmas = 4.5;
 
-/// The displacement of the paper, in spacings, at a place relative to the image centre.
+/// The displacement of the paper, in spacings, at a position relative to the image centre.
 using Shift = std::function<Vec2(Vec2)>;
 
 /// A sheet whose paper is displaced by a function, seen in an image of 188 x 120 px, and the pose
@@ -72,7 +72,7 @@ struct Sheet {
     }
 };
 
-/// Returns a step in the paper. Places whose coordinate along the direction exceeds `distance` are
+/// Returns a step in the paper. Points whose coordinate along the direction exceeds `distance` are
 /// displaced by `by`.
 Shift slip(double distance, double direction_rad, Vec2 by) {
     return [=](Vec2 place) {
@@ -154,9 +154,9 @@ TEST(FitUneven, SeesASmallStepInTheMiddle) {
     EXPECT_LE(claim_too_much, 2);
 }
 
-// Simulates words over a part of the view. Beyond a line, 40 % of the dots have a random error of
-// 0.3 spacings rms per axis. Regression: such sheets were classified as divided, and the pose was
-// fitted to only a part of the dots.
+// Simulates printed words over part of the view: beyond a line, 40 % of the dots have a random
+// error of 0.3 spacings rms per axis. Regression: such sheets were classified as divided, and the
+// pose was fitted to only some of the dots.
 TEST(FitUneven, WordsDivideNoSheet) {
     Rng rng(kSeed);
     for (int trial = 0; trial < 40; ++trial) {

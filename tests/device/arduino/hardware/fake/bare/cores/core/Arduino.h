@@ -1,4 +1,4 @@
-/* The part of the Arduino interface that the examples use. */
+/* The subset of the Arduino API that the examples use. */
 #pragma once
 
 #include <stddef.h>
