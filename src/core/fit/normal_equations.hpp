@@ -38,8 +38,8 @@ class NormalEquations {
             columns_[i].set(i, columns_[i].at(i) * by);
     }
 
-    /// Replaces M with L. Excludes parameters that the equations hardly determine: a parameter is
-    /// excluded if the preceding eliminations reduce its diagonal element to at most
+    /// Replaces M with L. Excludes poorly determined parameters: a parameter is excluded if the
+    /// elimination of the preceding parameters reduces its diagonal element to at most
     /// `min_determined` times the original value. Returns false if one of the first `required`
     /// parameters is excluded.
     bool decompose(float min_determined, std::size_t required) {
@@ -48,8 +48,8 @@ class NormalEquations {
             minima[i] = min_determined * columns_[i].at(i);
         for (std::size_t i = 0; i < N; ++i) {
             Column& column = columns_[i];
-            // The comparison also excludes a parameter that is in no equation, because its diagonal
-            // element is 0.
+            // Also excludes a parameter that occurs in no equation, because its diagonal element is
+            // 0.
             if (!(column.at(i) > minima[i])) {
                 if (i < required) return false;
                 leave_out(i);
@@ -65,7 +65,7 @@ class NormalEquations {
         return true;
     }
 
-    // The functions below require a previous call of `decompose`.
+    // The functions below may be called only after `decompose`.
 
     /// Returns true if `decompose` did not exclude the parameter.
     bool determines(std::size_t parameter) const { return columns_[parameter].at(parameter) > 0; }
@@ -84,8 +84,8 @@ class NormalEquations {
     }
     /// Returns L^-T `vector`.
     Vector unwhitened(const Vector& vector) const {
-        // The last subtraction uses the element that was computed last. While the processor waits
-        // for this element, it can compute the other products.
+        // The most recently computed element is used last, so the processor can compute the other
+        // products while it waits for this element.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];

@@ -21,11 +21,11 @@ class PlaneSums {
     FitSums all() const;
 
   private:
-    /// Number of points with a positive weight, times -1, because a vector comparison yields -1 for
-    /// true.
+    /// Negated number of points with a positive weight. It is negative because a vector comparison
+    /// yields -1 for true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
-    std::array<Four, 3> residuals_{};  ///< sums of `FitSums::residuals`, and the sum of squared
+    std::array<Four, 3> residuals_{};  ///< sums for `FitSums::residuals`, and the sum of squared
                                        ///< residuals
 };
 
@@ -36,7 +36,7 @@ class PlaneNormal : public NormalEquations<kPoseParameters> {
     explicit PlaneNormal(const FitSums& sums);
 
     /// Decomposes the matrix. Returns false if the points do not determine position, scale and
-    /// rotation. Any other parameter that they do not determine is excluded.
+    /// rotation. Excludes any other parameter that they do not determine.
     bool decompose() {
         constexpr float kDetermined = 1e-4F;
         return NormalEquations::decompose(kDetermined, kTilt);

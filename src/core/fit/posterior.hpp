@@ -1,6 +1,6 @@
-// Posterior: shrinks fitted distortion terms towards 0 by Bayes' rule. The terms are 0 if a camera
-// without lens distortion looks straight at flat paper. The pose is less accurate if a distortion
-// is fitted that is not present, or if a real distortion is not fitted, so the shrinkage depends on
+// Posterior: Bayesian shrinkage of the fitted distortion terms towards 0. The terms are 0 if a
+// camera without lens distortion looks straight at flat paper. The pose is less accurate if a
+// nonexistent distortion is fitted or if a real distortion is ignored, so the shrinkage depends on
 // the probability of distortion. The paper does not fit these terms.
 #pragma once
 
@@ -11,12 +11,12 @@
 
 namespace dotpose::core {
 
-/// Prior for one or two distortion terms that occur together: a mixture of three Gaussians with
-/// mean 0.
+/// Prior for one or two distortion terms that occur together: a mixture of three zero-mean
+/// Gaussians.
 struct DistortionPrior {
     struct Kind {
         float probability;
-        float deviation;  ///< standard deviation of each term, in units of the argument `unit` of
+        float deviation;  ///< standard deviation of each term, relative to the `unit` passed to
                           ///< `posterior_of`
     };
     std::size_t first;  ///< index of the first term in `Parameters`

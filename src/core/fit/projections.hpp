@@ -33,8 +33,8 @@ std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
 /// A plane whose parameters transform pattern coordinates, not image coordinates. Changes in scale,
 /// rotation, perspective and shear are therefore exact at any tilt. Places are relative to the
-/// plane's `at`, in units of `scale()`. In these units, all derivatives have similar magnitudes,
-/// and single precision is sufficient.
+/// plane's `at`, in units of `scale()`. In these units, all derivatives have similar magnitudes, so
+/// single precision is sufficient.
 class ScaledPlane {
   public:
     ScaledPlane(const FloatPlane& plane, float reach_px);
@@ -43,9 +43,9 @@ class ScaledPlane {
     /// centre.
     FourVecs project(Four x_px, Four y_px) const;
 
-    /// Returns the parameters of perspective, shear and lens distortion, and 0 for all other
-    /// parameters. For a camera without distortion that looks straight at the sheet, all parameters
-    /// are 0.
+    /// Returns the values of the perspective, shear and lens distortion parameters, and 0 for all
+    /// other parameters. For a camera without distortion that looks straight at the sheet, all
+    /// parameters are 0.
     Parameters distortions() const;
     /// Returns the unit of places, in spacings: the pattern length that corresponds to `reach_px`.
     float scale() const { return scale_; }

@@ -11,7 +11,7 @@ namespace {
 /// ScaledPlane::scale(). A perspective term is the relative change in scale from the centre to the
 /// outermost dot, for example 0.01 at a tilt of 2 degrees. The lens term is the displacement of the
 /// outermost dot relative to its distance from the centre. The prior probability of lens distortion
-/// is only 1 %, so distortion that is not significant shrinks almost to 0.
+/// is only 1 %, so an insignificant distortion is shrunk almost to 0.
 constexpr std::array<DistortionPrior, 3> kTerms{{
     {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
@@ -19,7 +19,8 @@ constexpr std::array<DistortionPrior, 3> kTerms{{
 }};
 
 /// Shrinks the distortion terms of a step to their posterior means. Sets the covariance of `fit`.
-/// `whole` contains the whitened distortion terms of the plane after the step without shrinkage.
+/// `whole` contains the whitened distortion terms that the plane would have after the step without
+/// shrinkage.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)
@@ -62,7 +63,7 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     constexpr float kExact = 1e-12F;
     fit.variance = std::max(residual_squares / static_cast<float>(freedom), kExact);
     // Adds the step to the current distortion terms. Both vectors are whitened, so the errors of
-    // all elements are independent, with the variance `fit.variance`.
+    // all elements are independent and have the variance `fit.variance`.
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         whole[i] += step[i];

@@ -23,10 +23,10 @@ struct PoseFit {
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// Returns the plane from which a step is computed, in single precision. The pattern point at its
-/// centre is 0, because the mantissa of a float cannot represent a large position accurately.
+/// Returns the plane in single precision, as the starting point of a step. The pattern point at its
+/// centre is set to 0, because a float cannot represent a large position accurately.
 ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px);
-/// Returns the plane after a step. `scaled` is the result of `scaled_from_centre` for the plane.
+/// Returns the plane after a step. `scaled` is the result of `scaled_from_centre(plane)`.
 PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
                        const Parameters& step);
 

@@ -1,5 +1,5 @@
-// Cells: maps many image points to grid cells in 32-bit arithmetic, for a plane without perspective
-// or lens distortion.
+// Cells: fast mapping of image points to grid cells, in 32-bit arithmetic, for planes without
+// perspective or lens distortion.
 #pragma once
 
 #include "core/math/plane.hpp"
@@ -15,7 +15,7 @@ class Cells {
           dv_q18_{plane.dv_q24.x >> 6, plane.dv_q24.y >> 6} {}
 
     /// Returns the offset of an image point from the plane centre, in 1/8 px. The rounding error is
-    /// at most 1/16 px, about 1/100 of the smallest spacing.
+    /// at most 1/16 px, about 1 % of the smallest supported spacing.
     FixedVec from_centre_q3(FixedVec image_point_q8) const {
         const FixedVec p = image_point_q8 - rounding_centre_q8_;
         return {p.x >> 5, p.y >> 5};
@@ -25,8 +25,8 @@ class Cells {
     FixedVec plane_point_q16(FixedVec from_centre_q3) const {
         return rounding_plane_point_q16(from_centre_q3) - FixedVec{kHalf_q16, kHalf_q16};
     }
-    /// Returns the plane point plus half a spacing along both axes. The integer part of this sum is
-    /// the nearest cell.
+    /// Returns the plane point plus half a spacing along both axes, so the integer part of the
+    /// result is the nearest cell.
     FixedVec rounding_plane_point_q16(FixedVec p) const {
         return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
                 rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};

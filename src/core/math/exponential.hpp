@@ -1,5 +1,6 @@
-/// Exponential function and logarithm in single precision. Unlike the results of C libraries, which
-/// may differ in the last bit, the results are bit-identical on every platform.
+/// Exponential function and logarithm in single precision. Unlike the C library functions, whose
+/// results may differ in the last bit between platforms, they return bit-identical results
+/// everywhere.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,7 @@ inline float natural_exp(float x) {
     return sum * power_of_two_exactly(exponent);
 }
 
-/// Returns the natural logarithm of a normal number x > 0. The error is at most 2^-22 max(1,
-/// |result|).
+/// Returns ln x for x > 0. x must not be subnormal. The error is at most 2^-22 max(1, |result|).
 inline float natural_log(float x) {
     constexpr float kRootHalf = 0.7071067812F;
     const auto bits = __builtin_bit_cast(std::int32_t, x);

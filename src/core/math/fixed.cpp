@@ -23,7 +23,8 @@ std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-/// Returns the value at index `rank` in sorted order (Hoare's FIND, 1961). Reorders the values.
+/// Returns the value that would be at index `rank` after sorting (Hoare's FIND, 1961). Reorders the
+/// values.
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
     std::int32_t* const wanted = &values[rank];
     std::int32_t* first = values.data();
@@ -68,8 +69,8 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
-        // Shifts the numerator left by at most `shift` bits, so that its magnitude is below 2^62.
-        // Shifts the denominator right by the remaining bits.
+        // Shifts the numerator left by up to `shift` bits while its magnitude remains below 2^62,
+        // and the denominator right by the remaining bits.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
         numerator *= std::int64_t{1} << up;

@@ -52,12 +52,12 @@ constexpr std::int64_t divide_rounded(std::int64_t n, std::int64_t d) {
     return (n >= 0 ? n + d / 2 : n - d / 2) / d;
 }
 
-/// Returns n / d, rounded towards zero. Requires d > 0 and a quotient of at most 31 bits. On
-/// processors without a divide instruction, this function takes half the time of a 64-bit division.
+/// Returns n / d, rounded towards zero. Requires d > 0 and a quotient that fits in 31 bits. On
+/// processors without a divide instruction, this function is twice as fast as a 64-bit division.
 std::int32_t short_quotient(std::int64_t n, std::int64_t d);
 
 /// Returns numerator * 2^shift / denominator, rounded to nearest. Requires |numerator| < 2^62, 0 <
-/// denominator < 2^62 and a result of at most 31 bits.
+/// denominator < 2^62 and a result that fits in 31 bits.
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift);
 
 inline constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
@@ -68,7 +68,7 @@ constexpr FixedVec divided_q30(FixedVec n, std::int64_t d_q30) {
             static_cast<std::int32_t>(divide_rounded(n.y * kOne_q30, d_q30))};
 }
 
-/// Returns the number of set bits. Adds up fields of two, four and eight bits in parallel, which is
+/// Returns the number of set bits. Sums fields of two, four and eight bits in parallel, which is
 /// the fastest method on processors without a popcount instruction.
 constexpr int bits_in(std::uint32_t word) {
     word -= word >> 1 & 0x55555555;
@@ -121,8 +121,8 @@ inline constexpr int kNever_q8 = -(1 << 20);
 
 /// log2(1 + 2^-d) in units of 2^-8, for d = 0, 1, ..., rounded up. The first entry is 255 instead
 /// of 256 to fit in a byte, so `add_log2` adds 1. Because the function is convex, linear
-/// interpolation gives an upper bound. The table is not local to `add_log2`, because each inlined
-/// call would copy it.
+/// interpolation gives an upper bound. The table is not local to `add_log2`, because every inlined
+/// call would then copy it.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
 /// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24. Uses the bound log2(1 + f)
@@ -133,7 +133,7 @@ constexpr int log2_at_most_q8(std::uint32_t n) {
     return whole * 256 + static_cast<int>(n << 8 >> whole) - 256 + 23;
 }
 
-/// Returns an upper bound on log2(2^a + 2^b) in units of 2^-8.
+/// Returns an upper bound on log2(2^a + 2^b). All logarithms are in units of 2^-8.
 constexpr int add_log2(int a_q8, int b_q8) {
     const int larger = std::max(a_q8, b_q8);
     const int d = larger - std::min(a_q8, b_q8);

@@ -33,11 +33,11 @@ FloatPlane recentred(const FloatPlane& plane, FloatVec to_px) {
 }
 
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px) {
-    // Limit for coordinates, in spacings. This is the range of PlaneFromImage::at_centre_q16.
+    // Limit of the coordinates, in spacings: the range of PlaneFromImage::at_centre_q16.
     constexpr float kFarthest = 32768;
     constexpr float kFinest_px = 3;
     constexpr float kCoarsest_px = 400;
-    // Minimum area to which a pixel is mapped, relative to a rectangle with the same side lengths.
+    // Minimum area of a mapped pixel, relative to that of a rectangle with the same side lengths.
     constexpr float kFlattest = 1.0F / 4;
     const float area = plane.du_x * plane.dv_y - plane.dv_x * plane.du_y;
     const float sides = std::sqrt((plane.du_x * plane.du_x + plane.du_y * plane.du_y) *

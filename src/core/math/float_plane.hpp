@@ -1,4 +1,4 @@
-// Float plane: planes in single precision, for the attempts of `Locator`.
+// Float plane: planes and vectors in single precision.
 #pragma once
 
 #include <cmath>
@@ -22,10 +22,10 @@ struct FloatPlane {
     float bend = 0;
 };
 
-/// A lens with distortion (paper, eq. 1-2). The distortion centre is relative to the plane centre,
+/// Radial lens distortion (paper, eq. 1-2). The distortion centre is relative to the plane centre,
 /// in px.
 struct FloatLens {
-    float k = 0;  ///< per px^2
+    float k = 0;  ///< distortion coefficient, in px^-2
     float centre_x = 0;
     float centre_y = 0;
 };
@@ -49,9 +49,9 @@ inline float spacing_px(const FloatPlane& plane) {
 }
 
 /// Returns true if the plane is a plausible view of paper. The spacing must be from 3 to 400 px,
-/// the image axes must be mapped to directions with an angle whose sine exceeds 1/4, the map must
-/// not fold within the image, and the coordinates must fit in PlaneFromImage. Returns false if a
-/// value is NaN.
+/// the sine of the angle between the mapped image axes must exceed 1/4, the map must not fold
+/// within the image, and the coordinates must fit in PlaneFromImage. Returns false if a value is
+/// NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, FixedVec centre_q8);

@@ -14,15 +14,15 @@ constexpr float power_of_two_exactly(int n) {
     return __builtin_bit_cast(float, static_cast<std::uint32_t>(std::max(n, -126) + 127) << 23);
 }
 
-/// Returns 2^(n / 256) for n < 127 * 256, where n is `n_q8`. The error is at most 2 %. Values of n
-/// below -25,600 count as -25,600.
+/// Returns 2^(n / 256) for n < 127 * 256, where n is `n_q8`. The error is at most 2 %. Smaller
+/// values than -25,600 are treated as -25,600.
 inline float power_of_two(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
     return static_cast<float>(exp2_q16(n - whole * 256)) * power_of_two_exactly(whole - 16);
 }
 
-/// Returns an upper bound on log2(odds), in units of 2^-8. Odds below 1e-30 count as 1e-30.
+/// Returns an upper bound on log2(odds), in units of 2^-8. Odds below 1e-30 are treated as 1e-30.
 inline int log2_of_odds_q8(float odds) {
     int exponent = 0;
     const float mantissa = std::frexp(std::max(odds, 1e-30F), &exponent);

@@ -52,10 +52,10 @@ GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8) {
 }
 
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point) {
-    // Maximum number of Newton steps, each with the slope at the current point. For an affine
-    // plane, one step is exact except for truncation.
+    // Maximum number of Newton steps. Each step uses the derivatives at the current point. For an
+    // affine plane, one step is exact up to truncation.
     constexpr int kMaxRounds = 12;
-    // Limit for the image coordinates. The iteration may diverge where the map folds.
+    // Limit of the image coordinates, because the iteration may diverge where the map folds.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
     FixedVec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMaxRounds; ++round) {

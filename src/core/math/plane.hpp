@@ -33,21 +33,21 @@ inline bool is_affine(const PlaneFromImage& plane) {
 /// Returns the affine plane that maps image points to lattice coordinates. Requires u x v > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
-/// Returns the plane point of an image point, in 2^-16 spacings (paper, eq. 3). Unlike the paper,
-/// which projects the point onto u and v, this function inverts the map. The projection is correct
-/// only for perpendicular axes and a camera without tilt.
+/// Maps an image point to the plane, in 2^-16 spacings (paper, eq. 3). The paper projects the point
+/// onto u and v, which is correct only for perpendicular axes and a camera without tilt. This
+/// function uses the inverse of the matrix (u, v) instead.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the intersection nearest to an image point, and the point's offset from this
 /// intersection (paper, eq. 3-5).
 GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
-/// Returns the image point of a plane point, in 2^-8 px. This is the inverse of `plane_point_q16`.
-/// The result may be wrong where the map folds. Its coordinates are at most 2^21 in magnitude.
+/// Maps a plane point to the image, in 2^-8 px. This is the inverse of `plane_point_q16`. The
+/// result may be wrong where the map folds. Its coordinates are at most 2^21 in magnitude.
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point_q16);
 
-/// Returns the tangent at an image point: the affine plane with the same value and slope at this
-/// point.
+/// Returns the linear approximation of a plane at an image point: the affine plane with the same
+/// value and derivatives at this point.
 PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Variant of `tangent` for an affine plane.

@@ -27,22 +27,22 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
 }
 
 /// Rotation and motion of a scene at constant rates, while a rolling shutter reads the rows from
-/// top to bottom. Points are in px relative to the image centre. The middle row is row 0, and it
-/// shows the scene at time 0.
+/// top to bottom. Points are in px relative to the image centre. Row 0 is the middle row, and shows
+/// the scene at time 0.
 ///
 /// While the middle row is read, the image of a scene point p moves by drift + rad_per_row (p -
-/// axis)'. The prime denotes a rotation by 90 degrees. The scene point p appears in the image at
+/// axis)' px per row, where the prime denotes a rotation by 90 degrees. The scene point p appears
+/// in the image at
 ///
 ///     seen = axis + R(row rad_per_row) (p - axis) + way(row), where row = seen.y.
 ///
-/// R is a rotation matrix, and way(row) is the displacement of the scene point `axis`. Without the
-/// rotation, p would appear at p + row drift, which is an affine map. The functions convert between
-/// the image with rotation and the image without rotation.
+/// R(a) is the rotation by the angle a, and way(row) is the displacement of the scene point `axis`.
+/// Without the rotation, p would appear at p + row drift, which is an affine map. The member
+/// functions convert between the images with and without rotation.
 struct ReadoutTurn {
     float rad_per_row = 0;
     FloatVec axis;   ///< fixed point of the rotation
-    FloatVec drift;  ///< motion of `axis` in the image, in px per row; its y component is less than
-                     ///< 1
+    FloatVec drift;  ///< motion of `axis` in the image, in px per row, with y < 1
 
     /// Returns the point of the image without rotation that shows the same scene point as `seen`.
     FloatVec without_turn(FloatVec seen) const {
@@ -56,10 +56,10 @@ struct ReadoutTurn {
 
     /// Returns the inverse of `without_turn`, by Newton's method with `steps` steps. `row` is the
     /// approximate row of the result. The result is correct only where the scene moves down by less
-    /// than one row per row, because otherwise several rows or none may show the scene point.
+    /// than one row while a row is read. Otherwise, several rows or none may show the scene point.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
-        constexpr float kMaxRow = 4096;  // exceeds the rows of every image
+        constexpr float kMaxRow = 4096;  // larger than the row number in any image
         const FloatVec p{still.x - still.y * drift.x - axis.x,
                          still.y - still.y * drift.y - axis.y};
         for (;; --steps) {

@@ -8,9 +8,9 @@
 
 namespace dotpose::core {
 
-/// Returns kFunction(n) for n < kCount, from a table built at compile time. Instead of using a
-/// table, calls the function on targets that have a divide instruction but little flash memory, and
-/// in WebAssembly, where the code must be small.
+/// Returns kFunction(n) for n < kCount, from a table built at compile time. On targets that have a
+/// divide instruction but little flash memory, and in WebAssembly, where the code must be small,
+/// calls the function instead.
 template <std::uint32_t (*kFunction)(std::uint32_t), std::uint32_t kCount>
 std::uint32_t tabled(std::uint32_t n) {
 #if defined(__wasm__) || defined(__mips__) || defined(__riscv_div) || \

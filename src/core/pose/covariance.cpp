@@ -24,7 +24,7 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
 }
 
 /// Multiplies the covariance of the whitened parameters by a vector. Only adjacent parameters are
-/// correlated, so the covariance is tridiagonal. The function skips the elements that are always 0.
+/// correlated, so the covariance is tridiagonal, and all other elements are skipped.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {
@@ -48,14 +48,13 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
                          FixedVec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
-    // `dots_used` may exceed `dots_seen`, because predicted dots are measured even if they were not
-    // found as blobs.
+    // Predicted dots are measured even if they were not detected as blobs, so more dots may be used
+    // than were seen.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));
     // Theta is the direction of the image's x axis in the pattern. It is approximated by the
-    // direction from a point kStep_px to the left of the reference point to a point kStep_px to the
-    // right.
+    // direction between the points kStep_px to the left and right of the reference point.
     constexpr float kStep_px = 8;
     const FixedVec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
     const float x = static_cast<float>(from_centre_q8.x) / 256;

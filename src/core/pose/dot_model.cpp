@@ -57,7 +57,7 @@ struct Normal {
 /// Responses of the pixels along one axis to a blurred step and to a blurred point, both at
 /// `place`.
 struct PixelLine {
-    /// Response to a step. The darkness is 1 beyond `place` and 0 before it.
+    /// Response to a step: the darkness is 0 before `place` and 1 beyond it.
     std::array<float, kSide> step;
     /// Response to a point: the negative derivative of `step` with respect to `place`.
     std::array<float, kSide> point;
@@ -121,7 +121,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
                 by_blur_u.all[v][u] += down * (left.step_by_blur(u) - right.step_by_blur(u));
                 by_blur_v.all[v][u] += down_by_blur * across;
                 // By the heat equation, the derivative with respect to the covariance of the blur
-                // is the second derivative with respect to u and v.
+                // is the mixed second derivative with respect to u and v.
                 by_blur_uv.all[v][u] += down_by_v * across_by_u;
             }
         }

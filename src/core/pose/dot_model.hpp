@@ -10,12 +10,12 @@
 
 namespace dotpose::core {
 
-/// An ellipse in the image, with lengths in px and squares in px^2.
+/// A blurred ellipse in the image. Lengths are in px, and squared lengths in px^2.
 struct ModelDot {
     FloatVec centre;    ///< relative to the middle of the central pixel
     FloatVec radius_2;  ///< squared half axes along u and v
     FloatVec blur_2;    ///< blur variance along u and v
-    /// Covariance of the blur along u and v. Only its first-order effect is modelled.
+    /// Covariance of the blur between u and v. Only its first-order effect is modelled.
     float blur_uv = 0;
 };
 
@@ -35,8 +35,8 @@ struct DotPixels {
     std::array<std::array<float, kSide>, kSide> all{};
 };
 
-/// Image of a model dot, and the derivatives of this image. The total darkness of a dot that is
-/// completely within the drawn pixels is 1.
+/// Image of a model dot, and the derivatives of this image. The pixels of a dot sum to 1 if the dot
+/// is completely within the drawn pixels.
 struct DotImages {
     DotPixels dot;
     /// Derivatives with respect to the centre, the squared half axes and the blur variance, each

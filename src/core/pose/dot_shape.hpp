@@ -11,9 +11,8 @@ class DotShape {
   public:
     /// Terms of the fit. `offset_u` and `offset_v` are the mean offset of the dots from their
     /// expected places. The radii are squared half axes, and the blurs are two variances and their
-    /// covariance. `mass` is the
-    /// total darkness of a dot. `paper` is the darkness of a pixel without ink, which is close to
-    /// 0, because darkness is relative to the local paper level.
+    /// covariance. `mass` is the total darkness of a dot. `paper` is the darkness of a pixel
+    /// without ink, which is close to 0, because darkness is relative to the local paper level.
     enum Term : std::size_t {
         offset_u,
         offset_v,

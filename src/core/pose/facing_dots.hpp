@@ -1,7 +1,7 @@
 // Facing dots: corrects the bias of adjacent dots that are displaced towards each other. If such
 // dots are large or blurred, each shifts the centroid of the other towards itself. The two shifts
 // cancel in the pose, but they increase the residuals and therefore the estimated covariance. The
-// paper estimates no covariance and does not need this correction.
+// paper does not estimate a covariance, so it does not need this correction.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -11,8 +11,8 @@
 namespace dotpose::core {
 
 /// Estimates the common bias of facing dots from their residuals, and subtracts the bias from the
-/// dot centres. `dots` must be sorted by row, and by column within each row. Returns false without
-/// any change if the bias is not significant.
+/// dot centres. `dots` must be sorted by row, and by column within each row. If the bias is not
+/// significant, changes nothing and returns false.
 bool correct_neighbour_bias(const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 
 }  // namespace dotpose::core

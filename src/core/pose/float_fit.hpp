@@ -8,12 +8,12 @@
 
 namespace dotpose::core {
 
-/// Fits the plane by least squares, starting from `plane`. In the first iteration, inliers have
-/// squared residuals of at most `limit` (spacings^2). In later iterations, the limit of the
-/// residual is about four times the standard deviation of one coordinate. Sets all members of `fit`
-/// except `surface` and `uneven`. After kMaxRoundsOfFloats iterations, returns true even if the fit
-/// has not converged. Returns false if there are fewer than kMinDots inliers, or if the inliers do
-/// not determine the plane. `plane` and `fit` must then not be used.
+/// Fits the plane by least squares, starting from `plane`. In the first iteration, dots are inliers
+/// if their squared residual is at most `limit`, in spacings^2. In later iterations, the limit for
+/// the residual is about four times the standard deviation of one coordinate. Sets all members of
+/// `fit` except `surface` and `uneven`. After kMaxRoundsOfFloats iterations, returns true even if
+/// the fit has not converged. Returns false if there are fewer than kMinDots inliers, or if the
+/// inliers do not determine the plane. `plane` and `fit` must then not be used.
 bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, float limit,
                float displacement, FloatPlane& plane, PoseFit& fit);
 

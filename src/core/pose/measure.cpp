@@ -261,8 +261,8 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
 }
 
 /// Unlinks dots from their cells if their mass is below half the typical mass, or above
-/// kTooDark_halves / 2 times the typical mass. Such dots are dirt, graphics, or bare paper where a
-/// dot is missing.
+/// kTooDark_halves / 2 times the typical mass. Such detections are dirt, graphics, or bare paper
+/// where a dot is missing.
 void reject_mass_outliers(Grid& grid, std::span<DetectedDot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;
     std::array<std::int32_t, kSample> masses;

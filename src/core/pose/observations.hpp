@@ -29,9 +29,9 @@ class Observations {
         : dots_(dots), grid_(grid), nominal_(nominal), paper_(paper) {}
 
     bool know_noise() const { return paper_ != nullptr; }
-    /// Returns the variance of a dot's centre due to pixel noise, divided by the same variance for
-    /// a dot on white paper (level 255). Assumes that the pixel noise is constant, and that the
-    /// contrast of a dot is proportional to the paper level.
+    /// Returns the variance of a dot's centre due to pixel noise, relative to that of a dot on
+    /// white paper (level 255). Assumes that the pixel noise is constant, and that the contrast of
+    /// a dot is proportional to the paper level.
     float noise(const Observation& o) const {
         const float light =
             static_cast<float>(paper_at(*paper_, o.image_point_q8.x >> 8, o.image_point_q8.y >> 8));

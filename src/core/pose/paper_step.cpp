@@ -21,12 +21,12 @@ constexpr float kLinesPerSpacing = 2;
 constexpr int kDirections = 8;
 constexpr float kBehind = tuned::kBehind;
 
-/// Sums over the dots in one part of the sheet. A dot is *coherent* if its residual is at most as
-/// large as the residual that a displacement of the whole part can explain (tuned::kTogether).
+/// Sums over the dots in one part of the sheet. A dot is *coherent* if its residual is small enough
+/// to be explained by a displacement of the part (tuned::kTogether).
 struct PartSums {
-    /// Number of dots; sum of the log odds that each dot is on the plane of the whole sheet rather
-    /// than at a random place (see tuned::kOnPlane); number of coherent dots; sum of the squared
-    /// residuals of the coherent dots.
+    /// In this order: the number of dots, the sum of their log odds of being on the plane of the
+    /// whole sheet rather than at a random place (see tuned::kOnPlane), the number of coherent
+    /// dots, and the sum of the squared residuals of the coherent dots.
     Four counts;
     Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
     /// Coherent dots: sums of xx, xy and yy, and of the cross products of place and residual.
@@ -93,10 +93,9 @@ struct Symmetric3 {
     }
 };
 
-/// Least-squares affine map from the places of all coherent dots to their residuals. A step
-/// distorts the plane that was fitted to all dots: if the step is in the middle of the view, a tilt
-/// of this plane explains most of it. The effect of a step is therefore computed by fitting the
-/// step and this map together.
+/// Least-squares affine map from the places of all coherent dots to their residuals. A step biases
+/// the plane that was fitted to all dots: if the step is in the middle of the view, an affine
+/// change of this plane absorbs most of it. The step and this map are therefore fitted jointly.
 class AffineFit {
   public:
     AffineFit() = default;
@@ -151,8 +150,8 @@ class AffineFit {
 
   private:
     /// Minimum spread at which the dots determine a step. The spread measures how poorly an affine
-    /// map approximates a step: if an affine map is fitted to the value 1 for dots beyond the line
-    /// and 0 for all other dots, the spread is the sum of its squared residuals.
+    /// map approximates a step: it is the sum of the squared residuals of an affine map fitted to a
+    /// function that is 1 for dots beyond the line and 0 for all other dots.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -294,11 +293,11 @@ class Search {
                           std::max(max_of(here) - here.on_plane(), 0.0F));
     }
 
-    /// Returns the log likelihood ratio between separate planes and one plane for the whole sheet.
-    /// Both parts have a separate plane, because the plane of the whole sheet may fit neither of
-    /// them. If the dots beyond the line fit their own plane worse than they fit random places,
-    /// their log odds are 0. If the dots on this side fit their own plane worse than they fit the
-    /// plane of the whole sheet, they add nothing to the result.
+    /// Returns the log likelihood ratio of separate planes for the two parts to one plane for the
+    /// whole sheet. Both parts have their own plane, because the plane of the whole sheet may fit
+    /// neither of them. If the dots beyond the line fit their own plane worse than they fit random
+    /// places, their log odds count as 0. If the dots on this side fit their own plane worse than
+    /// they fit the plane of the whole sheet, they add nothing to the result.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -310,8 +309,8 @@ class Search {
     PartSums all_{};
     AffineFit affine_;
     float variance_;
-    /// Natural log of the odds that an outlier contributes to the evidence for a plane. It is also
-    /// the lower limit of the log odds of every dot (see tuned::kOnPlane).
+    /// Log odds of an outlier (see tuned::kOnPlane). Also the lower limit of the log odds of any
+    /// dot.
     float off_plane_;
     float weight_ = 1;  ///< number of dots that each sample represents
     std::size_t lines_ = 0;

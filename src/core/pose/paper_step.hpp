@@ -1,5 +1,6 @@
-// Paper step: finds a line across which the print is displaced, because a printer fed the sheet
-// badly or because two sheets meet. The paper assumes instead that all dots are in one plane.
+// Paper step: finds a line across which the print is displaced, for example because the printer fed
+// the sheet unevenly or because two sheets meet. The paper assumes instead that all dots are in one
+// plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -10,7 +11,7 @@ namespace dotpose::core {
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
     /// Thresholds for `gain`. On 1 in 100 flat sheets, the largest gain exceeds kPossible by
-    /// chance. On flat sheets, a gain above kCertain almost never occurs. The thresholds are high
+    /// chance. A gain above kCertain almost never occurs on a flat sheet. The thresholds are high
     /// because steps are rare, and because the search tries many lines with three parameters each.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
@@ -19,12 +20,12 @@ struct PaperStep {
     /// Distance from the reference point to the line, in spacings. Negative if the reference point
     /// is beyond the line.
     float distance = 0;
-    float gain = 0;  ///< natural log of the likelihood ratio between a sheet divided by this line
-                     ///< and a single plane
+    float gain = 0;  ///< natural log of the likelihood ratio of a sheet divided by this line to a
+                     ///< single plane
 };
 
 /// Returns the line with the largest gain. If no line has a positive gain, the `gain` of the result
-/// is 0. `fit` contains the statistics of the fit of `plane` to the dots.
+/// is 0. `fit` is the result of fitting `plane` to the dots.
 PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
                           FloatVec reference_px);
 

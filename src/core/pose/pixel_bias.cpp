@@ -30,7 +30,7 @@ float place_of_window(std::int32_t window, std::int32_t sum, std::int32_t mass) 
 
 /// Weights of a centroid window along one axis. The weights are w(t) = (1 - t^2)^4, and the moment
 /// weights are m(t) = t w(t). `slope` is m'(t). t is the signed distance from the window centre, in
-/// radii. See kernels/loops/centroid_windows.inc.
+/// window radii. See kernels/loops/centroid_windows.inc.
 struct WindowWeights {
     std::array<float, DotPixels::kSide> weight;
     std::array<float, DotPixels::kSide> moment;
@@ -116,8 +116,8 @@ class AxisBias {
 
     float amplitude_px() const { return amplitude_px_; }
     /// Returns the slope along this axis divided by the slope along u. A slope is the derivative of
-    /// the first moment of a centroid window with respect to a shift of the dot. If noise can
-    /// explain the difference from 1, the ratio is shrunk towards 1.
+    /// the first moment of a centroid window with respect to a shift of the dot. The ratio is
+    /// shrunk towards 1 if noise can explain the difference from 1.
     float slope_ratio() const { return slope_ratio_; }
     /// Returns the bias of a dot, in px. Also adds the sine of its phase to the sum for
     /// `variance_of_mean`.
@@ -127,8 +127,8 @@ class AxisBias {
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the variance of the mean centre due to the remaining bias after the correction, in
-    /// px^2.
+    /// Returns the variance, in px^2, that the bias remaining after the correction adds to the mean
+    /// centre.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;
@@ -145,14 +145,14 @@ class AxisBias {
 /// Centroid errors of dots that are not at the centres of their windows.
 struct WindowBias {
     float bend;         ///< cubic term of the moment: the moment is proportional to d - bend d^3
-    float shear;        ///< error along either axis for each px of offset along the other axis
+    float shear;        ///< error along each axis per px of offset along the other axis
     float slope_ratio;  ///< slope of the moment along v, divided by the slope along u
 
     /// Returns the centroid error, in px, of a dot at offset `d` from its window centre. There are
     /// three causes. The kernels take a single Newton step, which is exact only if the moment is
     /// linear in d. They also divide the moments of both axes by the slope along u at the window
-    /// centre. An oblique blur tilts the dot, so the weights, which decrease along each axis, shift
-    /// its centroid along the other axis.
+    /// centre. If the blur is oblique, the dot is tilted, so an offset along one axis also shifts
+    /// the weighted centroid along the other axis.
     FloatVec at(FloatVec d) const {
         return {2 * bend * d.x * d.x * d.x + shear * d.y,
                 d.y * (slope_ratio * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1) + shear * d.x};
@@ -170,7 +170,7 @@ WindowBias window_bias(const DotShape& shape, const AxisBias& along_u, const Axi
             error_beside(Along::v) / kBeside_px, along_v.slope_ratio()};
 }
 
-/// Expected image points of the dots that are inliers of a plane.
+/// Expected image points of the inliers of a plane fit.
 class ExpectedDots {
   public:
     ExpectedDots(const FloatPlane& plane, const PoseFit& fit, FloatVec centre_px,
@@ -182,8 +182,8 @@ class ExpectedDots {
           centre_px_(centre_px),
           dots_(dots) {}
 
-    /// Visits every `every`-th dot. For each of these dots that is an inlier, calls `use` with its
-    /// index and the `Phase` of its expected image point.
+    /// Calls `use` for the inliers among every `every`-th dot, with the index of the dot and the
+    /// `Phase` of its expected image point.
     template <typename Use>
     void visit(std::size_t every, Use use) const {
         for (std::size_t k = 0; k < static_cast<std::size_t>(dots_.count); k += every) {
@@ -234,8 +234,8 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    });
     DotShape shape;
     if (!shape.fit(stacks)) return {};
-    // Skips strongly blurred dots, because their bias is negligible and they may be larger than the
-    // model image.
+    // Does not correct strongly blurred dots, because their bias is negligible and they may be
+    // larger than the model image.
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);

@@ -15,17 +15,17 @@ namespace dotpose::core {
 struct CentroidWindow {
     float radius_px = 0;      ///< distance from the centre at which the weight becomes 0
     float dot_radius_px = 0;  ///< approximate dot radius
-    /// Origin of the dot coordinates, in px relative to the first pixel of the image.
+    /// Origin of the dot coordinates, in px relative to the centre of the top left pixel.
     FloatVec centre_px;
 };
 
-/// Moves the windows to the current centres. The dots must be measured again afterwards. Drops dots
-/// whose window is not completely in the image.
+/// Moves each window to the current centre of its dot. The dots must be measured again afterwards.
+/// Drops dots whose window extends beyond the image.
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
 /// Subtracts the bias from the centres of all inliers. Returns the variance of the mean centre due
-/// to the remaining bias, along u and v, in px^2. Returns 0 without any change if the bias is
-/// negligible or cannot be determined.
+/// to the remaining bias, along u and v, in px^2. If the bias is negligible or cannot be
+/// determined, changes nothing and returns (0, 0).
 FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
                             const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 

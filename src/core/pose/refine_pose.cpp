@@ -66,7 +66,8 @@ class Round {
             y_q16[i] = offset.y;
             values[i] = offset.x * sample.dx[i] + offset.y * sample.dy[i];
         }
-        // Measures the displacement in each frame, because ink spread and blur change it.
+        // Measures the displacement of the dots instead of assuming the nominal value, because ink
+        // spread and blur change it.
         displacement_q16_ = median(std::span(values).first(sample.count));
         for (std::size_t i = 0; i < sample.count; ++i) {
             values[i] = squared_q30({x_q16[i] - sample.dx[i] * displacement_q16_,
@@ -142,7 +143,7 @@ class Round {
     const PlaneFromImage& pose_;
     ScaledPlane plane_;
     std::int32_t displacement_q16_ = 0;
-    float limit_ = 0;  ///< outlier limit of weighted squared residuals, in spacings^2
+    float limit_ = 0;  ///< outlier limit for weighted squared residuals, in spacings^2
 };
 
 }  // namespace

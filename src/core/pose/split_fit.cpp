@@ -13,9 +13,9 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Finds the residual that the largest number of dots near a point have in common, to within
-/// kAgreement. Sets `common` to this residual, in spacings. Returns false if fewer than
-/// kMinAgreeing dots agree with this residual.
+/// Finds the residual that the largest number of dots near a point have in common (within
+/// kAgreement), and sets `common` to this residual, in spacings. Returns false if fewer than
+/// kMinAgreeing dots agree.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;
@@ -79,7 +79,7 @@ bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
         if (round + 1 == tuned::kRounds) break;
         // Searches for the line again. The residuals are now relative to the plane of one side, so
         // the search is more precise than with the plane of all dots. The gain of this search is
-        // not a valid likelihood ratio and is ignored, because the plane was not fitted to the dots
+        // ignored: it is not a valid likelihood ratio, because the plane was not fitted to the dots
         // beyond the line.
         const PaperStep step = find_paper_step(dots, split.plane, split.fit, reference_px);
         if (step.gain > 0) split.step = step;

@@ -15,8 +15,8 @@ struct Phase {
     explicit Phase(FloatVec point_px);
 };
 
-/// Sums of dot images, grouped by the sub-pixel phase of the dot centres. The area of a pixel is
-/// divided into 4 x 4 parts, and all dots with their centres in the same part are in one stack.
+/// Sums of dot images, grouped by the sub-pixel phase of the dot centres. A pixel is divided into 4
+/// x 4 squares, and all dots whose centres are in the same square form one stack.
 class StackedDots {
   public:
     struct Stack {

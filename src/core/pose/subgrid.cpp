@@ -14,7 +14,7 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn 
 
 namespace {
 
-/// Sets the pose at the centre of a plane that has neither perspective nor lens terms.
+/// Sets the pose at the centre of an affine plane.
 void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& place, Fix& fix) {
     // The pose is the decoded position plus the vector to the reference point, in grid units
     // (paper, eq. 10-12).
@@ -26,8 +26,8 @@ void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& plac
     fix.fraction_y_q16 = static_cast<std::uint16_t>(t.y & 0xFFFF);
     const FixedVec du = there.du_q24;
     fix.theta_bam = angle_bam(du);
-    // The spacing in px is 1 / |du|. The divisor is clamped, because the map may fold far outside
-    // the image, where |du| may be almost 0.
+    // The spacing in px is 1 / |du|. The divisor is clamped, because |du| may be almost 0 where the
+    // map folds, far outside the image.
     const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
     const std::int64_t spacing_q16 =
         (std::int64_t{1} << 40) / std::max<std::uint32_t>(du_length_q24, 1U);

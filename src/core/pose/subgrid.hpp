@@ -16,7 +16,7 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn 
 void write_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8, CodeVariant code,
                 const Place& place, Fix& fix);
 
-/// Faster variant of `write_pose` for planes without perspective and lens terms.
+/// Faster variant of `write_pose` for planes without perspective or lens terms.
 void write_affine_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8,
                        CodeVariant code, const Place& place, Fix& fix);
 

@@ -1,6 +1,6 @@
 // Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
 // on the hard frames listed in decode/tuning.hpp. Some comments state the results with other values
-// of a constant: the number of located frames, and the median and 95 % quantile of their errors.
+// of a constant: the number of located frames, and the median and 95th percentile of their errors.
 // The command is
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
@@ -13,12 +13,13 @@ namespace dotpose::core::tuning {
 /// Measurement of dots in a window (pose/measure).
 namespace measure {
 /// Half the window side, in 1/32 of the spacing, and its minimum, in 1/256 px. At this size, the
-/// window border is on paper even if the dot is off centre, and the window contains no other dot.
+/// window border is on blank paper even if the dot is off centre, and the window contains no other
+/// dot.
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in 1/128 of the spacing, and its minimum, in 1/256 px.
-/// kSigma_128ths is the sigma of a typical blurred dot. With 6, the results are 1,994 frames, 2.19
-/// µm and 5.36 µm. With 24, they are only 1,904 frames, 3.58 µm and 9.19 µm.
+/// kSigma_128ths is the sigma of a typical blurred dot. With a value of 6, the results are 1,994
+/// frames, 2.19 µm and 5.36 µm. With 24, they are only 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance between a dot and its predicted place, in units of sigma^2. The limit
@@ -59,7 +60,7 @@ inline constexpr float kSameLimit = 0.04F;
 inline constexpr float kMaxByNoise = 0.9F;
 /// Minimum number of dots for `fit_plane`.
 inline constexpr int kMinDots = 20;
-/// Limit of `moved` below which `fit_plane` has converged. If n is the nonlinearity of the plane
+/// Value of `moved` below which `fit_plane` has converged. If n is the nonlinearity of the plane
 /// (`settled` in float_fit.cpp), the limit is kNonlinearSettled / n^2, clamped to [kMinSettled,
 /// kMaxSettled]. After the last step, the remaining error is about a fifth of a standard deviation.
 inline constexpr float kMinSettled = 0.2F;
@@ -92,13 +93,13 @@ inline constexpr int kMaxRounds = 30;
 
 /// Bias of facing dots (pose/facing_dots).
 namespace facing {
-/// The bias is corrected if it exceeds this number of its standard deviations.
+/// Minimum significance of a bias that is corrected, in standard deviations.
 inline constexpr float kSure = 4;
 }  // namespace facing
 
 /// Pixel bias of dots with the same sub-pixel phase (pose/pixel_bias).
 namespace bias {
-/// Maximum number of stacked dots. The dot shape does not become more accurate with more dots.
+/// Maximum number of stacked dots. More dots do not make the fitted dot shape more accurate.
 inline constexpr int kDots = 256;
 /// Width of the border around a dot that is included in the stacked images, because it contains the
 /// blurred edge.
@@ -111,8 +112,8 @@ inline constexpr float kBlurred_px2 = 1.2F;
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
-/// Scale of the shrinkage in `AxisBias::slope_ratio`: the relative difference between the moment
-/// slopes along u and v that noise causes if the dots are round.
+/// Scale of the shrinkage in `AxisBias::slope_ratio`: the typical relative difference that noise
+/// causes between the moment slopes along u and v of round dots.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
@@ -136,7 +137,7 @@ inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
-/// Maximum number of outliers that is normal on a flat sheet: kFewOutliers plus kOutlierFraction
+/// Maximum number of outliers to be expected on a flat sheet: kFewOutliers plus kOutlierFraction
 /// times the number of dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
@@ -160,8 +161,8 @@ inline constexpr float kOfTurn = 8;
 /// dots changes slowly across the view, the bias differs between blocks, but it averages out over
 /// the view and is therefore not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// The reference point may be on either side of the dividing line if its distance from the line is
-/// below this limit, in spacings.
+/// Distance from the dividing line, in spacings, below which the reference point may be on either
+/// side of the line.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 

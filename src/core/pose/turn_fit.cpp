@@ -104,8 +104,8 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
         if (!is_fitted) return false;
     }
     // Linear regression: finds the combination of the residual changes in the three trials that
-    // cancels the residuals best. Each trial fits the plane again, so the changes exclude the part
-    // that the plane can explain. All steps are in units of Trial::step.
+    // cancels the residuals best. Each trial fits the plane again, so the changes exclude effects
+    // that the plane can absorb. All steps are in units of Trial::step.
     Matrix3 normal{};
     Vec3 right{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {

@@ -65,7 +65,8 @@ class Blocks {
     float variance_of_bias_;
 };
 
-/// Computes the blocks from only the dots on the reference point's side of the line.
+/// Computes the blocks of the dots on the reference point's side of the line, without the dots
+/// beyond it.
 Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const SplitFit& split) {
     const HalfPlane only(HalfPlane::Side::here, dots, split.plane, reference_px, split.step);
@@ -98,8 +99,8 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// Adds the uncertainty of place and rotation due to displacements of the blocks. The mean block
-/// residuals determine the variance of these displacements.
+/// Adds the uncertainty of place and rotation due to displacements of the blocks. The variance of
+/// these displacements is estimated from the mean block residuals.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.variance_of_sheet();
     add(tuned::kOfPlace * variance, 0, fit);
@@ -125,7 +126,7 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
 
 /// Handles a sheet that may be divided by a line:
 /// - If the line is certain, and the dots on the reference point's side are in one plane, replaces
-///   the plane by a fit to this side, and sets the surface to divided.
+///   the plane with a fit to this side, and sets the surface to divided.
 /// - Otherwise, keeps the plane, and sets the surface to uneven if the line is certain or if the
 ///   scatter between blocks exceeds kUneven. If a line was found, fits another plane to the
 ///   reference point's side, and adds the squared difference between the two poses to the
@@ -170,8 +171,8 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
 
 /// Returns the value of `GroupScatter::excess` above which the second attempt searches for a line.
 /// The limit increases with the number of dots, because with more dots, even the small block
-/// residuals of a flat sheet are significant, for example those due to pixel bias. At a dividing
-/// line, the residuals also become more significant, so they still exceed the limit.
+/// residuals of a flat sheet, such as those due to pixel bias, become significant. The residuals at
+/// a dividing line become more significant too, so they still exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));

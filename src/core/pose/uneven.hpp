@@ -14,7 +14,7 @@ namespace dotpose::core {
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 
-/// Overload for a plane that was fitted to observations. It takes longer, because it searches for a
+/// Overload for a plane that was fitted to observations. It is slower, because it searches for a
 /// line even if the correlation is much weaker. `dots` provides memory for the observations. If
 /// this memory is too small, the surface counts as even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
