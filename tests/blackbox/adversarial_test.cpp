@@ -37,8 +37,12 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
         std::uint64_t seed;
         std::uint64_t index;
     };
-    for (const Overlay& overlay :
-         {Overlay{7001, 3375}, {31018, 255}, {33112, 148}, {33112, 1705}, {44002, 10287}}) {
+    for (const Overlay& overlay : {Overlay{7001, 3375},
+                                   {31018, 255},
+                                   {33112, 148},
+                                   {33112, 1705},
+                                   {44002, 10287},
+                                   {45001, 34719}}) {
         const test::AdversarialFrame frame =
             test::make_adversarial(Adversary::overlay, overlay.seed, overlay.index);
         const Fix fix = Locator(*memory, frame.options).locate(frame.image.view());
