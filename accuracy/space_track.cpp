@@ -41,11 +41,14 @@ Shot hand_shot(const Shot& first, double t_s, std::uint64_t seed) {
     return shot;
 }
 
+/// Errors of poses and, if they are added, of velocities.
 struct TrackErrors {
     std::uint64_t count = 0;
-    double position = 0;    ///< sum of the squared errors, mm^2
-    double rotation = 0;    ///< sum of the squared errors, rad^2
-    double normalised = 0;  ///< sum of the normalised squared errors of all six coordinates
+    double position = 0;             ///< sum of the squared errors, mm^2
+    double rotation = 0;             ///< sum of the squared errors, rad^2
+    double normalised = 0;           ///< sum of the normalised squares of the six coordinates
+    double velocity = 0;             ///< sum of the squared errors, mm^2/s^2
+    double normalised_velocity = 0;  ///< sum of the mean normalised squares of the three axes
 
     void add(const CameraInSpace& camera, const SpaceCovariance& covariance,
              const TrueSpacePose& truth) {
@@ -55,15 +58,34 @@ struct TrackErrors {
         rotation += error.tail<3>().squaredNorm();
         normalised += normalised_square(error, matrix_of(covariance)) / 6;
     }
+    /// Adds the error of a velocity.
+    void add_velocity(const SpaceTrack& track, const Eigen::Vector3d& truth_mm_s) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double error = track.velocity_mm_s[i] - truth_mm_s[Eigen::Index(i)];
+            velocity += error * error;
+            normalised_velocity += error * error / track.velocity_covariance[i][i] / 3;
+        }
+    }
     double mean(double sum) const { return sum / static_cast<double>(count); }
     std::string text() const {
         return fmt::format("{:.4f} | {:.4f} | {:.2f}", std::sqrt(mean(position)),
                            std::sqrt(mean(rotation)) * kDegrees, mean(normalised));
     }
+    std::string velocity_text() const {
+        return fmt::format("{:.2f} | {:.2f}", std::sqrt(mean(velocity)), mean(normalised_velocity));
+    }
 };
 
+/// Returns the true velocity of the camera in `hand_shot`.
+Eigen::Vector3d true_velocity_mm_s(const Shot& first, double t_s) {
+    constexpr double kStep_s = 1e-4;
+    const TrueSpacePose before = true_space_pose(hand_shot(first, t_s - kStep_s, 0));
+    const TrueSpacePose after = true_space_pose(hand_shot(first, t_s + kStep_s, 0));
+    return (after.position_mm - before.position_mm) / (2 * kStep_s);
+}
+
 /// Tracks a sequence of sightings. Returns a table row with the errors.
-std::string row_text(double fps, const std::vector<Shot>& shots,
+std::string row_text(double fps, const Shot& first, const std::vector<Shot>& shots,
                      const std::vector<std::optional<SpaceSighting>>& sightings) {
     SpaceTracker tracker;
     TrackErrors single;
@@ -80,17 +102,18 @@ std::string row_text(double fps, const std::vector<Shot>& shots,
         const TrueSpacePose truth = true_space_pose(shots[i]);
         single.add(sightings[i]->camera, sightings[i]->covariance, truth);
         tracked.add(track.camera, track.covariance, truth);
+        tracked.add_velocity(track, true_velocity_mm_s(first, static_cast<double>(i) / fps));
         predicted.add(ahead->camera, ahead->covariance, truth);
     }
-    return fmt::format("| {} | {} of {} | {} | {} | {} | {} |\n", fps, single.count,
+    return fmt::format("| {} | {} of {} | {} | {} | {} | {} | {} |\n", fps, single.count,
                        shots.size() - kStart, rejected, single.text(), tracked.text(),
-                       predicted.text());
+                       tracked.velocity_text(), predicted.text());
 }
 
 }  // namespace
 
 bool space_track_table(TableRun& run) {
-    std::uint64_t frames = 230;
+    std::uint64_t frames = 1030;
     run.add_count("--frames", frames, "Number of frames of each row");
     run.add_seed();
     run.add_threads();
@@ -98,9 +121,10 @@ bool space_track_table(TableRun& run) {
     if (!run.parse()) return true;
     std::string text =
         "| frames/s | tracked | rejected | single frames: position, mm rms | rotation, degrees rms "
-        "| error² / variance | tracked: position | rotation | error² / variance | predicted by a "
-        "frame: position | rotation | error² / variance |\n"
-        "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+        "| error² / variance | tracked: position | rotation | error² / variance | velocity, "
+        "mm/s rms | error² / variance | predicted by a frame: position | rotation | error² / "
+        "variance |\n"
+        "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     bool is_complete = true;
     for (const double fps : {30.0, 60.0, 120.0}) {
         const Shot first = space_shot(kSpaceLenses[1], 0, scramble(run.seed + 3000), 0);
@@ -118,7 +142,7 @@ bool space_track_table(TableRun& run) {
                 if (reading.pose()) sightings[i] = sighting_of(*reading.pose(), time_us);
             });
         is_complete &= count.is_complete();
-        text += row_text(fps, shots, sightings);
+        text += row_text(fps, first, shots, sightings);
     }
     run.print_block("space track", text);
     run.update_document();

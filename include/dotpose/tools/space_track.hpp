@@ -13,8 +13,9 @@
 /// rotation in the camera frame. All poses are in one coordinate frame: the pattern, a sheet, or
 /// any other frame in mm.
 ///
-/// The covariance of a track assumes that the errors of the frames are independent. Printing errors
-/// at one place are equal in all frames, so the covariance is too small while the camera rests.
+/// Printing errors are equal in all frames that show the same dots. The tracker estimates which
+/// fraction of a sighting's covariance is independent between sightings. It smooths only this
+/// fraction. The rest is part of the covariance of the track, because averaging does not reduce it.
 #pragma once
 
 #include <array>
@@ -124,9 +125,18 @@ struct Motion {
     std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
     std::array<double, kStates * kStates> covariance{};
     /// Process noise along each axis: the ratio of the variance of the acceleration noise to the
-    /// variance in the options.
+    /// variance in the options. The axes are those of the rotation, and of the position from which
+    /// the part that a sighting cannot distinguish from the rotation is subtracted.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
-    std::array<double, 6> innovation{};  ///< innovation of the latest accepted sighting
+    /// Innovation of the latest accepted sighting, along these axes.
+    std::array<double, 6> innovation{};
+    SpaceCovariance noise{};  ///< covariance of the latest accepted sighting
+    /// Fraction of `noise` that is independent of the errors of earlier sightings, and the Fisher
+    /// information about its logarithm.
+    double independent = 1;
+    double independent_information = 3;
+    /// Innovation of the latest accepted sighting, multiplied by the inverse of its covariance.
+    std::array<double, 6> weighted_innovation{};
 };
 
 }  // namespace space_track
