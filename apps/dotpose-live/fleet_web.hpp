@@ -24,7 +24,7 @@ struct FleetWebOptions {
     ConditionLimits limits = {};
     std::string store = {};   ///< database of `--store` to read from, or empty for none
     std::string device = {};  ///< name of the robot for `dotpose listen`, or empty for a fleet
-    // The following functions may be called in any thread.
+    // The following functions may be called from any thread.
     std::function<Now()> now;
     std::function<FleetServices()> services;
     /// Removes a robot from the broker. Null if the page must not remove robots.

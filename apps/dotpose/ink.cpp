@@ -72,7 +72,7 @@ InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
 
 /// Reads all samples that have a tip. Throws Error if there are none.
 std::vector<InkSample> read_samples(const InkArguments& arguments) {
-    // Does not require any columns, because the output of `locate` has no times.
+    // No column is required, because the output of `locate` has no time column.
     LogReader log(system::path_of(arguments.log), {});
     std::vector<InkSample> samples;
     std::int64_t index = 0;

@@ -28,10 +28,10 @@ struct FixedVec {
 /// the distortion centre. The core clamps the divisor to at least 1/4, because the map is singular
 /// where the divisor is 0.
 struct PlaneFromImage {
-    FixedVec centre_q8;         ///< image point of (x, y) = (0, 0), in 2^-8 px
-    FixedVec at_centre_q16;     ///< plane point at `centre`, in 2^-16 spacings
-    FixedVec du_q24;            ///< plane vector of 1 px to the right, in 2^-24 spacings
-    FixedVec dv_q24;            ///< plane vector of 1 px down, in 2^-24 spacings
+    FixedVec centre_q8;      ///< image point of (x, y) = (0, 0), in 2^-8 px
+    FixedVec at_centre_q16;  ///< plane point at `centre`, in 2^-16 spacings
+    FixedVec du_q24;  ///< displacement in the plane per pixel to the right, in 2^-24 spacings
+    FixedVec dv_q24;  ///< displacement in the plane per pixel down, in 2^-24 spacings
     FixedVec perspective_q30;   ///< perspective, in 2^-30 / px
     std::int32_t lens_q40 = 0;  ///< lens distortion, in 2^-40 / px^2
 };

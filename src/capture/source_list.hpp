@@ -58,9 +58,9 @@ class SourceList : public FrameSource {
     std::int64_t dropped_before_ = 0;
     std::int64_t next_index_ = 0;
     std::int64_t next_time_us_ = 0;
-    std::int64_t first_index_ = 0;  ///< index of the first frame of the open source
-    std::int64_t offset_us_ = 0;    ///< offset added to the frame times of the open source
-    bool has_first_ = false;        ///< true if the open source has returned a frame
+    std::int64_t first_index_ = 0;  ///< index of the first frame of the current source
+    std::int64_t offset_us_ = 0;    ///< offset added to the frame times of the current source
+    bool has_first_ = false;        ///< true if the current source has returned a frame
     bool is_first_source_ = true;
 };
 

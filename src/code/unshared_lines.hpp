@@ -1,6 +1,6 @@
-// Unshared lines: the number of lines that distinguish two positions whose places differ in only
-// one of the four sequences. Two positions *share* the lines whose rolls differ by the same shift:
-// if the sections also differ by this shift, these lines have the same bits.
+// Unshared lines: counts the lines that distinguish two positions whose places differ in only one
+// of the four sequences. For a given shift, two positions *share* the lines whose rolls differ by
+// this shift. If their sections also differ by this shift, the shared lines have the same bits.
 // tests/unit/code/unshared_lines_test.cpp recomputes the tables.
 #pragma once
 

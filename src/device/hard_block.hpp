@@ -39,9 +39,9 @@ struct HardLines {
     /// added`, modulo 63, of the main sequence. If this number exceeds `limit`, may stop counting
     /// early, with a result that also exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
-    /// Returns the number of bits that contradict the code if the roll of each line is its roll in
-    /// section 0, from `rolls`, plus `added`, modulo 63. If this number exceeds `limit`, may stop
-    /// counting early, with a result that also exceeds `limit`.
+    /// Returns the number of bits that contradict the code. The roll of each line is (r + added)
+    /// mod 63, where r is its roll in section 0, taken from `rolls`. May stop early once the count
+    /// exceeds `limit`, and then returns a value greater than `limit`.
     int wrong_at(const code::RollsAhead& rolls, std::uint32_t added, int limit) const;
     /// Variant of `wrong_at` that computes the rolls. `position` is the position of the first line.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const {

@@ -1,4 +1,4 @@
-// On sheets: finds and verifies places on known sheets for a DeviceLocator.
+// Places on sheets: finds and verifies places on known sheets for a DeviceLocator.
 #pragma once
 
 #include "dotpose/device_options.hpp"

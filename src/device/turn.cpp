@@ -155,8 +155,8 @@ void Rounds::measure(int i, int j) {
     const FixedVec cell = FixedVec{i, j} - middle_;
     const FixedVec offset_q12{(p.y_q12 - p.x_q12) / 2 - dx(symbol) * tracking_.displacement_q12,
                               (p.y_q12 + p.x_q12) / 2 - dy(symbol) * tracking_.displacement_q12};
-    // The dot was measured relative to the cells after the change by the previous fit, so this
-    // change is added.
+    // The offset was measured relative to the cells as updated by the previous fit. Adding this
+    // update gives the offset from the original cells.
     const FixedVec moved_q12 = change(similarity_, {cell.x * (1 << 12), cell.y * (1 << 12)});
     fit_.add(cell, offset_q12 + moved_q12 + similarity_.shift_q12);
     masses_ += dot.mass;

@@ -352,8 +352,7 @@ bool SpaceTracker::take(const SpaceSighting& sighting) {
     if (is_ambiguous(sighting)) {
         const double second =
             squared_innovation(motion_, sighting, sighting.second->camera, options_);
-        // Twice the natural logarithm of the ratio of the likelihood of the first pose to that of
-        // the second pose.
+        // Twice the log-likelihood ratio of the first pose to the second.
         const double contrast = second - first - 2 * std::numbers::ln2 * sighting.second->odds_log2;
         if (std::abs(contrast) < kMinContrast) return false;
         if (contrast < 0) {

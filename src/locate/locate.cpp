@@ -158,10 +158,9 @@ class Cascade {
         return reading;
     }
 
-    /// Tests the frame in the other codes as if there were no earlier evidence. If the frame has a
-    /// certain fix in another code, adds the evidence of the frame to the reading. Without this
-    /// addition, strong earlier evidence for one code would prevent certain fixes on all sheets in
-    /// other codes.
+    /// Tests the frame against the other codes, ignoring all earlier evidence. If another code
+    /// yields a fix, adds the evidence of this frame to the reading. Otherwise, strong earlier
+    /// evidence for one code would prevent all fixes on sheets in other codes.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes all{CodeEvidence{}};

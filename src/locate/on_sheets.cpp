@@ -9,7 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the hard bits of those cells of a region in which both bits are clear (see kMinWeight).
+/// Returns the hard bits of the cells in `region`. Omits a cell if either of its bits has a weight
+/// below kMinWeight.
 /// Cell (0, 0) of the block is cell `middle` of the grid.
 BitBlock bits_of(const Grid& grid, const GridRegion& region, FixedVec middle) {
     BitBlock block;

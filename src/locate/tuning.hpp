@@ -19,8 +19,8 @@ inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Assumed maximum ratio of the number of dots in the filtered image to the number of dots in the
 /// original image.
 inline constexpr float kDotsOfFilteredImage = 1.25F;
-/// Maximum number of pixels at which an image with too few dots is refused without further
-/// attempts. In larger images, filtering often reveals many more dots.
+/// Maximum size, in pixels, of an image that is rejected without further attempts if it contains
+/// too few dots. In larger images, filtering often reveals many more dots.
 inline constexpr int kMaxPixelsOfFewDots = 96 * 96;
 /// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
 /// because each uncertain hypothesis increases the probability of a wrong fix.
@@ -63,8 +63,8 @@ inline constexpr float kMinGain = 3;
 /// spacings^2. In a false grid, the offsets are evenly distributed over discs with a radius of 0.18
 /// spacings, so their variance is 0.008.
 inline constexpr float kMaxVariance = 0.002F;
-/// Maximum number of grids for which the search looks up a place in the code. If these grids have
-/// no place in the code, further rotations often lead to the same grids.
+/// Maximum number of grids that the search looks up in the code. If none of these grids is found,
+/// further rotations usually lead to the same grids.
 inline constexpr int kMaxClimbs = 3;
 /// The image is measured again if the correction of the rotation moves the dots in its corners by
 /// at least kSettled_px. Smaller corrections are applied to the measured dots. kMaxRounds is the

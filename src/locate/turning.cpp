@@ -137,7 +137,7 @@ class TurnSearch {
     PatchGrid grid_;
 };
 
-/// Maps dots from the image without rotation back to the original image.
+/// Maps dots from the derotated image back to the original image.
 void show_in_original(const ReadoutTurn& turn, const ImageView& image, const FixedLens& lens,
                       std::span<DetectedDot> dots) {
     const FixedVec middle_q8 = centre_q8(image);

@@ -21,7 +21,7 @@ struct Kernel {
     /// Weights for the scene at one moment of the exposure.
     struct Moment {
         Weights x;
-        Weights y;  ///< multiplied by the fraction of the exposure that the moment represents
+        Weights y;  ///< scaled by the fraction of the exposure that this time sample represents
     };
     std::vector<Moment> moments;
 };

@@ -25,7 +25,7 @@ struct FoundCamera {
 std::vector<FoundCamera> find_cameras();
 
 /// Returns the cameras as a sentence without a full stop: "cameras are /dev/video0 (name), ...". If
-/// there are none, the sentence states this.
+/// there are no cameras, returns a sentence that reports that none was found.
 std::string in_one_line(const std::vector<FoundCamera>& cameras);
 
 }  // namespace dotpose::video

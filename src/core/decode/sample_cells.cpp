@@ -236,7 +236,8 @@ class Ink {
         int reliability_q4 = 16;
         int light_q8 = 256;
     };
-    /// Returns the sample of a cell, and marks its places under graphics.
+    /// Returns the sample of a cell. If graphics cover some of its dot places, records the covered
+    /// places in `cell`.
     Sample sample(const CellView& view, GridCell& cell) const {
         Sample sample;
         unsigned hidden = 0;

@@ -94,7 +94,7 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     if (ratios.lines.count() <= kMaxSharedInARow) return 1;
     const RankedLines lines(ratios);
     const float limit = power_of_two_exactly(limit_log2);
-    // Computes the fastest sums first, and stops when the sum exceeds the limit.
+    // Computes the cheapest sums first, and stops when their total exceeds the limit.
     float known = sum_of_single_alternatives(kernels, lines) + sum_of_other_sections(lines);
     if (known >= limit) return known;
     const float max_rest = std::min(limit, kUsualLimit) / 4;

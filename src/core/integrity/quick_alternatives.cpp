@@ -257,7 +257,9 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 [[gnu::noinline]] int ByShift::add_closely(std::uint32_t place, int sum) const {
     RollOffsets offsets;
     set_roll_offsets(ratios_, sequence_, place, offsets);
-    std::array<std::uint32_t, kSections> kept;  // avoided losses, by shift
+    // kept[s] is the sum of the minimum losses of the lines shared at shift s, which an alternative
+    // at this shift does not lose.
+    std::array<std::uint32_t, kSections> kept;
     for (int line = 0; line < ratios_.count(); ++line)
         kept[offsets[static_cast<std::size_t>(line)]] = 0;
     for (std::size_t i = 0; i < count_; ++i)

@@ -107,7 +107,7 @@ SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
     skip_sets();
 }
 
-/// Adds all sets that continue `node`. The compared lines from index `n` on are undecided.
+/// Adds all sets that extend `node`. The compared lines from index `n` on are undecided.
 void SetPlan::visit(std::size_t n, const Node& node) {
     const float expected = node.expected();
     if (expected < max_rest_ / 1024 && node.min_loss >= required_loss_) {

@@ -19,8 +19,8 @@ class Losses {
         add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         excluded_ |= carry;
     }
-    /// Returns the alternatives whose loss has reached kLimitParts parts, and the alternatives
-    /// excluded from the start.
+    /// Returns the bit mask of the excluded alternatives: those excluded initially, and those whose
+    /// loss is at least kLimitParts.
     std::uint32_t excluded() const { return excluded_; }
 
   private:
@@ -72,7 +72,7 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
         std::uint8_t parts = 0;
         for (int lost = lost_at(step); lost >= part; lost -= part)
             ++parts;
-        // A loss of only one part excludes so few places that its evaluation would not save time.
+        // Ignores a loss of a single part. It would exclude too few places to be worth evaluating.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
         const int with_this = max_loss_before + parts;

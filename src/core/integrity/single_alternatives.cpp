@@ -9,11 +9,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the loss, in bits, at which an alternative is skipped. Skipped alternatives are not
-/// evaluated line by line, but count with the odds at this loss. In views with at most 16 lines,
-/// many places lose 52 to 56 bits. The loss is smaller in these views, so that these places are
-/// skipped. Each skipped alternative counts once per line, so with 16 lines, the odds of all
-/// skipped alternatives add up to at most 2^-38.
+/// Returns the loss, in bits, at which an alternative is skipped. A skipped alternative is not
+/// evaluated line by line. Instead, it is charged the odds at this loss. The threshold is lower for
+/// views with at most 16 lines, because many places in such views lose 52 to 56 bits and would
+/// otherwise be evaluated. Each skipped alternative is charged once per line, so for 16 lines, the
+/// total charge is at most 2^-38.
 int bits_of_skipped(int lines) {
     return lines <= 16 ? 52 : 56;
 }

@@ -37,7 +37,8 @@ class UnsharedLines {
     /// Returns the number of tables that have at most `max_lines` lines and at most as many lines
     /// as the view. This object uses the last of these tables.
     std::size_t tables() const { return row_ + 1; }
-    /// Returns true if every single alternative in a sequence loses at least `loss_limit`.
+    /// Returns true if every alternative that differs from the reading only in `sequence` loses at
+    /// least `loss_limit`.
     bool all_lose(std::size_t sequence, Sharing sharing, int loss_limit) const {
         return min_loss(sequence, sharing) >= loss_limit;
     }

@@ -238,8 +238,9 @@ std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
             compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
 }
 
-/// Replaces the bounds on chance, which apply to one code, with bounds for several possible codes.
-/// `log2_codes_q8` is log2 of the weighted number of codes, in units of 2^-8.
+/// Replaces the bounds on the probability of a chance match, which assume a single code, with
+/// bounds for several candidate codes. `log2_codes_q8` is log2 of the number of candidate codes,
+/// weighted by their odds, in units of 2^-8.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, code, decoding);

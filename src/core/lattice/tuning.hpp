@@ -11,8 +11,8 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// Minimum fraction of dots near an intersection, in 1/20, at which a fit is extended to farther
-/// dots without being repeated. The fraction is less than 1, because some detected dots may be
+/// Minimum fraction of dots near an intersection, in units of 1/20, for extending a fit to farther
+/// dots without repeating it first. The fraction is less than 1, because some detected dots may be
 /// dirt.
 inline constexpr int kSettled_20th = 19;
 /// Minimum fraction of dots near an intersection in a grid, in 1/10. Half of randomly placed dots
@@ -22,7 +22,7 @@ inline constexpr int kMin_10ths = 7;
 
 /// Exact grid of the second attempt (lattice/refine_grid).
 namespace refine_grid {
-/// Maximum number of dots in the median offset that corrects the origin.
+/// Maximum number of dots used to compute the median offset, which corrects the origin.
 inline constexpr int kMedianSample = 256;
 /// Maximum number of fits before the fit extends to farther dots. Each fit assigns more dots to the
 /// correct cells.

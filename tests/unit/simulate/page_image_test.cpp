@@ -64,7 +64,7 @@ TEST(PageImage, ShowsWhatThePatternShows) {
     seen.vignetting = 0.3;
     seen.fall = 0.2;
     const CameraModel camera;
-    // The second view extends past a corner of the dots.
+    // The second view extends past a corner of the dotted area.
     for (const Vec2 at_mm : {Vec2{7.1, 5.63}, Vec2{12, 9.5}}) {
         CameraPose pose;
         pose.cell = page.origin;
