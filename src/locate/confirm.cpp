@@ -193,7 +193,7 @@ struct Reach {
 /// Corrects biases, fits the rotation during the readout if a rotation was removed from the image,
 /// tests for uneven paper, and writes the results. Returns implausible if the rotation cannot be
 /// fitted or if the fitted plane is not plausible. Returns uncertain if the fit does not explain
-/// the frame well (see `is_implausible` and `shows_overlay`).
+/// the frame well (see `is_implausible`, `explains_few_dots` and `shows_overlay`).
 Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInView& view,
                     const BitsRead& bits, Hypothesis& hypothesis, PoseFit& fit,
                     Measurement& measurement, Fix& fix) {
@@ -210,7 +210,8 @@ Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInVi
     add_variance(bias_px2, plane, fit);
     if (frame.removed_turn != nullptr) add_covariance(measurement.turn.pose_covariance, fit);
     if (!is_plausible(frame.image, plane)) return Confirmation::implausible;
-    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y) || shows_overlay(bits))
+    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y) ||
+        explains_few_dots(fit, bits.seen) || shows_overlay(bits))
         return Confirmation::uncertain;
     write_results(frame, hypothesis, bits, fit, measurement, fix);
     return Confirmation::ok;
@@ -311,6 +312,10 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors) {
     const float scatter = std::sqrt(fit.variance) / fit.displacement;
     const float contradicted = static_cast<float>(bit_errors) / static_cast<float>(bits);
     return scatter + contradicted > tuned::kMaxImplausible;
+}
+
+bool explains_few_dots(const PoseFit& fit, int dots_seen) {
+    return fit.surface == Surface::uneven && 2 * fit.dots < dots_seen;
 }
 
 bool are_too_few_cells(const Frame& frame, int count) {

@@ -29,6 +29,11 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane);
 /// cell. docs/integrity.md contains the measurements.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
+/// Returns true if the surface is uneven and less than half of the dots are inliers of the fitted
+/// plane. If these inliers are in one part of the image, the plane can be wrong in the other part,
+/// and the covariance, which assumes that all dots are near the plane, does not contain this error.
+bool explains_few_dots(const PoseFit& fit, int dots_seen);
+
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
