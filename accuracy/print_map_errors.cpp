@@ -14,8 +14,8 @@
 #include <Eigen/LU>
 #include <fmt/core.h>
 
+#include "../tests/map_input.hpp"
 #include "dotpose/files/degrees.hpp"
-#include "map_input.hpp"
 #include "tables.hpp"
 
 namespace dotpose::tables {
@@ -69,7 +69,7 @@ struct ViewError {
     Vector3d of_dots;
 };
 
-ViewError error_in_view(const SolverInput& input, const std::vector<Vector2d>& errors,
+ViewError error_in_view(const test::SolverInput& input, const std::vector<Vector2d>& errors,
                         const test::MappedPrint::Pose& pose, Vector2d half_view_mm) {
     const double weight = 1 / (input.start.noise_mm * input.start.noise_mm);
     const double prior = 1 / (input.start.jitter_mm * input.start.jitter_mm);
@@ -95,7 +95,7 @@ ViewError error_in_view(const SolverInput& input, const std::vector<Vector2d>& e
 }
 
 /// Returns the covariance at the node of the map nearest to `at_mm`.
-Matrix3d covariance_at(const SolverInput& input, const Vec2& at_mm) {
+Matrix3d covariance_at(const test::SolverInput& input, const Vec2& at_mm) {
     const calibrate::MapErrorGrid& errors = input.start.errors;
     const Vector2d size =
         input.grid.pitch_mm.cwiseProduct(Vector2d(input.grid.columns - 1, input.grid.rows - 1));
@@ -109,11 +109,11 @@ void add_map(const MapKind& kind, std::uint64_t seed, MapErrorSums& sums) {
                                    .height_mm = double(kind.height_mm),
                                    .width_px = kind.width_px,
                                    .height_px = kind.height_px});
-    SolverInput input = simulated_input(print, kind.frames, seed);
+    test::SolverInput input = test::simulated_input(print, kind.frames, seed);
     solve_map(input.grid, {}, input.reach_mm, input.observations, input.start, [](double) {
         if (cli::interrupted()) throw Error("interrupted");
     });
-    const std::vector<Vector2d> errors = offset_errors_mm(input, input.start);
+    const std::vector<Vector2d> errors = test::offset_errors_mm(input, input.start);
     const Vector2d half_view_mm =
         CameraModel{}.mm_per_px / 2 * Vector2d(kind.width_px, kind.height_px);
     constexpr std::uint64_t kViews = 100;

@@ -14,7 +14,7 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
-#include "map_input.hpp"
+#include "../tests/map_input.hpp"
 #include "tables.hpp"
 
 namespace dotpose::tables {
@@ -24,8 +24,8 @@ using calibrate::MapSolution;
 
 /// Returns the rms error of the offsets per axis, in µm, after the mean shift, turn and scale are
 /// subtracted.
-double offset_error_um(const SolverInput& input, const MapSolution& solution) {
-    const auto errors = offset_errors_mm(input, solution);
+double offset_error_um(const test::SolverInput& input, const MapSolution& solution) {
+    const auto errors = test::offset_errors_mm(input, solution);
     double squares = 0;
     double count = 0;
     for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -44,7 +44,7 @@ bool print_map_solver_table(TableRun& run) {
     if (!run.parse()) return true;
     const test::MappedPrint print(
         {.side_mm = 210, .height_mm = 297, .width_px = 640, .height_px = 480});
-    SolverInput input = simulated_input(print, frames, 5);
+    test::SolverInput input = test::simulated_input(print, frames, 5);
     MapSolution& solution = input.start;
     cli::ProgressLine line("solving");
     const std::clock_t start = std::clock();

@@ -176,8 +176,9 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
 
 /// Removes the mean offset, scale and turn of the seen dots from the offsets, because views of the
 /// page do not determine them. Applies the inverse similarity to the places of the dots, because
-/// the offsets turn with the page. For example, a turn by 0.003 rad changes the offsets of a feed
-/// wave of 40 µm by 0.13 µm.
+/// the offsets and the displacements of the code turn with the page. For example, a turn by 0.003
+/// rad changes the offsets of a feed wave of 40 µm by 0.13 µm, and the place of a dot that is
+/// displaced by 85 µm by 0.26 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;
@@ -198,8 +199,11 @@ void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     Eigen::Matrix2d similarity;
     similarity << 1 + gauge[2], -gauge[3], gauge[3], 1 + gauge[2];
     const Eigen::Matrix2d inverse = similarity.inverse();
+    double displacement_mm = 0;
+    for (const MapFrame& frame : solution.frames)
+        displacement_mm += frame.displacement_mm / static_cast<double>(solution.frames.size());
     for (std::size_t i = 0; i < grid.dots(); ++i) {
-        const Vector2d from_middle = grid.place_mm(i) - middle;
+        const Vector2d from_middle = grid.place_mm(i, displacement_mm) - middle;
         const Vector2d place = from_middle + solution.offset_mm[i].cast<double>() - gauge.head<2>();
         solution.offset_mm[i] = (inverse * place - from_middle).cast<float>();
     }

@@ -7,7 +7,7 @@
 
 #include "calibrate/map_start.hpp"
 
-namespace dotpose::tables {
+namespace dotpose::test {
 namespace {
 
 using calibrate::MapFrame;
@@ -18,8 +18,7 @@ using Eigen::Vector2d;
 constexpr double kDotNoise_mm = 0.00137;  ///< standard deviation of a measured dot, per axis
 
 /// Adds a frame: the measured positions of the dots in its view, and an approximate pose.
-void add_frame(const test::MappedPrint::Pose& pose, Vector2d half_view_mm, Rng& rng,
-               SolverInput& input) {
+void add_frame(const MappedPrint::Pose& pose, Vector2d half_view_mm, Rng& rng, SolverInput& input) {
     const MapGrid& grid = input.grid;
     const double pitch = grid.pitch_mm.x();
     const double displacement = pitch / 6;
@@ -52,8 +51,7 @@ void add_frame(const test::MappedPrint::Pose& pose, Vector2d half_view_mm, Rng& 
 
 }  // namespace
 
-SolverInput simulated_input(const test::MappedPrint& print, std::uint64_t frames,
-                            std::uint64_t seed) {
+SolverInput simulated_input(const MappedPrint& print, std::uint64_t frames, std::uint64_t seed) {
     SolverInput input;
     input.grid = calibrate::grid_of(print.entry());
     Rng rng(seed);
@@ -97,4 +95,4 @@ std::vector<Vector2d> offset_errors_mm(const SolverInput& input, const MapSoluti
     return errors;
 }
 
-}  // namespace dotpose::tables
+}  // namespace dotpose::test

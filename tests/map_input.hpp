@@ -7,10 +7,10 @@
 
 #include <Eigen/Core>
 
-#include "../tests/mapped_print.hpp"
 #include "calibrate/map_solver.hpp"
+#include "mapped_print.hpp"
 
-namespace dotpose::tables {
+namespace dotpose::test {
 
 /// A page with known offsets of its dots, and the dots measured in its frames.
 struct SolverInput {
@@ -23,12 +23,11 @@ struct SolverInput {
 
 /// Simulates frames at random poses on a print. `seed` determines the poses and the noise of the
 /// measured dots.
-SolverInput simulated_input(const test::MappedPrint& print, std::uint64_t frames,
-                            std::uint64_t seed);
+SolverInput simulated_input(const MappedPrint& print, std::uint64_t frames, std::uint64_t seed);
 
 /// Returns the errors of a solution's offsets, in mm, for all dots. The mean shift, turn and scale
 /// of the dots in view of any frame are subtracted, because the frames do not determine them.
 std::vector<Eigen::Vector2d> offset_errors_mm(const SolverInput& input,
                                               const calibrate::MapSolution& solution);
 
-}  // namespace dotpose::tables
+}  // namespace dotpose::test
