@@ -39,7 +39,7 @@ struct OtherCode {
 /// Likelihood ratios in all other codes.
 struct OtherCodes {
     bool are_wanted = false;
-    /// Value of `log2_in_question_q8` if the code is given.
+    /// Value of `log2_in_question_q8` if the caller specifies the code.
     static constexpr int kNoneInQuestion = -1;
     /// Upper bound on the weighted number of possible codes, as log2 in units of 2^-8. The weight
     /// of a code is its odds relative to the code that was read.

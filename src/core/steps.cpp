@@ -26,8 +26,8 @@ bool are_valid(const DeviceOptions& options) {
 
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
-    // The second attempt requires sides of at least kMinFrameSide_px. With Decoder::window, it is
-    // the only attempt, unless the effort is `device`.
+    // The second attempt requires sides of at least kMinFrameSide_px. Decoder::window uses only the
+    // second attempt, unless the effort is `device`.
     const bool may_be_small = options.effort == Effort::device || options.decoder == Decoder::all;
     if (std::min(width_px, height_px) < (may_be_small ? w.min_side_px : kMinFrameSide_px))
         return Status::image_too_small;
@@ -97,7 +97,8 @@ Status find_dots(const DeviceOptions& options, Workspace& w) {
     // Requires at least one dot even if `min_dots` is 0, because later stages compute means over
     // the dots.
     if (w.dot_count < std::max(min_dots(options, w), 1)) return Status::too_few_dots;
-    undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));  // eq. 1-2
+    // Removes the lens distortion (paper, equations 1-2).
+    undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));
     return Status::ok;
 }
 
@@ -106,10 +107,10 @@ Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w) {
     const int room = std::min(max_seeds, static_cast<int>(w.seeds.size()));
     w.seed_count = choose_seeds(dots, start_q8, first(w.seeds, room));
     const std::span<const std::uint16_t> seeds = first(w.seeds, w.seed_count);
-    // Finds the neighbours of each seed (paper, section II-B.2 and Fig. 3).
+    // Finds the neighbours of each seed (paper, section II-B.2 and figure 3).
     find_neighbours(dots, seeds, w.buckets, w.neighbours);
     w.edge_count = connect_symmetric(dots, seeds, w.neighbours, w.edges);
-    // Estimates the grid axes from the edges (paper, Fig. 4-5).
+    // Estimates the grid axes from the edges (paper, figures 4-5).
     return estimate_axes(first(w.edges, w.edge_count), w.edge_values, w.lattice);
 }
 

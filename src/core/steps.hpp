@@ -1,4 +1,5 @@
-// Steps: the steps of the paper's Fig. 1 that desktops and devices share, in integer arithmetic.
+// Steps: the steps of the pipeline (paper, figure 1) that desktops and devices share, in integer
+// arithmetic.
 #pragma once
 
 #include <algorithm>
@@ -59,7 +60,8 @@ Status find_dots(const DeviceOptions& options, Workspace& w);
 /// `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the region of the grid to decode. The memory for lines limits the size of the region.
+/// Chooses the region of the grid to decode. The region has at most as many columns, and as many
+/// rows, as fit in the memory for lines.
 void choose_region(Workspace& w);
 
 /// Returns `mirrored` if the bits agree with a mirrored pattern, and `reason` otherwise.

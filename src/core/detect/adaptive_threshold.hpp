@@ -63,9 +63,10 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 /// be called for each band in order, when `take_row` reports the band as ready.
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
-/// Returns the contrast below which a tile in the next band is considered blank, in grey levels.
-/// The limit increases with the largest contrast so far, from `options.min_contrast` to twice this
-/// value. Once tiles with dots have been measured, it therefore rejects noise in blank tiles.
+/// Returns the minimum contrast of tiles in the next band, in grey levels. Tiles with less contrast
+/// are considered blank. The minimum increases with the largest contrast so far, from
+/// `options.min_contrast` to twice this value. Once tiles with dots have been measured, it
+/// therefore rejects noise in blank tiles.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 inline int band_count(const AdaptiveThreshold& threshold) {

@@ -33,7 +33,7 @@ struct PixelBox {
     int pixels() const { return columns() * rows(); }
 };
 
-/// A summed-area table (Crow 1984). Returns the grey level sum of any box within its area.
+/// A summed-area table of grey levels (Crow 1984). It gives the sum over any box within its area.
 class LevelSums {
   public:
     static constexpr int kMaxSide_px = 48;

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up. Callers use a table of the results, because a division for
-/// each tile would be slower.
+/// Returns 2^24 / (n + 1), rounded up. Callers look up the results in a table, because a division
+/// for each tile would be slower.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }

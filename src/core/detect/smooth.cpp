@@ -71,8 +71,8 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
 }
 
 /// Returns half the side of the window over which the local mean level is computed, along one axis.
-/// Near the image border, the window is smaller so that it remains centred, because only a centred
-/// window cancels light gradients. The result is at least kMinHalf_px.
+/// The window is smaller near the image border, because only a window that is centred on the pixel
+/// cancels light gradients. The result is at least kMinHalf_px.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }

@@ -13,9 +13,10 @@ FixedVec centre_of(const FixedLens& lens, FixedVec image_centre_q8) {
 
 FixedVec undistorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8) {
     const FixedVec centre_q8 = centre_of(lens, image_centre_q8);
-    const FixedVec r_d = point_q8 - centre_q8;  // offset from the distortion centre (paper, eq. 1)
+    // Offset from the distortion centre (paper, equation 1).
+    const FixedVec r_d = point_q8 - centre_q8;
     const std::int64_t stretch_q30 = kOne_q30 + (bend_q48(lens.k_q40, r_d) >> 18);
-    return centre_q8 + divided_q30(r_d, std::max(stretch_q30, kOne_q30 / 4));  // paper, eq. 2
+    return centre_q8 + divided_q30(r_d, std::max(stretch_q30, kOne_q30 / 4));  // paper, equation 2
 }
 
 void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<DetectedDot> dots) {

@@ -1,4 +1,4 @@
-// Undistort: removes lens distortion from image points, or adds it (paper, eq. 1-2).
+// Undistort: removes lens distortion from image points, or adds it (paper, equations 1-2).
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -12,7 +12,7 @@ FixedVec undistorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec p
 void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<DetectedDot> dots);
 
 /// Adds the distortion to an undistorted image point: r_d = 2 r_u / (1 + sqrt(1 - 4 k r_u^2)). This
-/// is the inverse of `undistorted` (paper, eq. 2). If the point is so far from the distortion
+/// is the inverse of `undistorted` (paper, equation 2). If the point is so far from the distortion
 /// centre that no image point corresponds to it, the root is replaced with 0.
 FixedVec distorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 

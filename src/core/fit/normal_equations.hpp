@@ -48,8 +48,8 @@ class NormalEquations {
             minima[i] = min_determined * columns_[i].at(i);
         for (std::size_t i = 0; i < N; ++i) {
             Column& column = columns_[i];
-            // Also excludes a parameter that occurs in no equation, because its diagonal element is
-            // 0.
+            // The condition is also true for a parameter that occurs in no equation, because its
+            // diagonal element is 0.
             if (!(column.at(i) > minima[i])) {
                 if (i < required) return false;
                 leave_out(i);

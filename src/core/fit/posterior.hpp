@@ -1,7 +1,7 @@
 // Posterior: Bayesian shrinkage of the fitted distortion terms towards 0. The terms are 0 if a
 // camera without lens distortion looks straight at flat paper. The pose is less accurate if a
 // nonexistent distortion is fitted or if a real distortion is ignored, so the shrinkage depends on
-// the probability of distortion. The paper does not fit these terms.
+// the probability of distortion. Unlike the paper, dotpose fits these terms.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// Kernels: the inner loops over pixels, dots and cells. On desktop processors, locating a frame
-// spends most of its time in these loops. There is one implementation per vector width. All
-// implementations return bit-identical results, and `select.hpp` chooses the fastest. Lengths in
-// the image are in px.
+// Kernels: the inner loops over pixels, dots and cells. On desktop processors, most of the time for
+// a frame is spent in these loops. There is one implementation per vector width, and `select.hpp`
+// chooses the fastest. All implementations return bit-identical results. Lengths in the image are
+// in px.
 //
 // A cell is a grid intersection with its dot. The *places* of a cell are the four points where its
 // dot may be printed: above, left, right and below the intersection.
@@ -66,7 +66,7 @@ struct CellSums {
                                     ///< j^2
 };
 
-/// Maximum number of columns in view, at any rotation of the grid. The same limit applies to rows.
+/// Maximum number of columns in view, and of rows, at any rotation of the grid.
 inline constexpr int kMaxLinesInView = 1024;
 
 /// Where `list_cells` centres the measurement windows.
@@ -181,7 +181,7 @@ struct BlockSums {
 struct BitsRead {
     int seen = 0;     ///< number of cells with a dark spot
     int read = 0;     ///< number of `seen` cells whose spot is clearly at one of the four places
-    int wrong_x = 0;  ///< number of `read` cells whose x bit contradicts the code
+    int wrong_x = 0;  ///< number of `read` cells whose x bit disagrees with the code
     int wrong_y = 0;
     int right = 0;  ///< number of `read` cells without a wrong bit
     /// Sum of max(|x|, |y|) over the `right` dots, in spacings. (x, y) is the offset of a dot from
@@ -368,6 +368,7 @@ struct Kernels {
     /// false if
     /// - there are too many places,
     /// - there are fewer than two lines,
+    /// - there are five or seven lines, and only all of them together lose `loss_limit` or more,
     /// - `loss_limit` exceeds 200, or
     /// - an alternative that shares none of the first eight lines may lose less than `loss_limit`.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,

@@ -10,7 +10,7 @@
 namespace dotpose::core {
 namespace {
 
-constexpr int kMaxIterations = 10;  // paper, Fig. 5
+constexpr int kMaxIterations = 10;  // paper, figure 5
 constexpr std::size_t kMaxEdges = 2 * std::size_t{kMaxSeeds};
 constexpr std::size_t kMinEdges = 12;
 
@@ -82,7 +82,7 @@ struct Sum {
 };
 using Sums = std::array<Sum, 5>;  ///< indexed by Side
 
-/// Two of the four clusters. The other two clusters are their opposites (paper, Fig. 5).
+/// Two of the four clusters. The other two clusters are their opposites (paper, figure 5).
 class Clusters {
   public:
     explicit Clusters(const std::array<FixedVec, 2>& means_q8) : means_q8_(means_q8) {
@@ -137,7 +137,7 @@ class Clusters {
     std::int32_t farther_;
 };
 
-/// Determines the Side of each edge by constrained k-means (paper, Fig. 5).
+/// Determines the Side of each edge by constrained k-means (paper, figure 5).
 void constrained_k_means(std::span<const SeedEdge> edges, Clusters clusters, Sides& sides) {
     std::fill_n(sides.begin(), edges.size(), Side::unknown);
     Sums sums{};
@@ -149,8 +149,8 @@ void constrained_k_means(std::span<const SeedEdge> edges, Clusters clusters, Sid
     }
 }
 
-/// Returns the median edge of a cluster, computed separately in x and y (paper, Fig. 5, last
-/// lines).
+/// Returns the median edge of a cluster, computed separately in x and y (paper, last lines of
+/// figure 5).
 FixedVec cluster_median(std::span<const SeedEdge> edges, const Sides& sides, std::size_t cluster,
                         Values memory) {
     const Values x = memory.first(edges.size());

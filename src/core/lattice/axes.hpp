@@ -1,5 +1,5 @@
 // Axes: estimates the directions and spacings of the grid from symmetric edges between dots (paper,
-// section II-B.2, Fig. 5).
+// section II-B.2 and figure 5).
 #pragma once
 
 #include "dotpose/status.hpp"

@@ -30,7 +30,8 @@ class Buckets {
     }
 
   private:
-    /// The `begin` of element columns * rows is the end of the last bucket.
+    /// The element after the last bucket, at index columns * rows, is a sentinel. Its `begin` is
+    /// the end of the last bucket.
     const std::span<BucketedSeed> memory_;
     const std::size_t count_;
     int shift_ = 0;
@@ -145,7 +146,7 @@ class Nearest {
     std::array<std::uint32_t, 4> squared_q16_;
 };
 
-/// Merges every two adjacent bins.
+/// Doubles the bin width, by merging pairs of adjacent bins.
 void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
     for (std::size_t k = 0; k < kDistanceBins / 2; ++k) {
         histogram[k] = static_cast<std::uint16_t>(histogram[2 * k] + histogram[2 * k + 1]);

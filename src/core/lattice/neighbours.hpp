@@ -1,7 +1,8 @@
 // Neighbours: the nearest neighbours of each seed, and the symmetric edges between seeds (paper,
-// section II-B.2). *Seeds* are the dots nearest the image centre, at most kMaxSeeds. The paper
-// connects all dots. dotpose fits the first grid only to the seeds, to bound the time for any
-// image, and later stages extend the grid outwards (device/grow.hpp, lattice/refine_grid.hpp).
+// section II-B.2). *Seeds* are the dots nearest the image centre, at most kMaxSeeds. Unlike the
+// paper, which connects all dots, dotpose fits the first grid only to the seeds. This bounds the
+// time for any image. Later stages extend the grid outwards (device/grow.hpp,
+// lattice/refine_grid.hpp).
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,8 @@ struct PatchGrid {
     /// Root mean square displacement of the dots, in spacings. It is clamped to the range from
     /// kMinDisplacement to kMaxDisplacement (lattice/tuning.hpp).
     float displacement = 0;
-    /// Mean squared offset, per axis, between a dot and the nearest of the four places of its cell,
-    /// in spacings^2.
+    /// Mean squared offset, per axis, between a dot and the nearest place of its cell (see
+    /// kernels.hpp), in spacings^2.
     float variance = 0;
     /// Agreement of the dots with the grid, in spacings^2. Used to compare grids that were fitted
     /// to the same dots. If m is `CellPass::max_off`, each dot at a distance d <= m from the

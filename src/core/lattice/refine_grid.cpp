@@ -18,9 +18,9 @@ namespace tuned = tuning::refine_grid;
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Moves the origin by the median offset of the dots near the origin (paper, eq. 6). Unlike the
-/// paper, this function adds the median, because offsets are measured from the estimated origin.
-/// The subtraction in eq. 6 is a sign error.
+/// Moves the origin by the median offset of the dots near the origin (paper, equation 6). Unlike
+/// the paper, this function adds the median, because offsets are measured from the estimated
+/// origin. The subtraction in equation 6 is a sign error.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -108,8 +108,8 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
 
 /// Fits the plane to the dots whose cells are at most `reach_cells` from the origin. Each dot is
 /// fitted to its nearest intersection, or ignored if its offset exceeds `max_offset_q16` along an
-/// axis. Unlike the paper, which uses median lengths after eq. 6, this fit determines all terms by
-/// least squares. Displacements are treated as noise.
+/// axis. Unlike the paper, which uses median lengths in the text after equation 6, this fit
+/// determines all terms by least squares. Displacements are treated as noise.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {

@@ -1,5 +1,5 @@
 // Refine grid: extends the first grid estimate to all dots, with perspective and lens distortion
-// (paper, section II-B.3, eq. 6).
+// (paper, section II-B.3, equation 6).
 #pragma once
 
 #include "dotpose/device_options.hpp"

@@ -1,5 +1,6 @@
-// Regularity: agreement of the dots with a grid whose fit grows outwards. The *reach* of a fit is
-// the maximum distance between the origin and the cells of its dots, per axis, in cells.
+// Regularity: agreement of the dots with a grid that is fitted outwards, to more dots in each step.
+// The *reach* of a fit is the maximum distance between the origin and the cells of its dots, per
+// axis, in cells.
 #pragma once
 
 #include <algorithm>
@@ -52,10 +53,10 @@ struct Regularity {
 };
 
 /// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` must fit the grid
-/// to the dots at most `reach_cells` from the origin, and set `found`. Each fit assigns more dots
-/// to the correct cells, so the fit is repeated at each reach until enough dots are near an
-/// intersection, but at most `max_rounds` times. Then extends the reach, even if too few dots are
-/// near an intersection. Returns false if `fit` returns false.
+/// to the dots whose cells are at most `reach_cells` from the origin, and set `found`. Each fit
+/// assigns more dots to the correct cells, so the fit is repeated at each reach until enough dots
+/// are near an intersection, but at most `max_rounds` times. Then extends the reach, even if too
+/// few dots are near an intersection. Returns false if `fit` returns false.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {

@@ -11,9 +11,9 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// Minimum fraction of dots near an intersection, in units of 1/20, for extending a fit to farther
-/// dots without repeating it first. The fraction is less than 1, because some detected dots may be
-/// dirt.
+/// If at least this fraction of the dots, in 1/20, is near an intersection, the fit extends to
+/// farther dots without being repeated first. The fraction is less than 1, because some detected
+/// dots may be dirt.
 inline constexpr int kSettled_20th = 19;
 /// Minimum fraction of dots near an intersection in a grid, in 1/10. Half of randomly placed dots
 /// are near an intersection.
@@ -75,8 +75,8 @@ inline constexpr int kMinDots = 40;
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
 /// Limits on the total power of the two waves, divided by the squared number of dots. A grid
-/// without displacements reaches about 2. The search stops trying other spacings above kClearWaves,
-/// and rejects waves below kFaintWaves.
+/// without displacements reaches about 2. If the power exceeds kClearWaves, the search tries no
+/// other spacings. Waves with a power below kFaintWaves are rejected.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
 /// Range of spacings in the smoothed patch, in patch pixels. In a finer grid, the dots merge. In a
@@ -108,10 +108,10 @@ inline constexpr float kMaxOffset = 0.18F;
 inline constexpr float kMinUsed = 12;
 inline constexpr float kMinFraction = 0.4F;
 inline constexpr int kMaxRounds = 16;
-/// Factors by which `CellPass::reach_px` changes from round to round. The factor depends on the
-/// fraction of dots near one of the four places of their cell: above kGoodFraction, above
-/// kFairFraction, or lower. With few such dots, the reach shrinks, because the plane must first
-/// improve near the middle.
+/// Factors by which `CellPass::reach_px` changes after each round. Let f be the fraction of dots
+/// near one of the four places of their cell. The factor is kGoodGrowth if f exceeds kGoodFraction,
+/// kFairGrowth if f is between kFairFraction and kGoodFraction, and kPoorGrowth otherwise.
+/// kPoorGrowth is less than 1, because the plane must first improve near the middle.
 inline constexpr float kGoodFraction = 0.9F;
 inline constexpr float kGoodGrowth = 1.8F;
 inline constexpr float kFairFraction = 0.8F;

@@ -1,6 +1,5 @@
-/// Exponential function and logarithm in single precision. Unlike the C library functions, whose
-/// results may differ in the last bit between platforms, they return bit-identical results
-/// everywhere.
+// Exponential: the exponential function and the natural logarithm in single precision. The results
+// are bit-identical on all platforms. Results of the C library may differ in the last bit.
 #pragma once
 
 #include <cstdint>

@@ -22,8 +22,8 @@ struct FloatPlane {
     float bend = 0;
 };
 
-/// Radial lens distortion (paper, eq. 1-2). The distortion centre is relative to the plane centre,
-/// in px.
+/// Radial lens distortion (paper, equations 1-2). The distortion centre is relative to the plane
+/// centre, in px.
 struct FloatLens {
     float k = 0;  ///< distortion coefficient, in px^-2
     float centre_x = 0;
@@ -48,10 +48,13 @@ inline float spacing_px(const FloatPlane& plane) {
     return 1 / std::sqrt(std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y));
 }
 
-/// Returns true if the plane is a plausible view of paper. The spacing must be from 3 to 400 px,
-/// the sine of the angle between the mapped image axes must exceed 1/4, the map must not fold
-/// within the image, and the coordinates must fit in PlaneFromImage. Returns false if a value is
-/// NaN.
+/// Returns true if the plane is a plausible view of paper:
+/// - the spacing is from 3 to 400 px,
+/// - the sine of the angle between the mapped image axes exceeds 1/4,
+/// - the map does not fold within the image, and
+/// - the coordinates fit in PlaneFromImage.
+///
+/// Returns false if a value is NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, FixedVec centre_q8);

@@ -14,8 +14,8 @@ constexpr float power_of_two_exactly(int n) {
     return __builtin_bit_cast(float, static_cast<std::uint32_t>(std::max(n, -126) + 127) << 23);
 }
 
-/// Returns 2^(n / 256) for n < 127 * 256, where n is `n_q8`. The error is at most 2 %. Smaller
-/// values than -25,600 are treated as -25,600.
+/// Returns 2^(n / 256) for n < 127 * 256, where n is `n_q8`. The error is at most 2 %. Values of n
+/// below -25,600 are treated as -25,600.
 inline float power_of_two(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;

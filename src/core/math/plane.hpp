@@ -8,8 +8,8 @@ namespace dotpose::core {
 
 /// A point in grid coordinates: the nearest intersection and the offset from this intersection.
 struct GridPoint {
-    FixedVec cell;        ///< nearest intersection (paper, eq. 4)
-    FixedVec offset_q16;  ///< in spacings, each in [-1/2, 1/2) (paper, eq. 5)
+    FixedVec cell;        ///< nearest intersection (paper, equation 4)
+    FixedVec offset_q16;  ///< in spacings, each in [-1/2, 1/2) (paper, equation 5)
 };
 
 /// Maximum magnitude of coordinates in 2^-16 spacings, and of slopes in 2^-24 spacings per px.
@@ -33,13 +33,13 @@ inline bool is_affine(const PlaneFromImage& plane) {
 /// Returns the affine plane that maps image points to lattice coordinates. Requires u x v > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
-/// Maps an image point to the plane, in 2^-16 spacings (paper, eq. 3). The paper projects the point
-/// onto u and v, which is correct only for perpendicular axes and a camera without tilt. This
-/// function uses the inverse of the matrix (u, v) instead.
+/// Maps an image point to the plane, in 2^-16 spacings (paper, equation 3). Unlike the paper, which
+/// projects the point onto u and v, this function uses the inverse of the matrix (u, v). The
+/// projection is correct only for perpendicular axes and a camera without tilt.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the intersection nearest to an image point, and the point's offset from this
-/// intersection (paper, eq. 3-5).
+/// intersection (paper, equations 3-5).
 GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Maps a plane point to the image, in 2^-8 px. This is the inverse of `plane_point_q16`. The

@@ -5,15 +5,15 @@
 
 namespace dotpose::core {
 
-/// Place and residual of a measured dot in the pattern, in spacings.
+/// Position of a measured dot in the pattern, and its residual, in spacings.
 struct DotOffset {
-    FloatVec at;        ///< measured place
-    FloatVec residual;  ///< vector from the measured place to the printed place
+    FloatVec at;        ///< measured position
+    FloatVec residual;  ///< vector from the measured to the printed position
     float squared() const { return residual.x * residual.x + residual.y * residual.y; }
 };
 
-/// Returns the place and the residual of dot `k`. `plane` maps the measured centre to the pattern.
-/// `displacement` is the distance between a printed dot and its intersection, in spacings.
+/// Returns the position and the residual of dot `k`. `plane` maps the measured centre to the
+/// pattern. `displacement` is the distance between a printed dot and its intersection, in spacings.
 inline DotOffset dot_offset(const MeasuredDots& dots, std::size_t k, const FloatPlane& plane,
                             float displacement) {
     const FloatVec at = plane_point(plane, {dots.x[k], dots.y[k]});

@@ -10,7 +10,7 @@ namespace dotpose::core {
 class DotShape {
   public:
     /// Terms of the fit. `offset_u` and `offset_v` are the mean offset of the dots from their
-    /// expected places. The radii are squared half axes, and the blurs are two variances and their
+    /// expected centres. The radii are squared half axes, and the blurs are two variances and their
     /// covariance. `mass` is the total darkness of a dot. `paper` is the darkness of a pixel
     /// without ink, which is close to 0, because darkness is relative to the local paper level.
     enum Term : std::size_t {
@@ -37,7 +37,7 @@ class DotShape {
     }
     /// Returns the blur variance along each axis, in px^2.
     FloatVec blur_2() const { return {terms_[blur_u], terms_[blur_v]}; }
-    /// Returns the mean offset of the dots from their expected places, in px.
+    /// Returns the mean offset of the dots from their expected centres, in px.
     FloatVec offset() const { return {terms_[offset_u], terms_[offset_v]}; }
     /// Returns the variance of a quantity that depends on the terms, given its derivatives with
     /// respect to the terms. This is the variance from the normal equations times `misfit()`,

@@ -1,6 +1,7 @@
 // Float fit: fits the pose, in single precision, to dots that were measured near their predicted
-// places. It is a variant of `refine_pose` with vector kernels. The paper computes the pose from
-// the grid (eq. 10-12). This fit uses the printed places of the displaced dots instead.
+// image positions. It is a variant of `refine_pose` with vector kernels. Unlike the paper, which
+// computes the pose from the grid (paper, equations 10-12), this fit uses the printed positions of
+// the displaced dots.
 #pragma once
 
 #include "core/math/float_plane.hpp"

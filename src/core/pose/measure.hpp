@@ -1,7 +1,7 @@
-// Measure: measures the precise centres of all dots, near their predicted places. The second
-// attempt needs this stage, because it detects dots in a filtered image, in which dots are blurred
-// and some are missed. Unlike the paper, this stage uses windowed centroids, and measures dots up
-// to the image border. See docs/differs-from-paper.md.
+// Measure: measures the precise centres of all dots, near their predicted image positions. The
+// second attempt needs this stage, because it detects dots in a filtered image, in which dots are
+// blurred and some are missed. Unlike the paper, this stage uses windowed centroids, and measures
+// dots up to the image border. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -13,12 +13,12 @@ namespace dotpose::core {
 
 /// Measures the predicted dot of each cell. Overwrites `dots`, and sets `GridCell::dot` of every
 /// cell. The value is kNoDot if graphics hide the predicted dot, if there is no dot near the
-/// predicted place, or if `dots` is full.
+/// predicted position, or if `dots` is full.
 ///
 /// Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated from the predicted
-/// places. Windows are cropped at the image border. The mass of a dot is its peak darkness relative
-/// to the paper level, in units of 2^-14. If the mass of a dot is not typical, the dot remains in
-/// `dots`, but the `GridCell::dot` of its cell is kNoDot.
+/// positions. Windows are cropped at the image border. The mass of a dot is its peak darkness
+/// relative to the paper level, in units of 2^-14. If the mass of a dot is not typical, the dot
+/// remains in `dots`, but the `GridCell::dot` of its cell is kNoDot.
 ///
 /// Returns the number of dots in `dots`.
 int measure_dots(const ImageView& image, const FixedLens& lens,

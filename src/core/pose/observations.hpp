@@ -13,7 +13,7 @@ struct Observation {
     Symbol symbol;
 };
 
-/// Returns the printed place of a dot, in 2^-16 spacings relative to `Decoding::place`.
+/// Returns the printed position of a dot, in 2^-16 spacings relative to `Decoding::place`.
 inline FixedVec nominal_place_q16(const Observation& o, std::int32_t displacement_q16) {
     return {o.pattern_step.x * 65536 + dx(o.symbol) * displacement_q16,
             o.pattern_step.y * 65536 + dy(o.symbol) * displacement_q16};

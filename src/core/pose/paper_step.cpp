@@ -24,13 +24,16 @@ constexpr float kBehind = tuned::kBehind;
 /// Sums over the dots in one part of the sheet. A dot is *coherent* if its residual is small enough
 /// to be explained by a displacement of the part (tuned::kTogether).
 struct PartSums {
-    /// In this order: the number of dots, the sum of their log odds of being on the plane of the
-    /// whole sheet rather than at a random place (see tuned::kOnPlane), the number of coherent
-    /// dots, and the sum of the squared residuals of the coherent dots.
+    /// In this order:
+    /// - number of dots,
+    /// - sum of the log odds that a dot is on the plane of the whole sheet rather than at a random
+    ///   position (see tuned::kOnPlane),
+    /// - number of coherent dots, and
+    /// - sum of the squared residuals of the coherent dots.
     Four counts;
     Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
-    /// Coherent dots: sums of xx, xy and yy, and of the cross products of place and residual.
-    /// Places are relative to the reference point.
+    /// Coherent dots: sums of xx, xy and yy, and of the cross products of position and residual.
+    /// Positions are relative to the reference point.
     Four moments;
 
     PartSums& operator+=(const PartSums& o) {
@@ -93,14 +96,16 @@ struct Symmetric3 {
     }
 };
 
-/// Least-squares affine map from the places of all coherent dots to their residuals. A step biases
-/// the plane that was fitted to all dots: if the step is in the middle of the view, an affine
-/// change of this plane absorbs most of it. The step and this map are therefore fitted jointly.
+/// Least-squares affine map from the positions of all coherent dots to their residuals. A step
+/// biases the plane that was fitted to all dots: if the step is in the middle of the view, an
+/// affine change of this plane absorbs most of it. The step and this map are therefore fitted
+/// jointly.
 class AffineFit {
   public:
     AffineFit() = default;
-    /// `x_off` contains the sums of r, x r and y r over all coherent dots. (x, y) is the place of a
-    /// dot, and r is its residual along x. `y_off` contains the same sums for the residual along y.
+    /// `x_off` contains the sums of r, x r and y r over all coherent dots. (x, y) is the position
+    /// of a dot, and r is its residual along x. `y_off` contains the same sums for the residual
+    /// along y.
     AffineFit(const PartSums& all, const Triple& x_off, const Triple& y_off)
         : inverse_(Symmetric3{all.dots(), all.places[0], all.places[1], all.moments[0],
                               all.moments[1], all.moments[2]}
@@ -149,9 +154,10 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread at which the dots determine a step. The spread measures how poorly an affine
-    /// map approximates a step: it is the sum of the squared residuals of an affine map fitted to a
-    /// function that is 1 for dots beyond the line and 0 for all other dots.
+    /// The dots determine a step only if the spread exceeds this value. The spread measures how
+    /// poorly an affine map approximates a step. It is the sum of the squared residuals after an
+    /// affine map is fitted to a function that is 1 for dots beyond the line and 0 for all other
+    /// dots.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -296,8 +302,8 @@ class Search {
     /// Returns the log likelihood ratio of separate planes for the two parts to one plane for the
     /// whole sheet. Both parts have their own plane, because the plane of the whole sheet may fit
     /// neither of them. If the dots beyond the line fit their own plane worse than they fit random
-    /// places, their log odds count as 0. If the dots on this side fit their own plane worse than
-    /// they fit the plane of the whole sheet, they add nothing to the result.
+    /// positions, their log odds count as 0. If the dots on this side fit their own plane worse
+    /// than they fit the plane of the whole sheet, they add nothing to the result.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));

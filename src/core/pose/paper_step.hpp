@@ -1,6 +1,6 @@
 // Paper step: finds a line across which the print is displaced, for example because the printer fed
-// the sheet unevenly or because two sheets meet. The paper assumes instead that all dots are in one
-// plane.
+// the sheet unevenly or because two sheets meet. Unlike the paper, dotpose does not assume that all
+// dots are in one plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"

@@ -71,7 +71,7 @@ struct CentroidError {
 
 enum class Along : std::uint8_t { u, v };
 
-/// Returns the centroid error along one axis. `dot_px` and `window_px` are the places of the dot
+/// Returns the centroid error along one axis. `dot_px` and `window_px` are the positions of the dot
 /// and of the window centre, relative to a pixel centre. Like the kernels, divides the moments of
 /// both axes by the slope of the moment along u.
 CentroidError centroid_error(const DotShape& shape, Along axis, FloatVec dot_px, FloatVec window_px,
@@ -182,7 +182,7 @@ class ExpectedDots {
           centre_px_(centre_px),
           dots_(dots) {}
 
-    /// Calls `use` for the inliers among every `every`-th dot, with the index of the dot and the
+    /// Visits every `every`-th dot. Calls `use` for each inlier, with the index of the dot and the
     /// `Phase` of its expected image point.
     template <typename Use>
     void visit(std::size_t every, Use use) const {

@@ -1,7 +1,8 @@
-// Refine: fits the pose to all dots in view once the position is known, in single precision. The
-// position determines the printed place of each dot, including its displacement, and the pose is
-// the least-squares map from the measured centres to these places. The paper computes the pose from
-// the grid (eq. 10-12) instead, to which the displacements add noise.
+// Refine pose: fits the pose to all dots in view once the place in the code is known, in single
+// precision. The place determines the printed position of each dot, including its displacement. The
+// pose is the least-squares map from the measured centres to these printed positions. Unlike the
+// paper, which computes the pose from the grid (paper, equations 10-12), this fit is not affected
+// by the noise that displacements add to the grid.
 #pragma once
 
 #include "core/fit/solve_plane.hpp"

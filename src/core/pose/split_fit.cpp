@@ -13,9 +13,9 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Finds the residual that the largest number of dots near a point have in common (within
-/// kAgreement), and sets `common` to this residual, in spacings. Returns false if fewer than
-/// kMinAgreeing dots agree.
+/// Among the residuals of the dots near a point, finds the one that agrees with the most others,
+/// and sets `common` to this residual, in spacings. Residuals agree if their squared difference is
+/// less than kAgreement. Returns false if fewer than kMinAgreeing residuals agree.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;

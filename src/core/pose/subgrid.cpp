@@ -17,7 +17,7 @@ namespace {
 /// Sets the pose at the centre of an affine plane.
 void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& place, Fix& fix) {
     // The pose is the decoded position plus the vector to the reference point, in grid units
-    // (paper, eq. 10-12).
+    // (paper, equations 10-12).
     const FixedVec t = there.at_centre_q16;
     const Place at = moved(code, place, t.x >> 16, t.y >> 16);
     fix.cell = at.cell;

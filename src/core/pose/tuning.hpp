@@ -22,10 +22,10 @@ inline constexpr int kMinHalf_q8 = 768;
 /// frames, 2.19 µm and 5.36 µm. With 24, they are only 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
-/// Maximum squared distance between a dot and its predicted place, in units of sigma^2. The limit
-/// is large, because the pose fit rejects dirt as outliers. A smaller limit would also reject badly
-/// printed dots, so the pose would be less accurate and the residuals would not show the print
-/// errors.
+/// Maximum squared distance between a dot and its predicted image position, in units of sigma^2.
+/// The limit is large, because the pose fit rejects dirt as outliers. A smaller limit would also
+/// reject badly printed dots, so the pose would be less accurate and the residuals would not show
+/// the print errors.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton iterations. The fit ends early after a step shorter than
 /// kSettled_q8, in 1/256 px.
@@ -54,15 +54,16 @@ inline constexpr int kOutlier_medians = 12;
 /// Outlier limit for squared residuals, in units of the known variance of one coordinate. The limit
 /// for the residual is 4.1 standard deviations. By chance, 1 dot in 4,000 exceeds this limit.
 inline constexpr float kOutlier = 16.6F;
-/// Relative change of the outlier limit below which the inliers count as unchanged.
+/// If the relative change of the outlier limit is less than this, the inliers count as unchanged.
 inline constexpr float kSameLimit = 0.04F;
 /// Maximum fraction of the residual variance that is attributed to pixel noise.
 inline constexpr float kMaxByNoise = 0.9F;
 /// Minimum number of dots for `fit_plane`.
 inline constexpr int kMinDots = 20;
-/// Value of `moved` below which `fit_plane` has converged. If n is the nonlinearity of the plane
-/// (`settled` in float_fit.cpp), the limit is kNonlinearSettled / n^2, clamped to [kMinSettled,
-/// kMaxSettled]. After the last step, the remaining error is about a fifth of a standard deviation.
+/// `fit_plane` has converged if `moved` is below a limit. The limit is kNonlinearSettled / n^2,
+/// clamped to [kMinSettled, kMaxSettled], where n is the nonlinearity of the plane (see `settled`
+/// in float_fit.cpp). After the last step, the remaining error is about a fifth of a standard
+/// deviation.
 inline constexpr float kMinSettled = 0.2F;
 inline constexpr float kMaxSettled = 30;
 inline constexpr float kNonlinearSettled = 0.04F;
@@ -104,7 +105,8 @@ inline constexpr int kDots = 256;
 /// Width of the border around a dot that is included in the stacked images, because it contains the
 /// blurred edge.
 inline constexpr float kBeyondEdge_px = 1.5F;
-/// Blur variance above which dots may be larger than the model image, and the bias is negligible.
+/// If the blur variance exceeds this limit along both axes, the bias is not corrected: it is
+/// negligible, and dots may be larger than the model image.
 inline constexpr float kBlurred_px2 = 1.2F;
 /// Variance of the remaining bias after a correction, divided by the squared amplitude of the
 /// computed bias. The variance is kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is
@@ -131,23 +133,24 @@ namespace uneven {
 /// - kUneven: above this limit, a sheet without a line counts as uneven. At most about 1 in 1,000
 ///   flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
-/// Number of dots up to which kMaybeLine applies. With more dots, the limit is kMaybeLine *
-/// sqrt(dots / kMaybeLineDots), because block residuals become more significant on any sheet.
+/// The limit is kMaybeLine if there are at most this number of dots. With more dots, the limit is
+/// kMaybeLine * sqrt(dots / kMaybeLineDots), because block residuals become more significant on any
+/// sheet.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
-/// Maximum number of outliers to be expected on a flat sheet: kFewOutliers plus kOutlierFraction
-/// times the number of dots.
+/// Maximum expected number of outliers on a flat sheet: kFewOutliers plus kOutlierFraction times
+/// the number of dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
-/// Number of dots above which each image side is divided into nine blocks instead of at most
+/// If there are more dots than this, each image side is divided into nine blocks instead of at most
 /// kFewAlong.
 inline constexpr int kManyDots = 1000;
-/// Number of blocks along each side of the image, for at most kManyDots dots: the largest number
-/// from kMinAlong to kFewAlong for which a block contains at least kDotsPerBlock dots on average.
-/// With only one or two dots per block, the scatter within blocks would be unknown, and flat sheets
-/// would seem uneven.
+/// If there are at most kManyDots dots, the number of blocks along each image side is the largest
+/// number up to kFewAlong for which a block contains at least kDotsPerBlock dots on average, but at
+/// least kMinAlong. With only one or two dots per block, the scatter within blocks would be
+/// unknown, and flat sheets would seem uneven.
 inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
 inline constexpr int kDotsPerBlock = 4;
@@ -161,15 +164,15 @@ inline constexpr float kOfTurn = 8;
 /// dots changes slowly across the view, the bias differs between blocks, but it averages out over
 /// the view and is therefore not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// Distance from the dividing line, in spacings, below which the reference point may be on either
-/// side of the line.
+/// If the distance from the reference point to the dividing line is at most this, in spacings, the
+/// reference point may be on either side of the line.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
 /// Search for a line that divides a sheet (pose/paper_step, pose/split_fit).
 namespace paper_step {
-/// Maximum evidence of one dot for a plane that predicts its place. The evidence is the natural log
-/// of the odds that the dot is on the plane rather than at a random place in its cell.
+/// Maximum evidence of one dot for a plane. The evidence is the natural log of the odds that the
+/// dot is where the plane predicts it, rather than at a random position in its cell.
 inline constexpr float kOnPlane = 5;
 /// Maximum squared residual that a displaced part of the sheet can explain, in units of the
 /// residual variance.
@@ -198,8 +201,8 @@ inline constexpr int kRounds = 3;
 
 /// Rotation during the readout of a rolling shutter (pose/turn_fit).
 namespace turn {
-/// Steps for numerical derivatives: the change of the rotation moves dots in the image corners by
-/// kStep_px, and the change of the drift is kDriftStep, in px per row.
+/// Steps for numerical derivatives. The step of the rotation moves dots in the image corners by
+/// kStep_px. The step of the drift is kDriftStep, in px per row.
 inline constexpr float kStep_px = 0.3F;
 inline constexpr float kDriftStep = 0.02F;
 /// Standard deviation of the error of the drift that `drift_of` computes from the plane, in px per

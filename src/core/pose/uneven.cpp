@@ -65,8 +65,7 @@ class Blocks {
     float variance_of_bias_;
 };
 
-/// Computes the blocks of the dots on the reference point's side of the line, without the dots
-/// beyond it.
+/// Computes the blocks from the dots on the reference point's side of the line.
 Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const SplitFit& split) {
     const HalfPlane only(HalfPlane::Side::here, dots, split.plane, reference_px, split.step);
@@ -78,8 +77,8 @@ bool has_outliers(const Blocks& blocks) {
            tuned::kFewOutliers + tuned::kOutlierFraction * blocks.scatter().dots;
 }
 
-/// Adds `weight` times the squared difference between the poses of two planes at the reference
-/// point to the covariance, because either plane may be correct.
+/// Adds to the covariance `weight` times the squared difference between the poses of two planes at
+/// the reference point, because either plane may be correct.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -99,7 +98,7 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// Adds the uncertainty of place and rotation due to displacements of the blocks. The variance of
+/// Adds the variance of position and angle that displacements of the blocks cause. The variance of
 /// these displacements is estimated from the mean block residuals.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.variance_of_sheet();
@@ -125,15 +124,16 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
 }
 
 /// Handles a sheet that may be divided by a line:
-/// - If the line is certain, and the dots on the reference point's side are in one plane, replaces
-///   the plane with a fit to this side, and sets the surface to divided.
-/// - Otherwise, keeps the plane, and sets the surface to uneven if the line is certain or if the
-///   scatter between blocks exceeds kUneven. If a line was found, fits another plane to the
+/// - If a line with a gain above PaperStep::kCertain was found, and the dots on the reference
+///   point's side are in one plane, replaces the plane with a fit to this side, and sets the
+///   surface to divided.
+/// - Otherwise, keeps the plane, and sets the surface to uneven if the gain exceeds kCertain or if
+///   the scatter between blocks exceeds kUneven. If any line was found, fits another plane to the
 ///   reference point's side, and adds the squared difference between the two poses to the
 ///   covariance.
 ///
-/// In both cases, also widens the covariance if the blocks may be displaced, or if the line is
-/// certain and close to the reference point.
+/// In both cases, also widens the covariance if the blocks may be displaced, or if the gain exceeds
+/// kCertain and the line is close to the reference point.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
@@ -169,10 +169,10 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
         widen_by_blocks(blocks, fit);
 }
 
-/// Returns the value of `GroupScatter::excess` above which the second attempt searches for a line.
-/// The limit increases with the number of dots, because with more dots, even the small block
-/// residuals of a flat sheet, such as those due to pixel bias, become significant. The residuals at
-/// a dividing line become more significant too, so they still exceed the limit.
+/// Returns the limit of `GroupScatter::excess` for the second attempt, which searches for a line if
+/// the limit is exceeded. The limit increases with the number of dots, because with more dots, even
+/// the small block residuals of a flat sheet, such as those due to pixel bias, become significant.
+/// The residuals at a dividing line become more significant too, so they still exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));

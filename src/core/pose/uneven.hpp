@@ -1,6 +1,6 @@
 // Uneven: tests the residuals of neighbouring dots for correlation. If they are correlated, the
-// sheet is not flat, and the covariance of the fit is too small. The paper assumes instead that all
-// dots are in one plane.
+// sheet is not flat, and the covariance of the fit is too small. Unlike the paper, dotpose does not
+// assume that all dots are in one plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -8,9 +8,9 @@
 
 namespace dotpose::core {
 
-/// Tests the residuals of the fit for correlation. If a line certainly divides the sheet, and the
-/// reference point's side of the line is even, fits the plane again to this side. Sets `surface`
-/// and `uneven` of `fit`.
+/// Tests the residuals of the fit for correlation. If the gain of a dividing line exceeds
+/// PaperStep::kCertain, and the dots on the reference point's side of the line are in one plane,
+/// fits the plane again to these dots. Sets `surface` and `uneven` of `fit`.
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 
