@@ -28,8 +28,8 @@ constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
 constexpr float kSingles = 741;
 
-/// Returns an upper bound on 2^(n_q8 / 256), which is about 2 % too large. Exponents below -100
-/// count as -100.
+/// Returns an upper bound on 2^(n_q8 / 256) that is about 2 % too large. Exponents below -100 count
+/// as -100.
 constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
@@ -72,8 +72,8 @@ float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
                                         kFarAlternatives);
 }
 
-/// Returns an upper bound on the odds of all alternatives without a shared line: the other sections
-/// at the same position, and single alternatives at shifts without a shared line.
+/// Returns an upper bound on the summed odds of the alternatives that share no line: the reading's
+/// position in other sections, and single alternatives at shifts without a shared line.
 float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -213,7 +213,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     // still make the frame certain.
     const float enough = limit / 2;
     float sum = with(alternatives(kernels, ratios, unshared, limit));
-    // In small views, the second bound is seldom much tighter than the first.
+    // In small views, the second bound is rarely much tighter than the first. It is therefore
+    // computed only if the first bound is already small.
     const bool may_suffice_quickly = query.work == nullptr || sum < 1e-3F;
     if (sum > enough && !ratios.is_of_bits() && may_suffice_quickly)
         sum = with(power_of_two_rounded_up(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
@@ -221,7 +222,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
         const float counted = query.work == nullptr
                                   ? sum_of_alternatives(kernels, ratios, limit_log2)
                                   : sum_of_alternatives(kernels, ratios, limit_log2, *query.work);
-        // The factor covers the error of the exponentials.
+        // The factor covers the rounding errors of the exponentials in the sum.
         sum = with(1.03F * counted);
     }
     if (sum > limit) return 1;

@@ -274,14 +274,14 @@ class Finder {
     int shared_;
     Groups groups_;
     AnchorBytes anchors_{};  ///< 1 for each anchor
-    /// For each anchor, the minimum loss of an alternative that does not share it, rounded down. In
-    /// this unit, an alternative whose losses add up to kLimit has odds of at most kSkippedOdds,
-    /// whatever it gains in other lines.
+    /// For each anchor, the minimum loss of an alternative that does not share it, rounded down.
+    /// The unit is chosen such that an alternative whose losses add up to kLimit has odds of at
+    /// most kSkippedOdds, regardless of its gains in other lines.
     AnchorBytes losses_{};
 };
 
 /// Returns, for each n, a lower bound on the loss of an alternative that does not share n of the
-/// anchors. This is the sum of the n smallest minimum losses of the anchors, minus the maximum
+/// anchors. The bound is the sum of the n smallest minimum losses of the anchors, minus the maximum
 /// gain.
 std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines, int anchors) {
     std::array<int, kMaxAnchors> losses{};
@@ -348,9 +348,10 @@ float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& line
     const auto expected_odds = [&](int shared) {
         return kMargin * by_shared[static_cast<std::size_t>(shared)];
     };
-    // The search takes longer if fewer shared anchors are required: it visits 6 pairs of anchors
-    // for seven shared anchors, 18 pairs for four, and 66 pairs for two. Fewer than four are
-    // required only if the expected odds of the other pairs would exceed an eighth of `max_odds`.
+    // The search takes longer if fewer shared anchors are required. With 12 anchors, it visits 6
+    // pairs of anchors if seven shared anchors are required, 18 pairs if four are required, and 66
+    // pairs if two are required. Fewer than four are required only if the expected odds of the
+    // alternatives that share fewer than four would exceed an eighth of `max_odds`.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

@@ -101,7 +101,7 @@ class LikelihoodRatios {
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
     /// Returns log2 of the odds of an alternative whose total loss is `lost`, in units of 2^-8.
     int log2_odds_q8(int lost) const {
-        // A loss is twice the weight of the contradicting bits. 129 / 2^15 is about 1 / (2 * 127).
+        // Each wrong bit causes a loss of twice its weight. 129 / 2^15 is about 1 / (2 * 127).
         // Losses are clamped to keep the product within 32 bits.
         constexpr int kMaxLost = 1 << 18;
         return -(((std::min(lost, kMaxLost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
@@ -120,7 +120,7 @@ class LikelihoodRatios {
         return static_cast<float>(static_cast<std::int32_t>(exp2_q16(log2_q8 & 255))) * power;
     }
     /// Returns true if an alternative that loses `lost` in some lines is negligible: its odds are
-    /// at most 2^-64, whatever it gains in the other lines.
+    /// at most 2^-64, regardless of its gains in the other lines.
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;

@@ -106,12 +106,12 @@ class Finder {
     static_assert(code::kA4Restored.size() <= kLastPlaces);
     static_assert(kMaxPairs < kNone);
 
-    /// Visits all sets of shared lines that continue `shared`, which contains the shared lines
-    /// before `line`. `places` contains the places at which an alternative may share the lines in
+    /// Visits all sets of shared lines that extend `shared`, which contains the shared lines before
+    /// `line`. `places` contains the places at which an alternative may share the lines in
     /// `shared`. `lost` is the sum of the minimum losses of the other lines before `line`. Returns
     /// false if the search ends early, because it takes too long or the sum exceeds `max_odds_`.
-    /// Visits sets with more shared lines first, because these sets contain few alternatives, but
-    /// the alternatives with the largest odds.
+    /// Visits sets with more shared lines first, because these sets contain few alternatives, and
+    /// these alternatives have the largest odds.
     bool visit(int line, int lost, const PlaceSets& places, LineSet shared) {
         if (line == count_) return add_all(places, shared);
         const int loss = std::max(lines_.ratios.min_loss(line), 0);
@@ -247,7 +247,7 @@ class Finder {
 /// give the smallest loss limit.
 constexpr float kTilt = 0.9F;
 
-/// Minimum of the loss limit, in bits. A smaller limit would shorten the search only a little.
+/// Minimum loss limit, in bits. A smaller limit would not make the search much faster.
 constexpr float kMinBits = 24;
 
 /// Returns log2 of kMargin times the expected sum of the tilted odds of all far alternatives. The
@@ -280,8 +280,9 @@ std::optional<float> sum_of_likely_alternatives(const Kernels& kernels, const Ra
                                                 float max_rest, float max_odds) {
     // If the minimum losses of the lines that an alternative does not share add up to n or more
     // bits, its odds are at most 2^(-kTilt * n) times its tilted odds. `needed_bits` is the
-    // smallest n at which the tilted odds, multiplied by this factor, are at most `max_rest`. The
-    // skipped alternatives often lose more, because losses are mostly multiples of one bit.
+    // smallest n for which the tilted odds, multiplied by this factor, are at most `max_rest`.
+    // Losses are mostly multiples of the loss of one wrong bit, so the skipped alternatives often
+    // lose more. The result therefore uses their actual minimum loss.
     const float log2_tilted = log2_of_tilted_odds(kernels, lines);
     const float needed_bits = (log2_tilted - std::log2(max_rest)) / kTilt;
     constexpr float kMaxBits = 100;

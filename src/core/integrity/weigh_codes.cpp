@@ -102,7 +102,8 @@ class OtherPlaces {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = unshared.min_loss(table) - ratios_.max_gain();
-        // A place counts once for each shift where it shares a line, so at most `count_` times.
+        // A place is counted once for each shift at which it shares a line, so at most `count_`
+        // times.
         result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
