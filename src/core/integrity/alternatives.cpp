@@ -16,9 +16,9 @@ namespace dotpose::core {
 namespace {
 
 /// Maximum number of adjacent lines that two positions share in `anoto` and `microdots`. Two
-/// positions with six shared lines would be equal, because they would have five equal digits in
-/// each sequence, and five digits determine a place. In `libdots`, some positions share more lines.
-/// The near alternatives include these positions.
+/// positions that share six adjacent lines would be equal, because they would have five equal
+/// digits in each sequence, and five digits determine a place. In `libdots`, some positions share
+/// more lines. The near alternatives include these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
 /// The far alternatives are evaluated in detail only if their expected odds are below this value.
 /// If the expected odds are larger, a detailed evaluation is unlikely to make the fix certain.
@@ -117,8 +117,8 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 
 float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2,
                           WorkLimit& work) {
-    // Work of `RankedLines`, of the list of single alternatives, of `SetPlan`, and of the seam
-    // alternatives.
+    // Estimated work of `RankedLines`, of the list of single alternatives, of `SetPlan`, and of the
+    // seam alternatives, in processor instructions.
     constexpr std::size_t kPreparation = 110'000;
     if (ratios.lines.count() <= kMaxSharedInARow || !work.spend(kPreparation)) return 1;
     const RankedLines lines(ratios);

@@ -54,8 +54,8 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns an upper bound on the expected odds of the far alternatives. This is the bound of
-/// `far_log2_q8` in quick_alternatives.cpp with `roughly` set, but in floating point, and for all
+/// Returns an upper bound on the expected odds of the far alternatives. Computes the bound of
+/// `far_log2_q8` in quick_alternatives.cpp with `roughly` = true, but in floating point and for all
 /// alternative sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
@@ -152,8 +152,8 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 }
 
 /// Returns an upper bound on the summed odds of all alternatives except seam alternatives. If the
-/// other alternatives already exceed `limit`, leaves out the single alternatives, because the
-/// position is refused anyway.
+/// bound already exceeds `limit` without the single alternatives that share a line, leaves out
+/// these alternatives, because the position is refused anyway.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     const float sum = far_alternatives(kernels, ratios) + sharing_none(ratios);
@@ -196,10 +196,10 @@ float codes_in_question(const Query& query) {
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong. Returns 1 if chance and
-/// alternatives together exceed 2^limit_log2. Tries up to three bounds on the alternatives, each
-/// slower and tighter than the preceding bound. If the ratios come from hard bits, only the first
-/// bound is available.
+/// Returns an upper bound on the probability that the position is wrong along one axis. Returns 1
+/// if chance and alternatives together exceed 2^limit_log2. Tries up to three bounds on the
+/// alternatives, each slower and tighter than the preceding bound. If the ratios come from hard
+/// bits, only the first bound is available.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();

@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Index of the first line that is compared, and of the first cell in each line. `kFirst` is
+/// Index of the first compared line, and also of the first compared cell in each line. `kFirst` is
 /// relative to cell (0, 0), and `kFirstOfBlock` is relative to the first cell of a BitBlock.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);

@@ -17,8 +17,8 @@ namespace {
 /// reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// log2 of the odds above which every alternative is counted individually, unless the search for
-/// these alternatives takes too long (see `kMaxPairs`).
+/// If the odds of an alternative exceed 2^kLargeOdds_log2, it is counted individually, unless the
+/// search for such alternatives takes too long (see `kMaxPairs`).
 constexpr int kLargeOdds_log2 = -36;
 
 /// Set of anchors, which are the lines with the most information. Bit n represents anchor n.
@@ -184,7 +184,7 @@ class Buckets {
     std::array<Opposite, code::kA4Restored.size()> places_;
 };
 
-/// Adds up the odds of the double alternatives with at least `shared` shared anchors.
+/// Adds up the odds of the double alternatives that share at least `shared` anchors.
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
@@ -204,8 +204,8 @@ class Finder {
         float sum = 0;
         groups_.visit_pairs([&](std::size_t one, std::size_t other) {
             // Each call sorts the places of one sequence into buckets, and combines these places
-            // with the places of the sequences in the list. The places of a3 are never sorted into
-            // buckets, because a3 is the shortest sequence.
+            // with all places of each sequence in the list. The places of a3 are never sorted into
+            // buckets, because visiting all places is fastest for the shortest sequence.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });

@@ -73,9 +73,9 @@ unsigned opposite(unsigned key) {
 }
 
 /// Finds the likely alternatives. Visits all sets of lines whose minimum losses add up to less than
-/// the loss limit. For each set, lists the places in each sequence at which an alternative may
-/// share all other lines (see EqualPlaces), and adds the odds of the alternatives that share
-/// exactly these other lines.
+/// the loss limit. The lines of a set are those that an alternative does not share. For each set,
+/// lists the places in each sequence at which an alternative may share all lines outside the set
+/// (see EqualPlaces), and adds the odds of the alternatives that share exactly these lines.
 class Finder {
   public:
     Finder(const RankedLines& lines, int loss_limit, float max_odds)
@@ -91,8 +91,8 @@ class Finder {
         const bool is_complete = visit(0, 0, equal_places_.all(), 0);
         return is_complete || sum_ > max_odds_ ? std::optional(sum_) : std::nullopt;
     }
-    /// Returns the smallest sum of minimum losses, in the sets of lines that `sum` skipped. It is
-    /// at least the loss limit.
+    /// Returns the smallest sum of minimum losses among the sets of lines that `sum` skipped. The
+    /// result is at least the loss limit.
     int min_skipped_loss() const { return min_skipped_loss_; }
 
   private:
@@ -115,8 +115,9 @@ class Finder {
     bool visit(int line, int lost, const PlaceSets& places, LineSet shared) {
         if (line == count_) return add_all(places, shared);
         const int loss = std::max(lines_.ratios.min_loss(line), 0);
-        // Sets never contain a line with a minimum loss of 0. An alternative that shares such a
-        // line is counted in a set without this line, and would otherwise be counted twice.
+        // Sets of shared lines never contain a line without a positive minimum loss. An alternative
+        // that shares such a line is counted in a set without this line, and would otherwise be
+        // counted twice.
         if (loss > 0 && !visit_shared(line, lost, places, shared)) return false;
         if (lost + loss >= loss_limit_) {
             min_skipped_loss_ = std::min(min_skipped_loss_, lost + loss);
@@ -136,7 +137,8 @@ class Finder {
     }
 
     /// Adds the odds of all combinations of the given places that share exactly the lines `shared`.
-    /// Lines with a minimum loss of 0 may be shared or not. Returns false if the search ends early.
+    /// Lines without a positive minimum loss may be shared or not. Returns false if the search ends
+    /// early.
     bool add_all(const PlaceSets& places, LineSet shared) {
         std::size_t combinations = 1;
         for (std::size_t k = 0; k < lists_.size(); ++k) {

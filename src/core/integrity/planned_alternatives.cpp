@@ -27,7 +27,7 @@ constexpr int kSkippedBits = 46;
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
-/// A set of shared lines, and the lines that are not shared, by decreasing minimum loss.
+/// A set of shared lines, and the lines that are not shared, sorted by decreasing minimum loss.
 struct Pattern {
     Pattern(const RankedLines& lines, LineSet shared_) : shared(shared_), gaps(shared_) {
         for (int line = 0; line < lines.count(); ++line) {
@@ -123,8 +123,8 @@ class SetSearch {
     }
 
     /// Adds the odds of the far alternatives that share exactly the lines `shared`, which must not
-    /// be empty. Lines with a minimum loss of 0 may be shared or not. Returns false if the search
-    /// must end, because the sum exceeds `max_odds` or the work does not suffice.
+    /// be empty. Lines without a positive minimum loss may be shared or not. Returns false if the
+    /// search must end, because the sum exceeds `max_odds` or the work does not suffice.
     bool add(LineSet shared) {
         PlaceSets places = equal_places_.all();
         for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1)
@@ -165,7 +165,7 @@ class SetSearch {
     /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make
     /// the roll offset equal at both ends of each gap.
     void add_matches(const Pattern& pattern) {
-        int rest = 0;  // minimum loss in the compared lines after line n
+        int rest = 0;  // minimum loss in the packed lines after line n
         for (std::size_t n = pattern.packed_count; n-- > 0;) {
             losses_[n] = lines_.losses(pattern.unshared[n]);
             limits_[n] = skipped_loss_ - rest;

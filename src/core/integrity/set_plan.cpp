@@ -39,8 +39,8 @@ float odds_of_others(const OddsByOffset& odds) {
 /// undecided.
 struct SetPlan::Node {
     LineSet shared = 0;
-    /// For each sequence, the expected number of places with the digits of the reading in all steps
-    /// between adjacent shared lines.
+    /// For each sequence, the expected number of places that have the digits of the reading in all
+    /// steps between adjacent shared lines.
     std::array<float, 4> places;
     /// Probability that all gaps end at a shared line, times the mean odds in the lines that are
     /// not shared, for alternatives that differ in two, three and four sequences.
@@ -89,7 +89,7 @@ SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
     Node all;
     for (std::size_t k = 0; k < all.places.size(); ++k)
         all.places[k] = static_cast<float>(lines.ratios.basis[k].length);
-    float uncompared = 1;  // product of the mean odds in the lines with a minimum loss of 0
+    float uncompared = 1;  // product of the mean odds in the lines without a positive minimum loss
     for (int line = 0; line < lines.count(); ++line) {
         const OddsByOffset& odds = lines.odds()[static_cast<std::size_t>(line)];
         const float others = odds_of_others(odds);

@@ -16,10 +16,11 @@ struct PlannedSet {
     LineSet shared;
     float expected;    ///< expected odds of the far alternatives that share exactly these lines
     float work;        ///< work of the search for these alternatives, in processor instructions
-    bool is_required;  ///< true if the set must be searched, because single odds may be large
+    bool is_required;  ///< true if the set must be searched, because individual odds may be large
 };
 
-/// Chooses sets of lines. Lines with a minimum loss of 0 may be shared or not.
+/// Chooses the sets of lines to search. Lines without a positive minimum loss are in no set, and
+/// may be shared or not.
 class SetPlan {
   public:
     /// Makes a plan. The rest is the sum of the expected odds of all sets that are not searched.

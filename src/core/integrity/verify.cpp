@@ -93,9 +93,9 @@ Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOpt
     return doubt_of(agreements, options, decoding, fix);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong: the sum of the bound on chance
-/// and the odds of the alternatives. Adds the odds of seam alternatives only if this sum is at most
-/// `limit_q8`. All values are log2 in units of 2^-8.
+/// Returns an upper bound on the probability that the position is wrong along one axis: the sum of
+/// the bound on chance and the odds of the alternatives. Adds the odds of seam alternatives only if
+/// this sum is at most `limit_q8`. All values are log2 in units of 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
@@ -103,9 +103,10 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
     return std::min(sum_q8, 0);
 }
 
-/// For each axis, returns an upper bound on the probability that this axis is wrong, as log2 in
-/// units of 2^-8. `alternatives_q8(axis, ratios)` must return the odds of the alternatives. The
-/// result is 0 (probability 1) for an axis whose bound on chance exceeds `limit_q8`.
+/// Returns, for each axis, an upper bound on the probability that the position is wrong along this
+/// axis, as log2 in units of 2^-8. `alternatives_q8(axis, ratios)` must return the odds of the
+/// alternatives. The result is 0 (probability 1) for an axis whose bound on chance exceeds
+/// `limit_q8`.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -145,8 +146,8 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// For each axis, returns an upper bound on the probability that this axis is wrong, as log2 in
-/// units of 2^-8. Uses the bound on the alternatives from quick_alternatives.hpp.
+/// Returns, for each axis, an upper bound on the probability that the position is wrong along this
+/// axis, as log2 in units of 2^-8. Uses the bound on the alternatives from quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
