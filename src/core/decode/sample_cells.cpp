@@ -24,7 +24,7 @@ FixedVec place_60th(Symbol symbol) {
 /// Measurements at one of the four places of a cell.
 struct PlaceView {
     bool is_seen = false;
-    int darkness_q8 = 0;  ///< Darkness relative to the paper level, in 1/256.
+    int darkness_q8 = 0;  ///< darkness relative to the paper level, in 1/256
     /// Mean darkness of a square around the place, relative to the paper level, in 1/256. The
     /// square is 2/5 of a spacing wide.
     int shade_q8 = 0;
@@ -60,8 +60,8 @@ class CellSampler {
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Calls `use(cell, view)` for each cell with at least one place in the image. The places of
-    /// `view` are not sampled yet.
+    /// Calls `use(cell, view)` for each cell that has at least one place in the image. The places
+    /// of `view` are not sampled yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
     /// Sets `half_px`, and the darkness and shade of each place in the image.

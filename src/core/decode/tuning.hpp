@@ -64,8 +64,8 @@ inline constexpr int kMaxLight_q8 = 1024;
 /// Limits of the test for two patterns in one image. A cell is considered to have two dots if the
 /// darkness of its second darkest place exceeds both kSecondDot_3rds / 3 of the darkness of a
 /// typical dot and kSecondDot_4ths / 4 of the darkness of its darkest place. The image is
-/// considered to show two patterns if more than kMaxCrowded_8ths / 8 of the cells have two dots. In
-/// hard frames, at most a quarter of the cells had two dots.
+/// considered to show two patterns if more than kMaxCrowded_8ths / 8 of the completely visible
+/// cells have two dots. In hard frames, at most a quarter of these cells had two dots.
 inline constexpr int kSecondDot_3rds = 2;
 inline constexpr int kSecondDot_4ths = 3;
 inline constexpr int kMaxCrowded_8ths = 3;
@@ -94,7 +94,7 @@ namespace step_search {
 inline constexpr std::size_t kChoices = 3;
 }  // namespace step_search
 
-/// Vote on the quarter turn of the grid (decode/orientation, decode/bit_lines).
+/// Vote on the turn of the grid, in quarter turns (decode/orientation, decode/bit_lines).
 namespace turns {
 /// Number of lines per axis that vote. Must be even, because the lines are scored in pairs.
 inline constexpr int kVoters = 4;
