@@ -64,7 +64,7 @@ Place place_of_middle(CodeVariant code, int first_column, int first_row, const A
                       const AxisReading& row);
 
 /// Finds the place of cell (0, 0) in an upright block. Returns false if there are fewer than six
-/// columns or rows, or if no position agrees with them.
+/// columns or rows, or if `find_axis_briefly` finds no position on one of the axes.
 bool find_place(CodeVariant code, const BlockLines& lines, Place& place);
 
 }  // namespace dotpose::core

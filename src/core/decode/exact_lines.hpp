@@ -12,11 +12,10 @@ namespace dotpose::core {
 /// bits are valid.
 std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid);
 
-/// Finds the place of cell (0, 0) in an upright block from exact lines (see `exact_roll`). Skips
-/// the first quarter of the lines on each axis. Among the other lines, `run_length(code)` adjacent
-/// lines must be exact, and the code must contain their rolls. On each axis, the number of wrong
-/// bits must be at most half the number of lines. Returns false if one of these conditions is not
-/// met.
+/// Finds the place of cell (0, 0) in an upright block. On each axis, skips the first quarter of the
+/// lines, and decodes the first run of `run_length(code)` adjacent exact lines (see `exact_roll`).
+/// Returns false if an axis has no such run, if the code does not contain the rolls of the run, or
+/// if the number of wrong bits on an axis is more than half the number of lines.
 bool find_place_exactly(CodeVariant code, const BitBlock& block, Place& place);
 
 }  // namespace dotpose::core

@@ -1,5 +1,5 @@
-// Grid: the cells of a frame, with a quasi-probability for each bit (paper, section II-B.4, Fig.
-// 8).
+// Grid: the cells of a frame, with a quasi-probability for each bit (paper, section II-B.4 and
+// figure 8).
 #pragma once
 
 #include <cstddef>

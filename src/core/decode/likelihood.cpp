@@ -35,15 +35,15 @@ std::int8_t quasi_probability(std::int32_t projection_q16) {
     const int r_q8 = (projection_q16 * 6 + 128) >> 8;  // r / r0
     const int square_q16 = r_q8 * r_q8;
     if (square_q16 >= 3 * 65536) return 0;
-    // f = (3 r - r^3) / 2, with r in units of r0 (paper, eq. 9).
+    // f = (3 r - r^3) / 2, with r in units of r0 (paper, equation 9).
     const int f_q8 = (r_q8 * (3 * 65536 - square_q16)) >> 17;
     return static_cast<std::int8_t>((f_q8 * 127 + 128) >> 8);
 }
 
 namespace {
 
-/// Fills the grid. `point_of(dot)` returns the dot's nearest cell and its offset from the cell
-/// centre.
+/// Fills the grid. `point_of(dot)` returns the cell nearest the dot, and the offset of the dot from
+/// the cell centre.
 template <typename PointOf>
 Status assign(std::span<const DetectedDot> dots, int min_side, PointOf point_of, Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};
@@ -68,14 +68,14 @@ Status assign(std::span<const DetectedDot> dots, int min_side, PointOf point_of,
         const GridPoint g = point_of(dot);
         const auto i = static_cast<unsigned>(g.cell.x - here.i0);
         const auto j = static_cast<unsigned>(g.cell.y - here.j0);
-        // Projects the offset to get the two bits (paper, eq. 7-8). Unlike in the paper, y points
-        // down. The x bit is therefore 1 if the dot is displaced to the left or down, and the y bit
-        // is 1 if the dot is displaced to the right or down.
+        // Projects the offset to get the two bits (paper, equations 7 and 8). Unlike in the paper,
+        // y points down. The x bit is therefore 1 if the dot is displaced to the left or down, and
+        // the y bit is 1 if the dot is displaced to the right or down.
         if (i < columns && j < rows) {
             const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
                                 quasi_probability(g.offset_q16.y + g.offset_q16.x), index};
             GridCell& cell = here.storage[j * columns + i];
-            if (quality(read) > quality(cell)) cell = read;  // keeps the better dot (paper, Fig. 8)
+            if (quality(read) > quality(cell)) cell = read;  // the better dot (paper, figure 8)
         }
         ++index;
     }

@@ -10,8 +10,8 @@
 namespace dotpose::core {
 
 enum class Axis : std::uint8_t {
-    x,  ///< columns, read downwards, with the x bits
-    y,  ///< rows, read to the right, with the y bits
+    x,  ///< columns, which contain the x bits and are read downwards
+    y,  ///< rows, which contain the y bits and are read to the right
 };
 
 /// The scored lines of one axis.

@@ -7,8 +7,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of lines per axis that vote on the turn. The lines are from the middle half of the
-/// region, because they are longest there.
+/// Number of lines per axis that vote on the turn. The voting lines are in the middle half of the
+/// region, because lines are longest there.
 constexpr int kVoters = tuning::turns::kVoters;
 
 /// The columns or rows that vote on the turn. Reads one bit (x or y) of each cell.
@@ -97,8 +97,8 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
-    // Sums the best scores of the lines. The paper counts the lines that occur exactly in the main
-    // sequence. Unlike this count, the sum includes lines with misread bits.
+    // Sums the best scores of the lines. The paper instead counts the lines that occur exactly in
+    // the main sequence. Unlike this count, the sum also uses lines with misread bits.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);
@@ -125,8 +125,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
 }
 
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t upright) {
-    // A mirror image exchanges the x and y bits (paper, eq. 7-8). It may also reverse lines or flip
-    // bits.
+    // A mirror image exchanges the x and y bits (paper, equations 7 and 8). It may also reverse
+    // lines or flip bits.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);
     const auto is_much_more = [&](std::int32_t mirrored) {

@@ -13,8 +13,8 @@ struct Orientation {
     std::int32_t agreement;            ///< total score of the voting lines at the likeliest turn
 };
 
-/// Ranks the four turns by a vote of columns and rows. Compares each voting line with the main
-/// sequence as read and after a half turn. A half turn reverses the line and flips its bits.
+/// Ranks the four turns by a vote of columns and rows. Compares each voting line, both as read and
+/// after a half turn, with the main sequence. A half turn reverses the line and flips its bits.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
 /// Returns true if the bits of the region agree better with a mirrored pattern than with the

@@ -9,10 +9,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum number of lines per axis that determine a position.
+/// Minimum number of lines per axis. Fewer lines do not determine a position.
 constexpr int kMinLines = 6;
 
-/// Reads the position of an axis from each line's best roll.
+/// Reads the position on an axis from the best roll of each line.
 Status read_axis(CodeVariant code, const Lines& lines, AxisReading& reading) {
     std::array<std::uint8_t, kMaxLines> rolls{};
     for (int i = 0; i < lines.count(); ++i) {

@@ -24,7 +24,7 @@ FixedVec place_60th(Symbol symbol) {
 /// Measurements at one of the four places of a cell.
 struct PlaceView {
     bool is_seen = false;
-    int darkness_q8 = 0;  ///< Darkness relative to the paper level, in 1/256.
+    int darkness_q8 = 0;  ///< darkness relative to the paper level, in 1/256
     /// Mean darkness of a square around the place, relative to the paper level, in 1/256. The
     /// square is 2/5 of a spacing wide.
     int shade_q8 = 0;
@@ -60,8 +60,8 @@ class CellSampler {
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Calls `use(cell, view)` for each cell with at least one place in the image. The places of
-    /// `view` are not sampled yet.
+    /// Calls `use(cell, view)` for each cell that has at least one place in the image. The places
+    /// of `view` are not sampled yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
     /// Sets `half_px`, and the darkness and shade of each place in the image.
@@ -173,8 +173,8 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
     // Maximum distance between the cell centre and a pixel of a square, along an image axis. The
-    // centre of a square is at most a third of a spacing from the cell centre, so a third of the
-    // largest component of `u_q8` and `v_q8` is enough.
+    // offsets of the square along the two grid axes add up to at most a third of a spacing, so a
+    // third of the largest component of `u_q8` and `v_q8` is enough.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -223,8 +223,9 @@ class Ink {
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // Shade above which a place is considered to be under graphics. This is the geometric mean
-        // of the shades of a typical dot and of solid ink.
+        // A place is considered to be under graphics if its shade, or the shade beside it, exceeds
+        // this value. The value is the geometric mean of the shades of a typical dot and of solid
+        // ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
@@ -302,7 +303,7 @@ class Ink {
   private:
     const CellSampler& sampler_;
     int contrast_q8_ = 1;  ///< darkness of a typical dot relative to the paper level, in 1/256
-    /// shade above which a place is considered to be under graphics, in 1/256
+    /// Shade above which graphics are assumed to cover a place, in 1/256.
     int graphics_q8_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // Sample cells: reads the bits of each cell from the grey levels at its four places. In the second
-// attempt, this stage replaces the paper's projections of dot offsets (eq. 7-8). Unlike the
-// projections, it can use dots that blob detection missed. See docs/differs-from-paper.md.
+// attempt, this stage replaces the projections of dot offsets (paper, equations 7 and 8). Unlike
+// the projections, it can use dots that blob detection missed. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -13,8 +13,8 @@ namespace dotpose::core {
 /// Extends the grid over the whole image, up to `grid.side` cells per axis, and sets all bit
 /// weights. Places outside the image or under graphics favour neither bit value. Marks cells with
 /// places under graphics as hidden. Reduces the weights at the image border, near graphics and in
-/// dirty cells. Returns false if the image shows two patterns: more than 3/8 of the completely
-/// visible cells seem to contain two dots.
+/// dirty cells. Returns false if the image seems to show two patterns, because more than 3/8 of the
+/// completely visible cells seem to contain two dots.
 bool sample_cells(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
                   const PlaneFromImage& grid_from_image, Grid& grid);
 

@@ -53,8 +53,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading of all lines, given the position and roll of line `line`. Its score is the
-/// total over all lines.
+/// Returns the reading of all lines, given the position and roll of line `line`. The score of the
+/// reading is the total over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;

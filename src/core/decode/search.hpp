@@ -8,12 +8,13 @@
 
 namespace dotpose::core {
 
-/// Returns the number of consecutive lines that determine a position. `libdots` needs more lines,
-/// because strings of fewer than 7 digits repeat in its misprinted secondary sequence.
+/// Returns the number of consecutive lines that determine a position. `libdots` needs more lines
+/// than the other codes, because some strings of 6 digits occur more than once in its misprinted
+/// sequence a4.
 int run_length(CodeVariant code);
 
-/// Computes the position and roll of the first line from the position and roll of line `line`. Sets
-/// `rolls` to the rolls of all lines relative to the first line, modulo 63.
+/// Returns the position and roll of the first line, given the position and roll of line `line`.
+/// Sets `rolls` to the roll of each line minus the roll of the first line, modulo 63.
 AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll, int line,
                              std::span<std::uint8_t> rolls);
 

@@ -14,7 +14,7 @@
 
 namespace dotpose::core::tuning {
 
-/// Bit weights from the darkness at the four places of a cell (decode/sample_cells).
+/// Bit weights, computed from the darkness at the four places of a cell (decode/sample_cells).
 namespace sample_cells {
 /// Maximum number of cells in the sample for the median darkness and the median shade of a dot. The
 /// medians hardly change if graphics cover a quarter of the cells.
@@ -23,14 +23,14 @@ inline constexpr std::size_t kMedianSample = 256;
 /// square is the *shade* of the place. The square is wider than a dot, but does not reach the dots
 /// of neighbouring cells.
 inline constexpr int kShadePart = 5;
-/// Offsets from a place to the squares that are tested for graphics, in 1/60 spacing. Four squares
-/// are offset along one axis, and four squares diagonally. Together, the squares detect any stroke
-/// that touches the dot.
+/// Offsets from a place to the eight squares that are tested for graphics, in 1/60 spacing. Four
+/// squares are offset along one axis, and four squares are offset diagonally. Together, they detect
+/// any stroke that touches the dot.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
 /// Darkness of solid ink relative to the paper level, in 1/256. A place is considered to be under
-/// graphics if its shade exceeds the geometric mean of this value and the shade of a typical dot.
-/// If this value is halved or doubled, only 1,992 frames are located.
+/// graphics if its shade, or the shade beside it, exceeds the geometric mean of this value and the
+/// shade of a typical dot. If this value is halved or doubled, only 1,992 frames are located.
 inline constexpr int kSolidInk_q8 = 230;
 /// Reliability of the bits in a cell: a factor for their weights, in 1/16. The index is the number
 /// of places of the cell that are in the image.
@@ -40,32 +40,32 @@ inline constexpr int kReliabilityCovered_q4 = 10;
 /// A cell is near graphics if the shade beside one of its places exceeds kNearGraphics_5ths / 5 of
 /// the shade above which a place is considered to be under graphics.
 inline constexpr int kNearGraphics_5ths = 3;
-/// Reliability of a cell near graphics, in 1/16. With 3, 1,993 frames are located. With 14, 1,994
-/// frames are located.
+/// Reliability of a cell near graphics, in 1/16. The number of located frames is 1,993 with a value
+/// of 3, and 1,994 with a value of 14.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
-/// Darkness above which a cell's darkest place may be dirt, in tenths of the darkness of a typical
-/// dot.
+/// If the darkest place of a cell is darker than this, it may be dirt. The unit is a tenth of the
+/// darkness of a typical dot.
 inline constexpr int kDark_10ths = 13;
 /// Reliability of a cell whose darkest place may be dirt, in 1/16.
 inline constexpr int kReliabilityDark_q4 = 12;
-/// Darkness above which a cell's darkest place is probably dirt, in tenths of the darkness of a
-/// typical dot.
+/// If the darkest place of a cell is darker than this, it is probably dirt. The unit is a tenth of
+/// the darkness of a typical dot.
 inline constexpr int kTooDark_10ths = 16;
 /// Reliability of a cell whose darkest place is probably dirt, in 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Bit weight per unit of contrast, before clamping to 127. The contrast of a bit is the difference
 /// in darkness between the places for its two values, relative to a typical dot. A contrast of 0.42
-/// is enough for the maximum weight. With 150, 1,994 frames are located. With 600, 1,992 frames are
-/// located.
+/// is enough for the maximum weight. The number of located frames is 1,994 with a value of 150, and
+/// 1,992 with a value of 600.
 inline constexpr int kGain = 300;
 /// Maximum ratio of the paper level at a cell to the paper level at the image centre, in 1/256.
-/// Larger ratios are clamped to this maximum.
+/// Larger ratios are clamped to this value.
 inline constexpr int kMaxLight_q8 = 1024;
-/// Test for two patterns in one image. A cell is considered to have two dots if the darkness of its
-/// second darkest place is more than kSecondDot_3rds / 3 of a typical dot and more than
-/// kSecondDot_4ths / 4 of the darkest place. The image shows two patterns if more than
-/// kMaxCrowded_8ths / 8 of the cells have two dots. In hard frames, at most a quarter of the cells
-/// had two dots.
+/// Limits of the test for two patterns in one image. A cell is considered to have two dots if the
+/// darkness of its second darkest place exceeds both kSecondDot_3rds / 3 of the darkness of a
+/// typical dot and kSecondDot_4ths / 4 of the darkness of its darkest place. The image is
+/// considered to show two patterns if more than kMaxCrowded_8ths / 8 of the completely visible
+/// cells have two dots. In hard frames, at most a quarter of these cells had two dots.
 inline constexpr int kSecondDot_3rds = 2;
 inline constexpr int kSecondDot_4ths = 3;
 inline constexpr int kMaxCrowded_8ths = 3;
@@ -81,8 +81,8 @@ inline constexpr int kChoices = 8;
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
 /// Maximum number of runs, and of readings per run, in the first attempt and on devices. These
-/// limits bound the time for unreadable frames. Higher limits were needed by none of 2,000 nominal
-/// frames, and by 4 of 2,000 hard frames.
+/// limits bound the time for unreadable frames. None of 2,000 nominal frames needed higher limits,
+/// but 4 of 2,000 hard frames did.
 inline constexpr int kRunsBriefly = 3;
 inline constexpr int kReadingsBriefly = 8;
 }  // namespace search
@@ -94,7 +94,7 @@ namespace step_search {
 inline constexpr std::size_t kChoices = 3;
 }  // namespace step_search
 
-/// Vote on the quarter turn of the grid (decode/orientation, decode/bit_lines).
+/// Vote on the turn of the grid, in quarter turns (decode/orientation, decode/bit_lines).
 namespace turns {
 /// Number of lines per axis that vote. Must be even, because the lines are scored in pairs.
 inline constexpr int kVoters = 4;

@@ -21,7 +21,8 @@ struct Bits {
 };
 
 /// Returns the bits of a cell, rotated to the upright pattern. A quarter turn maps the displacement
-/// (x, y) to (-y, x), so it maps the projections (y - x, y + x) to (x + y, x - y) (paper, eq. 7-8).
+/// (x, y) to (-y, x). It therefore maps the projections (y - x, y + x) to (x + y, x - y) (paper,
+/// equations 7 and 8).
 constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     const auto minus_x = static_cast<std::int8_t>(-cell.x);
     const auto minus_y = static_cast<std::int8_t>(-cell.y);

@@ -6,12 +6,12 @@
 namespace dotpose::core {
 
 /// Returns the `side` x `side` window with the highest total quality (see `quality` in
-/// decode/likelihood.hpp). If the grid has fewer than `side` columns, the window contains all
-/// columns. The same applies to rows.
+/// decode/likelihood.hpp). If the grid has fewer than `side` columns (or rows), the window contains
+/// all columns (or rows).
 GridRegion choose_window(const Grid& grid, int side);
 
-/// Returns the mean quality of a region, in 1/256. The mean is 256 if every dot is exactly at one
-/// of its four possible places.
+/// Returns the mean quality of the cells in a region, in 1/256 of the maximum quality. The result
+/// is 256 if every cell has a dot exactly at one of its four places.
 int mean_quality_q8(const Grid& grid, const GridRegion& region);
 
 }  // namespace dotpose::core

@@ -16,12 +16,12 @@ namespace dotpose::core {
 namespace {
 
 /// Maximum number of adjacent lines that two positions share in `anoto` and `microdots`. Two
-/// positions with six shared lines would be equal, because they would have five equal digits in
-/// each sequence, and five digits determine a place. In `libdots`, some positions share more lines.
-/// The near alternatives include these positions.
+/// positions that share six adjacent lines would be equal, because they would have five equal
+/// digits in each sequence, and five digits determine a place. In `libdots`, some positions share
+/// more lines. The near alternatives include these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
 /// The far alternatives are evaluated in detail only if their expected odds are below this value.
-/// If the expected odds are larger, a detailed evaluation would hardly make the fix certain.
+/// If the expected odds are larger, a detailed evaluation is unlikely to make the fix certain.
 constexpr float kMaxOddsForDetail = 1e-4F;
 /// Default limit of the summed odds.
 constexpr float kUsualLimit = 0x1p-30F;
@@ -62,10 +62,10 @@ struct Expectation {
 
 /// Returns the summed odds of all alternatives. `known` is the sum of the odds of the single
 /// alternatives, the other sections, and the near alternatives that share kMaxSharedInARow lines.
-/// The function adds the other alternatives. It counts double alternatives, and near alternatives
-/// that share kMaxSharedInARow - 1 lines, one by one, because their true odds may exceed their
-/// expected odds. It uses expected odds only for sums that are negligible, or that cannot be
-/// counted in reasonable time. Stops when the sum reaches `limit`.
+/// The function adds the odds of the remaining alternatives. Double alternatives, and near
+/// alternatives that share kMaxSharedInARow - 1 lines, are counted one by one, because their true
+/// odds may exceed their expected odds. Expected odds are used only for sums that are negligible,
+/// or that cannot be counted in reasonable time. Stops when the sum reaches `limit`.
 float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
                         Expectation expected, float limit) {
     // Even if the caller's limit is larger than the default limit, sums count as negligible only if
@@ -117,8 +117,8 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 
 float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2,
                           WorkLimit& work) {
-    // Work of `RankedLines`, of the list of single alternatives, of `SetPlan`, and of the seam
-    // alternatives.
+    // Estimated work of `RankedLines`, of the list of single alternatives, of `SetPlan`, and of the
+    // seam alternatives, in processor instructions.
     constexpr std::size_t kPreparation = 110'000;
     if (ratios.lines.count() <= kMaxSharedInARow || !work.spend(kPreparation)) return 1;
     const RankedLines lines(ratios);

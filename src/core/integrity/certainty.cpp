@@ -28,8 +28,8 @@ constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
 constexpr float kSingles = 741;
 
-/// Returns an upper bound on 2^(n_q8 / 256), which is about 2 % too large. Exponents below -100
-/// count as -100.
+/// Returns an upper bound on 2^(n_q8 / 256) that is about 2 % too large. Exponents below -100 count
+/// as -100.
 constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
@@ -54,8 +54,8 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns an upper bound on the expected odds of the far alternatives. This is the bound of
-/// `far_log2_q8` in quick_alternatives.cpp with `roughly` set, but in floating point, and for all
+/// Returns an upper bound on the expected odds of the far alternatives. Computes the bound of
+/// `far_log2_q8` in quick_alternatives.cpp with `roughly` = true, but in floating point and for all
 /// alternative sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
@@ -72,8 +72,8 @@ float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
                                         kFarAlternatives);
 }
 
-/// Returns an upper bound on the odds of all alternatives without a shared line: the other sections
-/// at the same position, and single alternatives at shifts without a shared line.
+/// Returns an upper bound on the summed odds of the alternatives that share no line: the reading's
+/// position in other sections, and single alternatives at shifts without a shared line.
 float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -152,8 +152,8 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 }
 
 /// Returns an upper bound on the summed odds of all alternatives except seam alternatives. If the
-/// other alternatives already exceed `limit`, leaves out the single alternatives, because the
-/// position is refused anyway.
+/// bound already exceeds `limit` without the single alternatives that share a line, leaves out
+/// these alternatives, because the position is refused anyway.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     const float sum = far_alternatives(kernels, ratios) + sharing_none(ratios);
@@ -196,10 +196,10 @@ float codes_in_question(const Query& query) {
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong. Returns 1 if chance and
-/// alternatives together exceed 2^limit_log2. Tries up to three bounds on the alternatives, each
-/// slower and tighter than the preceding bound. If the ratios come from hard bits, only the first
-/// bound is available.
+/// Returns an upper bound on the probability that the position is wrong along one axis. Returns 1
+/// if chance and alternatives together exceed 2^limit_log2. Tries up to three bounds on the
+/// alternatives, each slower and tighter than the preceding bound. If the ratios come from hard
+/// bits, only the first bound is available.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -213,7 +213,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     // still make the frame certain.
     const float enough = limit / 2;
     float sum = with(alternatives(kernels, ratios, unshared, limit));
-    // In small views, the second bound is seldom much tighter than the first.
+    // In small views, the second bound is rarely much tighter than the first. It is therefore
+    // computed only if the first bound is already small.
     const bool may_suffice_quickly = query.work == nullptr || sum < 1e-3F;
     if (sum > enough && !ratios.is_of_bits() && may_suffice_quickly)
         sum = with(power_of_two_rounded_up(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
@@ -221,7 +222,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
         const float counted = query.work == nullptr
                                   ? sum_of_alternatives(kernels, ratios, limit_log2)
                                   : sum_of_alternatives(kernels, ratios, limit_log2, *query.work);
-        // The factor covers the error of the exponentials.
+        // The factor covers the rounding errors of the exponentials in the sum.
         sum = with(1.03F * counted);
     }
     if (sum > limit) return 1;

@@ -1,6 +1,7 @@
 // Certainty: tests whether a position is certain. The test computes an upper bound on the
-// probability that the position is wrong, due to chance, alternatives or seams. See
-// docs/integrity.md, "First and tracked attempts". likelihood_ratios.hpp defines the terms.
+// probability that the position is wrong because of chance, alternatives or seams, and compares
+// this bound with a limit. See docs/integrity.md, "First and tracked attempts".
+// likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Index of the first line that is compared, and of the first cell in each line. `kFirst` is
+/// Index of the first compared line, and also of the first compared cell in each line. `kFirst` is
 /// relative to cell (0, 0), and `kFirstOfBlock` is relative to the first cell of a BitBlock.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
@@ -31,9 +31,9 @@ std::uint32_t longest_run(std::uint32_t bits) {
 
 }  // namespace
 
-/// Compares `count` lines of one axis with the code, starting at line `first_line`. Uses only the
-/// middle kMaxComparedLines lines. rolls[i] is the roll of line first_line + i, at the cell
-/// `first_cell`.
+/// Compares lines of one axis with the code. rolls[i] is the roll of line first_line + i at the
+/// cell `first_cell`, for i < count. Of these lines, only those among the middle kMaxComparedLines
+/// lines of the block are compared.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;
@@ -52,8 +52,8 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
         // If a line has no wrong bits, keeps only its longest run of bits, because the tables in
-        // likelihood_ratios.cpp require runs without gaps. Ignoring bits can only increase the odds
-        // of alternatives.
+        // likelihood_ratios.cpp require runs without gaps. Ignoring correct bits can only increase
+        // the odds of alternatives.
         half.rolls[i] = static_cast<std::uint8_t>(roll);
         half.lines[i] = {code, wrong == 0 ? longest_run(seen) : seen, wrong};
         if (seen == 0) continue;

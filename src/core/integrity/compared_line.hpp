@@ -12,7 +12,7 @@ inline constexpr int kMaxComparedLines = 32;
 struct ComparedLine {
     std::uint32_t code = 0;   ///< bits of the code
     std::uint32_t seen = 0;   ///< 1 if the bit of the cell was read
-    std::uint32_t wrong = 0;  ///< 1 if the bit was read and contradicts the code
+    std::uint32_t wrong = 0;  ///< 1 if the bit was read and differs from `code`
 };
 
 }  // namespace dotpose::core

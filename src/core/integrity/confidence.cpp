@@ -32,8 +32,8 @@ std::uint32_t wrong_fraction_q16(int log_odds_q8) {
     return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));
 }
 
-/// Returns log2 of Chernoff's bound on the probability that random bits agree with a given place at
-/// least as well as the bits that were read, in units of 2^-16.
+/// Returns Chernoff's bound on the probability that random bits agree with a given place at least
+/// as well as the bits that were read, as log2 in units of 2^-16.
 std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
     std::int64_t sum_q16 = 0;
     for (int level = 0; level < Confidence::kLevels; ++level) {
@@ -88,8 +88,7 @@ int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8) {
 }
 
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8) {
-    // There are 410815348 positions, 63 sections and 4 orientations, and log2 of the product is
-    // 36.59.
+    // Number of positions, sections and orientations: log2(410,815,348 * 63 * 4) = 36.59.
     constexpr int kHypotheses_q8 = 9368;
     return agreement_log2_q8(axis, odds_per_bit_q8) + kHypotheses_q8 + log2_times_q8;
 }

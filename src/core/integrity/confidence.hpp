@@ -63,8 +63,9 @@ class Confidence {
 /// docs/integrity.md, "Alternatives: odds". Returns 0 if the bits contain no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Returns log2 of Chernoff's upper bound, in units of 2^-8, on the probability that random bits of
-/// the same weights agree with a given place at least as well as the bits that were read. The
+/// Returns Chernoff's upper bound on the probability that random bits with the same weights agree
+/// with a given place at least as well as the bits that were read, as log2 in units of 2^-8.
+/// Computes the bound for the given odds and for odds of 2^16, and returns the smaller bound. The
 /// result is an upper bound for any value of `odds_per_bit_q8`.
 int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 
@@ -75,8 +76,7 @@ int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Variant of `chance_log2` with a result in units of 2^-8. Multiplies the number of hypotheses by
-/// 2^(log2_times_q8 / 256). Computes the bound for the given odds and for odds of 2^16, and returns
-/// the smaller bound.
+/// 2^(log2_times_q8 / 256). Unlike `chance_log2`, uses the tighter bound of `agreement_log2_q8`.
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
 
 }  // namespace dotpose::core

@@ -17,8 +17,8 @@ namespace {
 /// reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// log2 of the odds above which every alternative is counted individually, unless the search for
-/// these alternatives takes too long (see `kMaxPairs`).
+/// If the odds of an alternative exceed 2^kLargeOdds_log2, it is counted individually, unless the
+/// search for such alternatives takes too long (see `kMaxPairs`).
 constexpr int kLargeOdds_log2 = -36;
 
 /// Set of anchors, which are the lines with the most information. Bit n represents anchor n.
@@ -184,7 +184,7 @@ class Buckets {
     std::array<Opposite, code::kA4Restored.size()> places_;
 };
 
-/// Adds up the odds of the double alternatives with at least `shared` shared anchors.
+/// Adds up the odds of the double alternatives that share at least `shared` anchors.
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
@@ -204,8 +204,8 @@ class Finder {
         float sum = 0;
         groups_.visit_pairs([&](std::size_t one, std::size_t other) {
             // Each call sorts the places of one sequence into buckets, and combines these places
-            // with the places of the sequences in the list. The places of a3 are never sorted into
-            // buckets, because a3 is the shortest sequence.
+            // with all places of each sequence in the list. The places of a3 are never sorted into
+            // buckets, because visiting all places is fastest for the shortest sequence.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -274,14 +274,14 @@ class Finder {
     int shared_;
     Groups groups_;
     AnchorBytes anchors_{};  ///< 1 for each anchor
-    /// For each anchor, the minimum loss of an alternative that does not share it, rounded down. In
-    /// this unit, an alternative whose losses add up to kLimit has odds of at most kSkippedOdds,
-    /// whatever it gains in other lines.
+    /// For each anchor, the minimum loss of an alternative that does not share it, rounded down.
+    /// The unit is chosen such that an alternative whose losses add up to kLimit has odds of at
+    /// most kSkippedOdds, regardless of its gains in other lines.
     AnchorBytes losses_{};
 };
 
 /// Returns, for each n, a lower bound on the loss of an alternative that does not share n of the
-/// anchors. This is the sum of the n smallest minimum losses of the anchors, minus the maximum
+/// anchors. The bound is the sum of the n smallest minimum losses of the anchors, minus the maximum
 /// gain.
 std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines, int anchors) {
     std::array<int, kMaxAnchors> losses{};
@@ -348,9 +348,10 @@ float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& line
     const auto expected_odds = [&](int shared) {
         return kMargin * by_shared[static_cast<std::size_t>(shared)];
     };
-    // The search takes longer if fewer shared anchors are required: it visits 6 pairs of anchors
-    // for seven shared anchors, 18 pairs for four, and 66 pairs for two. Fewer than four are
-    // required only if the expected odds of the other pairs would exceed an eighth of `max_odds`.
+    // The search takes longer if fewer shared anchors are required. With 12 anchors, it visits 6
+    // pairs of anchors if seven shared anchors are required, 18 pairs if four are required, and 66
+    // pairs if two are required. Fewer than four are required only if the expected odds of the
+    // alternatives that share fewer than four would exceed an eighth of `max_odds`.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

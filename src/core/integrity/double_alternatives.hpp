@@ -9,15 +9,16 @@ namespace dotpose::core {
 /// Returns the summed odds of all double alternatives: 187,810 pairs of places, at all shifts. The
 /// result is at least 2^-41. Requires at least 6 lines.
 ///
-/// Anchors are the lines with the most information, at most 12. The sum contains the individual
-/// odds of the pairs that share at least k anchors. For all other pairs, the sum contains their
-/// expected odds times kMargin. `expected` is the expected sum of the odds of all pairs.
+/// Anchors are the lines with the most information. There are at most 12 anchors. The sum contains
+/// the individual odds of the pairs that share at least k anchors. For all other pairs, the sum
+/// contains their expected odds times kMargin, called the expected part. `expected` is the expected
+/// sum of the odds of all pairs.
 ///
-/// A smaller k reduces the expected part of the sum, but the search for the pairs takes longer.
-/// Normally, the expected part is at most 4 * `negligible`. If this would require k < 4, an
-/// expected part of up to `max_odds` / 8 is accepted instead, and k is at least 2. If the expected
-/// part exceeds `max_odds` even then, the function returns it without evaluating any pairs, because
-/// the caller refuses the fix.
+/// A smaller k reduces the expected part, but the search for the pairs takes longer. Normally, the
+/// expected part is at most 4 * `negligible`. If this would require k < 4, an expected part of up
+/// to `max_odds` / 8 is accepted instead, and k is at least 2. If the expected part exceeds
+/// `max_odds` even then, the function returns the expected part without evaluating any pairs,
+/// because the caller refuses the fix.
 float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& lines, float expected,
                                  float negligible, float max_odds);
 

@@ -8,9 +8,9 @@
 
 namespace dotpose::core {
 
-/// Safety factor for expected odds. It is necessary because the odds at a given position can exceed
-/// the mean over all positions. On 5,630 axes of hard frames, the odds of double alternatives were
-/// at most 21 times the mean.
+/// Safety factor for expected odds. The factor is necessary because the odds at a given position
+/// can exceed the mean over all positions. On 5,630 axes of hard frames, the odds of double
+/// alternatives were at most 21 times the mean.
 inline constexpr float kMargin = 32;
 
 /// Returns the expected sum of the odds of the far alternatives that differ from the reading in

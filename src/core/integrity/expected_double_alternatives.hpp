@@ -10,9 +10,9 @@ namespace dotpose::core {
 /// Maximum number of anchors. Anchors are the lines with the most information, which have the
 /// lowest ranks.
 inline constexpr int kMaxAnchors = 12;
-/// Maximum n in the result of `expected_double_alternatives`. Alternatives that share n or more
-/// anchors are not in this expectation, because they are counted individually (`Finder` in
-/// double_alternatives.cpp).
+/// Maximum index n in the result of `expected_double_alternatives`. Element n does not include
+/// alternatives that share n or more anchors, because these are counted individually (see `Finder`
+/// in double_alternatives.cpp).
 inline constexpr int kMinFound = 7;
 
 /// Returns, for each n, the expected sum of the odds of all double alternatives that share fewer

@@ -70,7 +70,7 @@ class ScoredAxis {
     RollScores scores_;
 };
 
-/// A block in one orientation, with scored lines. `upright` is the block after rotation.
+/// The scored lines of a block in one orientation. `upright` is the block after rotation.
 struct ScoredTurn {
     LineRange columns_range;
     LineRange rows_range;

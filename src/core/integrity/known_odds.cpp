@@ -72,8 +72,8 @@ class OddsByClass {
     std::array<std::array<float, kRollEntries>, kSections> odds_;
 };
 
-/// Returns an upper bound on the probability that at most `wrong` of `bits` random bits contradict
-/// a given place. With n = `bits` and e = `wrong`:
+/// Returns an upper bound on the probability that at most `wrong` of `bits` random bits disagree
+/// with the code at a given place. With n = `bits` and e = `wrong`:
 ///     sum over k <= e of C(n, k) 2^-n <= C(n, e) 2^-n / (1 - e / (n - e + 1))
 /// Returns 1 if at least a third of the bits are wrong.
 float random_agreement(int bits, int wrong) {
@@ -111,8 +111,9 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;
     // An unknown sheet may have the same rows as a known sheet. All y bits then agree with the code
-    // and determine the orientation, the roll and the row position, so that only the columns of one
-    // class remain possible. The same applies to rows if an unknown sheet has the same columns.
+    // and determine the orientation, the roll and the row position, so only the columns of one
+    // class remain possible. Likewise, if an unknown sheet has the same columns, only the rows of
+    // one class remain possible.
     return anywhere + columns * random_agreement(bits, wrong[0]) +
            rows * random_agreement(bits, wrong[1]);
 }

@@ -17,7 +17,7 @@ struct KnownPlace {
     int quarters = 0;            ///< argument of `turned` that makes the block upright
     Place place;                 ///< place of cell (0, 0) of the turned block
     int bits = 0;                ///< number of bits in the block; a dot has two bits
-    std::array<int, 2> wrong{};  ///< number of wrong bits on x and y
+    std::array<int, 2> wrong{};  ///< number of wrong x bits and of wrong y bits
 
     /// Returns true if at most max_bit_error_q8 / 256 of the bits on each axis are wrong.
     bool is_plausible(const IntegrityOptions& options) const {

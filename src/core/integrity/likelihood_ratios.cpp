@@ -127,8 +127,8 @@ void LikelihoodRatios::set_min_losses_of_bits() {
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
-    // There are fewer than 62 other rolls. Each of these rolls loses at least one bit more than the
-    // nearest rolls.
+    // Apart from the roll of the reading and the nearest rolls, there are fewer than 62 rolls. Each
+    // of them loses at least one bit more than the nearest rolls.
     const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
                                  kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);

@@ -36,7 +36,7 @@ namespace dotpose::core {
 /// misprinted. In the other codes, the maximum is `code::kOrder`.
 inline constexpr int kMaxShared = 7;
 
-/// log2(62) in units of 2^-8, rounded up. A line has 62 rolls other than the reading's roll.
+/// log2(62) in units of 2^-8, rounded up. A line has 62 rolls other than that of the reading.
 inline constexpr int kOtherRolls_q8 = 1525;
 
 /// Minimum odds: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds are replaced by
@@ -65,8 +65,8 @@ class LikelihoodRatios {
     /// Returns true if the ratios come from hard bits. `lines` is then empty.
     bool is_of_bits() const { return !bits_.empty(); }
 
-    /// Returns the loss of an alternative in a line. `roll_offset` must be in [-62, 62]. Negative
-    /// values count modulo 63.
+    /// Returns the loss of an alternative in a line. `roll_offset` must be in [-62, 62]. Offsets
+    /// that are equal modulo 63 have the same loss.
     int loss(int line, int roll_offset) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
         const int moved = own + roll_offset;
@@ -94,14 +94,14 @@ class LikelihoodRatios {
     /// are the sum and the maximum of the odds at all rolls except the roll of the reading. For
     /// hard bits only.
     int log2_of_nearest_q8(int line) const;
-    /// Returns the maximum gain of an alternative: the total gain in all lines in which another
-    /// roll agrees better than the roll of the reading.
+    /// Returns the maximum gain of an alternative: the total of the largest gains in all lines in
+    /// which another roll agrees better than the roll of the reading.
     int max_gain() const { return max_gain_; }
     /// Returns the maximum number of adjacent lines that an alternative can share.
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
     /// Returns log2 of the odds of an alternative whose total loss is `lost`, in units of 2^-8.
     int log2_odds_q8(int lost) const {
-        // A loss is twice the weight of the contradicting bits. 129 / 2^15 is about 1 / (2 * 127).
+        // Each wrong bit causes a loss of twice its weight. 129 / 2^15 is about 1 / (2 * 127).
         // Losses are clamped to keep the product within 32 bits.
         constexpr int kMaxLost = 1 << 18;
         return -(((std::min(lost, kMaxLost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
@@ -120,7 +120,7 @@ class LikelihoodRatios {
         return static_cast<float>(static_cast<std::int32_t>(exp2_q16(log2_q8 & 255))) * power;
     }
     /// Returns true if an alternative that loses `lost` in some lines is negligible: its odds are
-    /// at most 2^-64, whatever it gains in the other lines.
+    /// at most 2^-64, regardless of its gains in the other lines.
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;

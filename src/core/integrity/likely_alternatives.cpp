@@ -73,9 +73,9 @@ unsigned opposite(unsigned key) {
 }
 
 /// Finds the likely alternatives. Visits all sets of lines whose minimum losses add up to less than
-/// the loss limit. For each set, lists the places in each sequence at which an alternative may
-/// share all other lines (see EqualPlaces), and adds the odds of the alternatives that share
-/// exactly these other lines.
+/// the loss limit. The lines of a set are those that an alternative does not share. For each set,
+/// lists the places in each sequence at which an alternative may share all lines outside the set
+/// (see EqualPlaces), and adds the odds of the alternatives that share exactly these lines.
 class Finder {
   public:
     Finder(const RankedLines& lines, int loss_limit, float max_odds)
@@ -91,8 +91,8 @@ class Finder {
         const bool is_complete = visit(0, 0, equal_places_.all(), 0);
         return is_complete || sum_ > max_odds_ ? std::optional(sum_) : std::nullopt;
     }
-    /// Returns the smallest sum of minimum losses, in the sets of lines that `sum` skipped. It is
-    /// at least the loss limit.
+    /// Returns the smallest sum of minimum losses among the sets of lines that `sum` skipped. The
+    /// result is at least the loss limit.
     int min_skipped_loss() const { return min_skipped_loss_; }
 
   private:
@@ -106,17 +106,18 @@ class Finder {
     static_assert(code::kA4Restored.size() <= kLastPlaces);
     static_assert(kMaxPairs < kNone);
 
-    /// Visits all sets of shared lines that continue `shared`, which contains the shared lines
-    /// before `line`. `places` contains the places at which an alternative may share the lines in
+    /// Visits all sets of shared lines that extend `shared`, which contains the shared lines before
+    /// `line`. `places` contains the places at which an alternative may share the lines in
     /// `shared`. `lost` is the sum of the minimum losses of the other lines before `line`. Returns
     /// false if the search ends early, because it takes too long or the sum exceeds `max_odds_`.
-    /// Visits sets with more shared lines first, because these sets contain few alternatives, but
-    /// the alternatives with the largest odds.
+    /// Visits sets with more shared lines first, because these sets contain few alternatives, and
+    /// these alternatives have the largest odds.
     bool visit(int line, int lost, const PlaceSets& places, LineSet shared) {
         if (line == count_) return add_all(places, shared);
         const int loss = std::max(lines_.ratios.min_loss(line), 0);
-        // Sets never contain a line with a minimum loss of 0. An alternative that shares such a
-        // line is counted in a set without this line, and would otherwise be counted twice.
+        // Sets of shared lines never contain a line without a positive minimum loss. An alternative
+        // that shares such a line is counted in a set without this line, and would otherwise be
+        // counted twice.
         if (loss > 0 && !visit_shared(line, lost, places, shared)) return false;
         if (lost + loss >= loss_limit_) {
             min_skipped_loss_ = std::min(min_skipped_loss_, lost + loss);
@@ -136,7 +137,8 @@ class Finder {
     }
 
     /// Adds the odds of all combinations of the given places that share exactly the lines `shared`.
-    /// Lines with a minimum loss of 0 may be shared or not. Returns false if the search ends early.
+    /// Lines without a positive minimum loss may be shared or not. Returns false if the search ends
+    /// early.
     bool add_all(const PlaceSets& places, LineSet shared) {
         std::size_t combinations = 1;
         for (std::size_t k = 0; k < lists_.size(); ++k) {
@@ -247,7 +249,7 @@ class Finder {
 /// give the smallest loss limit.
 constexpr float kTilt = 0.9F;
 
-/// Minimum of the loss limit, in bits. A smaller limit would shorten the search only a little.
+/// Minimum loss limit, in bits. A smaller limit would not make the search much faster.
 constexpr float kMinBits = 24;
 
 /// Returns log2 of kMargin times the expected sum of the tilted odds of all far alternatives. The
@@ -280,8 +282,9 @@ std::optional<float> sum_of_likely_alternatives(const Kernels& kernels, const Ra
                                                 float max_rest, float max_odds) {
     // If the minimum losses of the lines that an alternative does not share add up to n or more
     // bits, its odds are at most 2^(-kTilt * n) times its tilted odds. `needed_bits` is the
-    // smallest n at which the tilted odds, multiplied by this factor, are at most `max_rest`. The
-    // skipped alternatives often lose more, because losses are mostly multiples of one bit.
+    // smallest n for which the tilted odds, multiplied by this factor, are at most `max_rest`.
+    // Losses are mostly multiples of the loss of one wrong bit, so the skipped alternatives often
+    // lose more. The result therefore uses their actual minimum loss.
     const float log2_tilted = log2_of_tilted_odds(kernels, lines);
     const float needed_bits = (log2_tilted - std::log2(max_rest)) / kTilt;
     constexpr float kMaxBits = 100;

@@ -1,6 +1,5 @@
-// Line sets: sets of lines that an alternative shares, the places at which it shares them, and roll
-// offsets of 16 lines at a time.
-// likelihood_ratios.hpp defines the terms.
+// Line sets: sets of lines that an alternative shares, the places at which an alternative shares
+// given lines, and vectors of roll offsets. likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include <array>
@@ -38,7 +37,7 @@ inline Bytes modulo_sections(Bytes offsets) {
 /// Subtracts the roll offset of the line `first_shared` from the roll offsets of all lines.
 void make_relative(std::size_t line_count, int first_shared, RollOffsets& offsets);
 
-/// The places at which a position and the reading have the same digit in a step. Two positions
+/// The places whose digits are equal to the digits of the reading in given steps. Two positions
 /// share two adjacent lines only if, in the step between these lines, they have the same digit in
 /// each of the four sequences.
 class EqualPlaces {
@@ -47,7 +46,8 @@ class EqualPlaces {
 
     /// All places.
     const PlaceSets& all() const { return all_; }
-    /// Removes the places whose digit differs in the step from line `step` to the next line.
+    /// Removes the places whose digit differs from that of the reading in the step from line `step`
+    /// to the next line.
     void keep_equal(std::size_t step, PlaceSets& places) const;
     /// Returns the number of sequences with places other than the place of the reading.
     int count_different(const PlaceSets& places) const;
@@ -55,7 +55,7 @@ class EqualPlaces {
   private:
     PlaceSets all_;
     PlaceSets own_;  ///< the places of the reading
-    /// For each step, the places at which the digit is equal to the digit of the reading.
+    /// For each step, the places whose digit is equal to the digit of the reading.
     std::array<PlaceSets, kMaxLines> equal_;
 };
 

@@ -17,17 +17,17 @@ namespace {
 /// 4 on 6 axes, and at most 40.
 constexpr float kPlanMargin = 4;
 
-/// Loss, in bits, at which the evaluation of an alternative stops. The alternative then counts with
-/// the odds at this loss.
+/// If the loss of an alternative reaches this number of bits, its evaluation stops. The alternative
+/// then contributes the odds at this loss.
 constexpr int kSkippedBits = 46;
 
-/// Keys of places: the changes of the roll offset across the first two gaps, combined as kKeyStep *
-/// first + second. Sums of two keys are also valid indices, because the elements of each key are
-/// below kSections.
+/// The key of a place consists of the changes of the roll offset across the first two gaps,
+/// combined as kKeyStep * first + second. The sum of two keys is less than kKeys, because both
+/// parts of a key are below kSections.
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
-/// A set of shared lines, and the lines that are not shared, by decreasing minimum loss.
+/// A set of shared lines, and the lines that are not shared, sorted by decreasing minimum loss.
 struct Pattern {
     Pattern(const RankedLines& lines, LineSet shared_) : shared(shared_), gaps(shared_) {
         for (int line = 0; line < lines.count(); ++line) {
@@ -104,12 +104,12 @@ class KeyedPlaces {
     std::array<RollOffsets, kMaxPlaces> offsets_;
 };
 
-/// Finds the far alternatives that share given sets of lines, and adds their odds. Two positions
-/// share two adjacent lines only if each of the four sequences has the same digit at both
-/// positions, in the step between these lines. The search builds a table of all pairs of places in
-/// two of the sequences. The key of the table is the change of the roll offset across the gaps
-/// between the shared lines. For each pair of places in the other two sequences, the search looks
-/// up the pairs with the opposite change.
+/// Finds the far alternatives that share given sets of lines, and adds their odds. For each set,
+/// lists the places in each sequence at which an alternative may share these lines (see
+/// EqualPlaces). The search builds a table of all pairs of places in two of the sequences. The key
+/// of a pair contains the changes of the roll offset across the gaps between the shared lines. For
+/// each pair of places in the other two sequences, the search looks up the pairs with the opposite
+/// changes.
 class SetSearch {
   public:
     SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)
@@ -123,8 +123,8 @@ class SetSearch {
     }
 
     /// Adds the odds of the far alternatives that share exactly the lines `shared`, which must not
-    /// be empty. Lines with a minimum loss of 0 may be shared or not. Returns false if the search
-    /// must end, because the sum exceeds `max_odds` or the work does not suffice.
+    /// be empty. Lines without a positive minimum loss may be shared or not. Returns false if the
+    /// search must end, because the sum exceeds `max_odds` or the work does not suffice.
     bool add(LineSet shared) {
         PlaceSets places = equal_places_.all();
         for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1)
@@ -165,7 +165,7 @@ class SetSearch {
     /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make
     /// the roll offset equal at both ends of each gap.
     void add_matches(const Pattern& pattern) {
-        int rest = 0;  // minimum loss in the compared lines after line n
+        int rest = 0;  // minimum loss in the packed lines after line n
         for (std::size_t n = pattern.packed_count; n-- > 0;) {
             losses_[n] = lines_.losses(pattern.unshared[n]);
             limits_[n] = skipped_loss_ - rest;
@@ -192,13 +192,13 @@ class SetSearch {
                 set_newest(reduced(third.key(n) + first.key(m)), kNone);
         }
     }
-    /// Reduces both elements of a key modulo kSections.
+    /// Reduces both parts of a key modulo kSections.
     static std::size_t reduced(std::size_t key) {
         constexpr std::size_t kTooMany = kKeyStep * kSections;
         if (key % kKeyStep >= kSections) key -= kSections;
         return key >= kTooMany ? key - kTooMany : key;
     }
-    /// Sets all elements of `newest_` whose keys are equal to `key` if both parts of the keys are
+    /// Sets the elements of `newest_` for all keys that are equal to `key` after both parts are
     /// reduced modulo kSections.
     void set_newest(std::size_t key, std::uint16_t pair) {
         newest_[key] = newest_[key + kSections] = pair;
@@ -251,14 +251,14 @@ class SetSearch {
     std::array<KeyedPlaces, 4> lists_;
     /// Losses in the first lines that are not shared, by roll offset (see `RankedLines::losses`).
     std::array<const std::int16_t*, sizeof(std::uint64_t)> losses_{};
-    /// For each of these lines, the total loss in the lines up to and including this line at which
-    /// an alternative is skipped.
+    /// For each of these lines, the loss limit. An alternative is skipped if its total loss in the
+    /// lines up to and including this line reaches the limit.
     std::array<int, sizeof(std::uint64_t)> limits_{};
     /// `newest_` contains the newest pair of places with each key, and `before_` contains for each
     /// pair the previous pair with the same key.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;
-    std::size_t skipped_ = 0;  ///< number of alternatives that lose `skipped_loss_`
+    std::size_t skipped_ = 0;  ///< number of skipped alternatives
     float sum_ = 0;
 };
 

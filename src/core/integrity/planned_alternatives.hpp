@@ -13,7 +13,7 @@ namespace dotpose::core {
 /// the individual odds of the alternatives in the sets of lines that `SetPlan` chooses, and 4 times
 /// the expected odds of all other far alternatives. The second term is at most `max_rest`. If the
 /// sum exceeds `max_odds`, the search stops and the result is incomplete, but exceeds `max_odds`.
-/// Returns nullopt if `work` does not suffice. In most of these cases, no work is done.
+/// Returns nullopt if `work` does not suffice. In most of these cases, no set is searched.
 std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, float max_rest,
                                                  float max_odds, WorkLimit& work);
 

@@ -14,11 +14,11 @@ namespace {
 
 /// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places.
 constexpr int kSingles_q8 = 2441;
-/// Limit for the odds of the far alternatives, as log2 in units of 2^-8. If a bound is below this
-/// limit, no tighter bound is computed.
+/// Limit for the odds of the far alternatives, as log2 in units of 2^-8. If a bound on these odds
+/// is below this limit, no tighter bound is computed.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// Largest limit of the error probability that is used, as log2 in units of 2^-8. If the limit of
-/// the caller is larger, the bounds are still computed as tightly as for this limit.
+/// Default limit of the error probability, as log2 in units of 2^-8. If the limit of the caller is
+/// larger, the bounds are still computed as tightly as for this limit.
 constexpr int kUsualLimit_q8 = -30 * 256;
 /// Upper bound on the odds of a single alternative that is not evaluated, as log2 in units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
@@ -125,8 +125,8 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
 /// Returns an upper bound on the odds of the far alternatives in all sets, as log2 in units of
 /// 2^-8. If `roughly` is true, bounds the sum of the odds over the other rolls of a line by the
 /// number of these rolls times the best odds. Ratios of hard bits always use the bound of
-/// `LikelihoodRatios::log2_of_nearest_q8`. Stops when the sum exceeds `max_log2_q8`; the result is
-/// then too small.
+/// `LikelihoodRatios::log2_of_nearest_q8`. Stops when the sum exceeds `max_log2_q8`. The result is
+/// then not an upper bound.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};
@@ -240,8 +240,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // If `largest` is at most this value, the alternative loses at least `loss_limit_` in the lines
-    // that were added so far, at every shift. The odds of such an alternative are negligible.
+    // If `largest` is at most this value, the alternative loses at least `loss_limit_` at every
+    // shift, even if only the lines added so far are considered. Its odds are then negligible.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -278,10 +278,10 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     return sum;
 }
 
-/// Returns an upper bound on the odds of the single alternatives of one sequence that share a line,
+/// Returns an upper bound on the odds of the single alternatives in one sequence that share a line,
 /// as log2 in units of 2^-8. Assumes that each alternative has the minimum loss of the sequence. An
-/// alternative counts once for each shift at which it shares a line, so at most `ratios.count()`
-/// times.
+/// alternative is counted once for each shift at which it shares a line, so at most
+/// `ratios.count()` times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -312,9 +312,9 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
     return sequences;
 }
 
-/// Returns an upper bound on the odds of the single alternatives of the given sequences that share
+/// Returns an upper bound on the odds of the single alternatives in the given sequences that share
 /// a line, as log2 in units of 2^-8. Most alternatives contribute only kSkippedOdds_q8 for each
-/// line. The odds of the few alternatives that may be more probable are computed individually.
+/// line. Individual odds are computed only for the few alternatives that may have larger odds.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -347,8 +347,8 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
-    // There is no tighter bound for hard bits, so the summation stops only if it exceeds the limit
-    // of the caller.
+    // There is no tighter bound for hard bits, so the summation stops only if the sum exceeds the
+    // limit of the caller.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);

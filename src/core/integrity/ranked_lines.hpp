@@ -47,7 +47,7 @@ class RankedLines {
 /// Each loss is at most `limit`.
 struct CoarseLosses {
     /// Chooses the unit such that an alternative loses at least `skipped_bits` bits if its coarse
-    /// losses add up to `limit` or more. This holds whatever the alternative gains in other lines.
+    /// losses add up to `limit` or more, regardless of its gains in other lines.
     CoarseLosses(const LikelihoodRatios& ratios, int skipped_bits);
 
     int limit;  ///< at most 200, the maximum of `Kernels::list_similar_places`

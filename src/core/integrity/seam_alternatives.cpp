@@ -21,8 +21,8 @@ constexpr int kSeam_q8 = -32 * 256;
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative in the lines before and in the lines after each border, over
-/// all shifts. Shifts at which the loss is certain to reach `loss_limit` may be skipped. If all
-/// shifts are skipped, the minimum is kNone.
+/// all shifts. May skip shifts at which the total loss cannot be below `loss_limit`. If all shifts
+/// are skipped, the minimum is kNone.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -63,8 +63,8 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Each loop stops when the loss on its side reaches `loss_limit_`, because at this shift,
-        // the odds for more distant borders are negligible.
+        // Each loop stops when the loss on its side of the border reaches `loss_limit_`, because
+        // the odds at this shift are negligible for more distant borders.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);
@@ -83,9 +83,9 @@ class LossesByBorder {
     std::array<int, kMaxLines> from_;    ///< minimum loss from each line to the last line
 };
 
-/// Returns true if, for some border, the minimum losses of the lines that an alternative does not
-/// share add up to less than `loss_limit`. The alternative has the best shift on each side of the
-/// border. Takes a tenth of the time of `LossesByBorder`.
+/// Returns true if, for at least one border and the best shift on each side of this border, the
+/// minimum losses of the lines that the alternative does not share add up to less than
+/// `loss_limit`. Takes a tenth of the time of `LossesByBorder`.
 bool may_matter(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place,
                 int loss_limit) {
     RollOffsets offsets;
@@ -177,8 +177,8 @@ class SeamAlternatives {
     int sum_q8_ = kNever_q8;
 };
 
-/// Returns the loss limit. An alternative with at least this minimum loss is not included, because
-/// its odds are too small, whatever it gains in other lines.
+/// Returns the loss limit. An alternative whose minimum losses add up to at least this limit is not
+/// included, because its odds are too small, regardless of its gains in other lines.
 int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }

@@ -6,8 +6,8 @@
 namespace dotpose::core {
 namespace {
 
-/// A set must be searched if its alternatives may lose less than this many bits. An alternative
-/// that is not counted individually therefore has odds of at most 2^-24.
+/// A set must be searched if its alternatives may lose less than this number of bits. Alternatives
+/// that are not counted individually therefore have odds of at most 2^-24.
 constexpr int kRequiredBits = 24;
 
 /// Number of possible changes of the roll from one line to the next. If an alternative differs in
@@ -15,10 +15,11 @@ constexpr int kRequiredBits = 24;
 constexpr float kChanges = 54;
 
 /// Correction factors for the expected odds of alternatives that differ in two and in three
-/// sequences. The model assumes that the roll offsets of lines that are not shared are uniformly
-/// distributed, but if few sequences differ, only few changes of the roll are possible. On 700 axes
-/// of nominal frames, the mean ratio of the result of `sum_of_expected_alternatives` to that of the
-/// model was 10 to 17 for two different sequences, 2 for three, and 0.6 for four.
+/// sequences. The factors are necessary because the model assumes that the roll offsets of lines
+/// that are not shared are uniformly distributed, but few changes of the roll are possible if few
+/// sequences differ. The result of `sum_of_expected_alternatives` was divided by the result of the
+/// model on 700 axes of nominal frames. The mean ratio was 10 to 17 for two different sequences, 2
+/// for three, and 0.6 for four.
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
 /// Probabilities that the roll offset is 0 again after a gap, for alternatives that differ in two,
@@ -38,8 +39,8 @@ float odds_of_others(const OddsByOffset& odds) {
 /// undecided.
 struct SetPlan::Node {
     LineSet shared = 0;
-    /// For each sequence, the expected number of places with the digits of the reading in all steps
-    /// between adjacent shared lines.
+    /// For each sequence, the expected number of places that have the digits of the reading in all
+    /// steps between adjacent shared lines.
     std::array<float, 4> places;
     /// Probability that all gaps end at a shared line, times the mean odds in the lines that are
     /// not shared, for alternatives that differ in two, three and four sequences.
@@ -58,7 +59,7 @@ struct SetPlan::Node {
     }
 
     /// Returns the expected odds of the far alternatives that share these lines. The sum over all
-    /// sets that continue this set is not larger.
+    /// sets that extend this set is not larger.
     float expected() const {
         const auto& [a, b, c, d] = places;
         const float sum = two * (a * b + (a + b) * (c + d) + c * d) +
@@ -88,7 +89,7 @@ SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
     Node all;
     for (std::size_t k = 0; k < all.places.size(); ++k)
         all.places[k] = static_cast<float>(lines.ratios.basis[k].length);
-    float uncompared = 1;  // product of the mean odds in the lines with a minimum loss of 0
+    float uncompared = 1;  // product of the mean odds in the lines without a positive minimum loss
     for (int line = 0; line < lines.count(); ++line) {
         const OddsByOffset& odds = lines.odds()[static_cast<std::size_t>(line)];
         const float others = odds_of_others(odds);
@@ -128,7 +129,7 @@ void SetPlan::visit(std::size_t n, const Node& node) {
     visit(n + 1, without);
 }
 
-/// Adds all sets that continue `node` and contain the compared line with index `n`.
+/// Adds all sets that extend `node` and contain the compared line with index `n`.
 void SetPlan::visit_shared(std::size_t n, Node node) {
     const LikelihoodRatios& ratios = lines_.ratios;
     const int line = compared_[n];

@@ -1,5 +1,5 @@
 // Set plan: chooses the sets of shared lines whose alternatives are counted one by one. The
-// alternatives of all other sets count with their expected odds. See docs/integrity.md, "Small
+// alternatives of all other sets contribute their expected odds. See docs/integrity.md, "Small
 // views". likelihood_ratios.hpp defines the terms.
 #pragma once
 
@@ -16,15 +16,16 @@ struct PlannedSet {
     LineSet shared;
     float expected;    ///< expected odds of the far alternatives that share exactly these lines
     float work;        ///< work of the search for these alternatives, in processor instructions
-    bool is_required;  ///< true if the set must be searched, because single odds may be large
+    bool is_required;  ///< true if the set must be searched, because individual odds may be large
 };
 
-/// Chooses sets of lines. Lines with a minimum loss of 0 may be shared or not.
+/// Chooses the sets of lines to search. Lines without a positive minimum loss are in no set, and
+/// may be shared or not.
 class SetPlan {
   public:
-    /// The rest is the sum of the expected odds of all sets that are not searched. If the plan is
-    /// feasible, the rest is at most `max_rest` / 2 or, if the search would otherwise take more
-    /// than `max_work`, at most `max_rest`.
+    /// Makes a plan. The rest is the sum of the expected odds of all sets that are not searched.
+    /// The plan skips sets as long as the rest remains at most `max_rest` / 2. While the search
+    /// would take more than `max_work`, it skips further sets, up to a rest of `max_rest`.
     SetPlan(const RankedLines& lines, float max_rest, float max_work);
     /// Returns false if there are too many sets, if the search would take more than `max_work`, or
     /// if the rest would exceed `max_rest`.

@@ -29,8 +29,7 @@ struct Steps {
     /// Lower bound on the loss in each step, rounded down. The unit is 1/kLimitParts of the loss
     /// that excludes a place. Losses of one unit count as 0.
     std::array<std::uint8_t, kMaxSteps> losses;
-    /// True if the sum of the losses in nonadjacent steps can be large enough to exclude a
-    /// place.
+    /// True if the losses in nonadjacent steps can add up to enough to exclude a place.
     bool can_exclude = false;
 };
 

@@ -9,11 +9,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the loss, in bits, at which an alternative is skipped. A skipped alternative is not
-/// evaluated line by line. Instead, it is charged the odds at this loss. The threshold is lower for
-/// views with at most 16 lines, because many places in such views lose 52 to 56 bits and would
-/// otherwise be evaluated. Each skipped alternative is charged once per line, so for 16 lines, the
-/// total charge is at most 2^-38.
+/// Returns the loss limit for skipping alternatives, in bits. An alternative that loses at least
+/// this much is not evaluated line by line. Instead, it contributes the odds at this limit once for
+/// each line. The limit is lower for views with at most 16 lines, because many places in such views
+/// lose 52 to 56 bits and would otherwise be evaluated. For 16 lines, the skipped alternatives
+/// contribute at most 2^-38 in total.
 int bits_of_skipped(int lines) {
     return lines <= 16 ? 52 : 56;
 }
@@ -74,7 +74,8 @@ void sort_losses(const CoarseLosses& losses, std::span<LineLoss> sorted) {
     }
 }
 
-/// Lists the places that may lose less than `losses.limit`. Returns false if there are too many.
+/// Lists the places that may lose less than `losses.limit`. Returns false if the list cannot be
+/// made (see `Kernels::list_similar_places`).
 bool list_similar(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses,
                   SimilarPlaceList& list) {
     std::array<LineLoss, kMaxLines> storage;
@@ -84,8 +85,8 @@ bool list_similar(const Kernels& kernels, const RankedLines& lines, const Coarse
     return kernels.list_similar_places(ratios.basis, ratios.places, 15, sorted, losses.limit, list);
 }
 
-/// Returns the sum over all places that are not listed. Each of them counts with the odds at the
-/// loss of `skipped_bits`, once per line.
+/// Returns an upper bound on the summed odds of the places that are not listed. Each place
+/// contributes the odds at a loss of `skipped_bits` once for each line.
 float sum_of_skipped(const RankedLines& lines, int skipped_bits) {
     constexpr float kPlaces =
         code::kA1.size() + code::kA2.size() + code::kA3.size() + code::kA4Restored.size();
@@ -111,9 +112,10 @@ float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& line
 
 std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines,
                                                 WorkLimit& work) {
-    // In small views, many places lose 44 to 52 bits. These places count with the odds at their
-    // minimum losses. In views with at most 16 lines, the odds of the places that are not listed
-    // add up to at most 2^-37.
+    // In small views, many places lose 44 to 52 bits. Evaluating all of them would take too much
+    // work, so each listed place with a minimum loss of at least kEvaluatedBits contributes
+    // 2^-kEvaluatedBits. In views with at most 16 lines, the places that are not listed contribute
+    // at most 2^-37 in total.
     constexpr int kSkippedBits = 51;
     constexpr int kEvaluatedBits = 43;
     // Estimated work, in processor instructions.

@@ -20,12 +20,12 @@ class Bounds {
     }
     /// Returns the bound for a sequence. An alternative with n unshared table lines loses at least
     /// the sum of the n smallest minimum losses, minus the maximum gain. `kMaxPositionsWith` bounds
-    /// the number of such alternatives, and `kUnshared` contains the smallest n.
+    /// the number of alternatives for each n, and `kUnshared` contains the smallest possible n.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
-        // Adds the alternatives with more than kMaxCounted unshared table lines. An alternative
-        // counts once for each shift where it shares a line, so at most `ratios.count()` times.
+        // Adds the alternatives with more than kMaxCounted unshared table lines. An alternative is
+        // counted once for each shift at which it shares a line, so at most `ratios.count()` times.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
         std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);

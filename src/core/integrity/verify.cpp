@@ -55,8 +55,9 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
 
 /// Result of comparing all bits in view with the code, before alternatives are evaluated.
 struct Doubt {
-    int odds_per_bit_q8 = 0;  ///< 0 if the bits contain no information, or if too many bits are
-                              ///< wrong
+    /// Odds that a bit with weight 127 is correct, as log2 in units of 2^-8. The value is 0 if the
+    /// bits contain no information, or if too many bits are wrong.
+    int odds_per_bit_q8 = 0;
     /// For each axis, log2 of an upper bound on the probability that random bits agree with any
     /// place in the code at least as well as the bits that were read, in units of 2^-8.
     std::array<int, 2> by_chance_q8{};
@@ -92,9 +93,9 @@ Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOpt
     return doubt_of(agreements, options, decoding, fix);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong, from chance and alternatives.
-/// Adds seam alternatives only if the sum is at most `limit_q8`. All probabilities are log2 in
-/// units of 2^-8.
+/// Returns an upper bound on the probability that the position is wrong along one axis: the sum of
+/// the bound on chance and the odds of the alternatives. Adds the odds of seam alternatives only if
+/// this sum is at most `limit_q8`. All values are log2 in units of 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
@@ -102,9 +103,10 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
     return std::min(sum_q8, 0);
 }
 
-/// For each axis, returns an upper bound on the probability that this axis is wrong, as log2 in
-/// units of 2^-8. `alternatives_q8(axis, ratios)` must return the odds of the alternatives. The
-/// result is 0 (probability 1) for an axis whose bound on chance exceeds `limit_q8`.
+/// Returns, for each axis, an upper bound on the probability that the position is wrong along this
+/// axis, as log2 in units of 2^-8. `alternatives_q8(axis, ratios)` must return the odds of the
+/// alternatives. The result is 0 (probability 1) for an axis whose bound on chance exceeds
+/// `limit_q8`.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -144,8 +146,8 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// For each axis, returns an upper bound on the probability that this axis is wrong, as log2 in
-/// units of 2^-8. Uses the bound on the alternatives from quick_alternatives.hpp.
+/// Returns, for each axis, an upper bound on the probability that the position is wrong along this
+/// axis, as log2 in units of 2^-8. Uses the bound on the alternatives from quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
@@ -193,8 +195,8 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
     int wrong = 0;
     for (const ComparedLine& line : result.lines) {
         seen += bits_in(line.seen);
-        // Counts bits only in lines with wrong bits, because counting is slow on processors without
-        // a popcount instruction.
+        // Skips the count for lines without wrong bits, because counting is slow on processors
+        // without a popcount instruction.
         if (line.wrong != 0) wrong += bits_in(line.wrong);
     }
     result.confidence = Confidence::of_hard_bits(seen, wrong);

@@ -17,8 +17,8 @@ constexpr std::size_t kA4 = 3;
 /// Upper bound on the odds of each skipped place, as log2 in units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Limit for the summed odds. If an upper bound on them is at most this limit, no tighter bound is
-/// computed.
+/// Limit for the summed odds. If an upper bound on the sum is at most this limit, no tighter bound
+/// is computed.
 constexpr float kNegligibleOdds = 1e-12F;
 
 /// Lower bounds on the losses of a place in another code. A place loses at least of[line] in each
@@ -35,8 +35,8 @@ struct Losses {
         }
     }
 
-    /// Returns the step losses as multiples of a part of the loss limit. A place whose step losses
-    /// add up to at least `StepLosses::kLimitParts` parts loses at least the limit.
+    /// Returns the step losses, in parts of the loss limit. A place whose step losses add up to at
+    /// least `StepLosses::kLimitParts` parts loses at least the limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
@@ -102,7 +102,8 @@ class OtherPlaces {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = unshared.min_loss(table) - ratios_.max_gain();
-        // A place counts once for each shift where it shares a line, so at most `count_` times.
+        // A place is counted once for each shift at which it shares a line, so at most `count_`
+        // times.
         result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();

@@ -8,9 +8,9 @@ namespace dotpose::core {
 /// Estimated work that may still be done, in processor instructions.
 class WorkLimit {
   public:
-    /// Maximum work of testing the places of one frame that shows a small view. docs/speed.md,
-    /// "Small frames", compares limits. All other steps of a first attempt take about 200,000
-    /// instructions.
+    /// Maximum work of the sums for all places that are tested in one frame of a small view.
+    /// docs/speed.md, "Small frames", compares limits. All other steps of a first attempt take
+    /// about 200,000 instructions.
     static constexpr std::size_t kOfFrame = 600'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}
