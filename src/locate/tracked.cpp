@@ -18,7 +18,7 @@ namespace tuned = tuning::tracked;
 
 /// Fits position, scale and rotation to the dots by least squares. Keeps the predicted perspective
 /// and shear. Returns false if fewer than kMinNear dots are within `max_off` spacings of their
-/// places.
+/// predicted positions.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float max_off, FloatPlane& plane) {
     const ScaledPlane scaled(plane, reach_px);
