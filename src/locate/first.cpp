@@ -161,7 +161,7 @@ class PatchSearch {
     }
 
     /// Searches a patch around an image point. If there is no hypothesis and the dots are densest
-    /// far from the middle, also searches a patch around the densest point.
+    /// far from the middle of the patch, also searches a patch around the densest point.
     Confirmation search_around(FixedVec around_px, int scale) {
         for (int round = 0; round < 2 && tries_left_ > 0; ++round) {
             FixedVec densest_px = around_px;

@@ -159,8 +159,8 @@ class Cascade {
     }
 
     /// Tests the frame against the other codes, ignoring all earlier evidence. If another code
-    /// yields a fix, adds the evidence of this frame to the reading. Otherwise, strong earlier
-    /// evidence for one code would prevent all fixes on sheets in other codes.
+    /// yields a fix, adds the evidence of this frame to the reading. Without this test, strong
+    /// earlier evidence for one code would prevent all fixes on sheets in other codes.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes all{CodeEvidence{}};

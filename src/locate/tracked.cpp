@@ -158,8 +158,8 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Fr
     return hypothesis;
 }
 
-/// Corrects the hypothesis at one image point after another, until its bits confirm it. Returns
-/// false if no point leads to a confirmed hypothesis.
+/// Corrects the hypothesis with the dots near one image point after another, until the bits confirm
+/// the corrected hypothesis. Returns false if no point leads to a confirmed hypothesis.
 bool confirm_corrected(const Frame& frame, const Hypothesis& hypothesis, int max_px,
                        const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {
     for (const FloatVec fraction : tuned::kPoints) {

@@ -22,8 +22,8 @@ inline constexpr float kDotsOfFilteredImage = 1.25F;
 /// Images with too few dots are rejected without further attempts if they have at most this number
 /// of pixels. In larger images, filtering often reveals many more dots.
 inline constexpr int kMaxPixelsOfFewDots = 96 * 96;
-/// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
-/// because each uncertain hypothesis increases the probability of a wrong fix.
+/// Maximum number of uncertain hypotheses that are tested away from the image centre. The number is
+/// limited, because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
 /// Parameters of the wave search away from the image centre: the numbers of central dots from which
 /// the waves are computed, and factors for the estimated spacing. The search tries all
