@@ -121,7 +121,7 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the radius of the search for the predicted position, in px at the image centre. The
+/// Returns the radius of the search around the predicted position, in px at the image centre. The
 /// radius is three standard deviations of the prediction, but at most 3/5 of the spacing.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
