@@ -63,8 +63,8 @@ struct Fix {
                                        ///< reference point
     std::uint16_t fraction_x_q16 = 0;  ///< distance from `cell` to the right, in 1/65536 spacing
     std::uint16_t fraction_y_q16 = 0;  ///< distance from `cell` downwards, in 1/65536 spacing
-    std::int32_t theta_bam = 0;        ///< angle `theta` as a binary angle in [-2^31, 2^31); 2^31
-                                       ///< is half a turn
+    std::int32_t theta_bam = 0;        ///< angle `theta` as a binary angle in [-2^31, 2^31), where
+                                       ///< 2^31 is half a turn
     Section section;                   ///< section in which the position was read
     std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image, in 2^-16 px
     /// Spacing of the printed grid, from the options. 0 if unknown.

@@ -30,7 +30,7 @@ inline constexpr int kMinKnownDots = 16;
 
 /// Specifies whether sheets other than the known sheets may be in view.
 enum class OtherSheets : std::uint8_t {
-    possible,    ///< other sheets are also located, but they need more dots in view
+    possible,    ///< other sheets are also located, but require more dots in view
     impossible,  ///< only places on known sheets are possible
 };
 

@@ -122,7 +122,8 @@ class Locator : public RowLocator {
     /// locator does not copy the regions, so the array must remain valid until other regions are
     /// set or the locator is destroyed. An empty span removes all regions. Returns bad_argument,
     /// and keeps the previous regions, if a region is empty, extends beyond the plane, or has an
-    /// invalid code or section. Effort::device ignores the regions.
+    /// invalid code or section. With Effort::device, the regions are searched as described for
+    /// DeviceLocator::set_known.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 

@@ -99,8 +99,8 @@ struct TrackOptions {
     std::int64_t stationary_after_us = 500'000;
 
     /// Standard deviations of printing errors. Their squares are added to the covariance of each
-    /// sighting. Printing errors do not average out, because all frames at one place have the same
-    /// printing errors.
+    /// sighting. Printing errors do not average out, because all frames of one part of the paper
+    /// have the same printing errors.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
@@ -138,14 +138,14 @@ struct TrackedPose {
 /// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
-    /// The sighting is certain enough without the prior, and its place is possible or confirmed. A
-    /// place is possible if it is inside the gate or, while the robot is lost, if the robot can
-    /// have reached it. The place of the first sighting is always possible. A place is confirmed
-    /// after TrackOptions::confirmations sightings that are consistent with each other.
+    /// The sighting is certain enough without the prior, and its pose is possible or confirmed. A
+    /// pose is possible if it is inside the gate or, while the robot is lost, if the robot can have
+    /// reached it. The pose of the first sighting is always possible. A pose is confirmed after
+    /// TrackOptions::confirmations sightings that are consistent with each other.
     accepted,
     /// The sighting is weak, but certain enough together with the prior.
     with_prior,
-    /// The sighting is certain enough without the prior, but its place is impossible and not
+    /// The sighting is certain enough without the prior, but its pose is neither possible nor
     /// confirmed yet.
     gated,
     /// The sighting is weak and was rejected, because the robot is lost, because the sighting is
@@ -163,7 +163,7 @@ struct TrackEvents {
     /// The tracker has lost the robot, because there was no accepted sighting or motion for
     /// TrackOptions::lost_after_us, or because the uncertainty exceeds TrackOptions::max_sigma_mm.
     bool lost = false;
-    /// The robot has been moved by hand: confirmed sightings are at a place that it cannot have
+    /// The robot has been moved by hand: confirmed sightings show it at a pose that it cannot have
     /// reached by driving since its last accepted sighting.
     bool kidnapped = false;
     bool stationary = false;  ///< the robot came to rest

@@ -137,8 +137,8 @@ std::int32_t fine_spacing_q8(std::int32_t det_q24) {
         square_root(UINT32_MAX / static_cast<std::uint32_t>(det_q24 >> 8)));
 }
 
-/// Sets the cells of a grid that is not fine, and the members that depend on them. Returns false in
-/// the same cases as `lay_out_memory`.
+/// Sets the cells of a grid that is not fine, and the members that depend on the cells. Returns
+/// false in the same cases as `lay_out_memory`.
 bool lay_cells(const Prediction& prediction, const PlaneFromImage& plane, std::int32_t det_q24,
                Tracking& tracking) {
     invert(plane, det_q24, tracking.cells);

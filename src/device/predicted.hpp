@@ -9,7 +9,7 @@
 
 namespace dotpose::core {
 
-/// Number of rows that are collected before the dots in them are read.
+/// Number of rows that are collected before their dots are read.
 inline constexpr int kRowsAtOnce = 12;
 
 /// Prepares the tracking of a frame from its prediction. Sets `plane`, relative to cell (0, 0). In

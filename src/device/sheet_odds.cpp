@@ -84,8 +84,8 @@ class OddsOfOthers {
 };
 
 /// Returns log2 of the number of places that may be in view, in units of 2^-8. The number includes
-/// all four orientations and places at which the block extends beyond a region. It is at least
-/// 2^10, because a tracked attempt tests a single place but chooses among up to 2^10 planes.
+/// all four orientations and places at which the block extends beyond a region. The number is at
+/// least 2^10, because a tracked attempt tests a single place but chooses among up to 2^10 planes.
 int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
     std::uint64_t places = 0;
     for (const KnownRegion& region : sheets.regions) {

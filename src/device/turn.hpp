@@ -1,4 +1,4 @@
-// Turn: rotates and scales predicted cells to fit the image, after they have been shifted.
+// Turn: rotates and scales the predicted cells to fit the image, after the cells have been shifted.
 #pragma once
 
 #include "device/tracking.hpp"

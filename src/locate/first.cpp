@@ -100,8 +100,8 @@ class PatchSearch {
         auto hypothesis = read_grid(patch_, grid, middle_of(patch_, frame_.image), evidence_);
         if (!hypothesis) return Confirmation::implausible;
         move_origin_to_centre(*hypothesis);
-        // If the patch is the whole image, the grid is fitted to all dots. It then predicts each
-        // dot to within a fraction of a pixel, unless the spacing is too small.
+        // If the patch is the whole image, the grid is fitted to all dots, and predicts each dot to
+        // within a fraction of a pixel unless the spacing is too small.
         hypothesis->is_predicted =
             is_whole_image(patch_, frame_.image) &&
             spacing_px(hypothesis->pattern_from_image) >= tuned::kMinSpacingForPrediction_px;

@@ -106,8 +106,7 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
             return true;
         }
     }
-    // Uses windows around intersections, because they can measure larger offsets than centroid
-    // windows.
+    // Uses windows around intersections, which can measure larger offsets than centroid windows.
     kernels.list_cells(view, dots);
     kernels.measure_windows(
         image, view, {spacing, 0.3F, hypothesis.dot_contrast_q8 * kContrastCut_q8 >> 8}, dots);
