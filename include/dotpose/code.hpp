@@ -1,11 +1,11 @@
 /// Position code: encodes grid intersections as symbols, and decodes windows of symbols.
 ///
-/// The code is that of section II-A of the paper. Every column contains the same cyclic sequence of
-/// bits, called *main*, read downwards. The *roll* of a column is its phase: the index in *main* of
-/// its bit in row 0. The rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference
-/// consists of four digits, one from each of the cyclic sequences a1 to a4. The lengths of these
-/// sequences are coprime, so a few consecutive differences determine the position of a column. The
-/// rows encode y in the same way.
+/// The code is described in the paper (section II-A). Every column contains the same cyclic
+/// sequence of bits, called *main*, read downwards. The *roll* of a column is the index in *main*
+/// of the column's bit in row 0. The rolls of adjacent columns differ by 5 to 58, modulo 63. Each
+/// difference consists of four digits, one from each of the cyclic sequences a1 to a4. The lengths
+/// of these sequences are coprime, so a few consecutive differences determine the position of a
+/// column. The rows encode y in the same way.
 ///
 /// Coordinates: x points right and y points DOWN on the printed page. All functions are pure and
 /// thread-safe, and do not allocate memory.
@@ -29,7 +29,7 @@ inline constexpr int kSections = 63;
 
 /// Variant of the position code. The variants differ only in sequence a4.
 enum class CodeVariant : std::uint8_t {
-    /// The patent's sequence a4 with its misprint corrected (docs/position-code.md). Windows are
+    /// Sequence a4 of the patent, with a misprint corrected (docs/position-code.md). Windows are
     /// unique on the whole plane. The default for printing.
     anoto,
     /// Sequence a4 as misprinted in the patent. Used by libdots and other open tools. Windows
@@ -128,9 +128,9 @@ Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noe
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
 /// Computes the position of the first of 6 to 32 adjacent columns (or rows) from their rolls. Each
-/// roll must be in [0, 63). The rolls may be measured in any row (or column) instead of row 0, but
-/// all in the same one. Errors: bad_window if the number of rolls is outside [6, 32]; not_in_code
-/// and ambiguous as for `decode`.
+/// roll must be in [0, 63). All rolls must be measured in the same row (or column), which need not
+/// be row (or column) 0. Returns bad_window if the number of rolls is outside [6, 32]. Returns
+/// not_in_code and ambiguous in the same cases as `decode`.
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 

@@ -13,8 +13,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Radial lens distortion (paper, eq. 1-2): p_u = m + r_d / (1 + k |r_d|^2). p_u is the undistorted
-/// point, m is the distortion centre, and r_d is the vector from m to the image point.
+/// Radial lens distortion (paper, equations 1 and 2): p_u = m + r_d / (1 + k |r_d|^2). p_u is the
+/// undistorted point, m is the distortion centre, and r_d is the vector from m to the image point.
 struct FixedLens {
     /// Coefficient k, in units of 2^-40 / px^2. Negative for barrel distortion. The default of 0
     /// means no distortion. [any]
@@ -81,8 +81,9 @@ struct IntegrityOptions {
     /// Maximum accepted bound on the probability that a fix is wrong, as log2. The default is
     /// slightly below 1e-9. [-2^20 to 0]
     int max_p_wrong_log2 = -30;
-    /// Maximum fraction of bits that may contradict the position, in 1/256. Applies to each axis
-    /// separately. A larger fraction indicates that the frame contains two patterns. [0 to 256]
+    /// Maximum fraction of bits that may disagree with the code at the position, in 1/256. Applies
+    /// to each axis separately. A larger fraction indicates that the frame contains two patterns.
+    /// [0 to 256]
     int max_bit_error_q8 = 46;
 };
 

@@ -18,7 +18,7 @@ namespace dotpose {
 /// The attempt of `locate` that produced a fix. Each attempt is implemented in a file of its own in
 /// src/locate or src/device.
 enum class Attempt : std::uint8_t {
-    tracked,  ///< the dots were measured at their predicted places
+    tracked,  ///< the dots were measured at their predicted positions
     first,    ///< the grid was found in patches of the image, without a prediction
     second,   ///< the grid was found in the filtered image
     device,   ///< the frame was located in integer arithmetic, as on a microcontroller
@@ -63,8 +63,8 @@ struct Fix {
                                        ///< reference point
     std::uint16_t fraction_x_q16 = 0;  ///< distance from `cell` to the right, in 1/65536 spacing
     std::uint16_t fraction_y_q16 = 0;  ///< distance from `cell` downwards, in 1/65536 spacing
-    std::int32_t theta_bam = 0;        ///< angle `theta` as a binary angle in [-2^31, 2^31); 2^31
-                                       ///< is half a turn
+    std::int32_t theta_bam = 0;        ///< angle `theta` as a binary angle in [-2^31, 2^31), where
+                                       ///< 2^31 is half a turn
     Section section;                   ///< section in which the position was read
     std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image, in 2^-16 px
     /// Spacing of the printed grid, from the options. 0 if unknown.
@@ -74,14 +74,14 @@ struct Fix {
     /// caller provided the camera motion between the frames.
     int frames = 1;
     int dots_seen = 0;  ///< number of dots found in the image, either as dot-sized blobs or at the
-                        ///< places predicted by the code
+                        ///< positions predicted by the code
     int dots_used = 0;  ///< number of dots in the pose fit
-    /// Number of bits that contradict the position. Each cell contributes two bits.
+    /// Number of bits that disagree with the code at the position. Each cell contributes two bits.
     int bit_errors = 0;
     /// Upper bound on the probability that the position is wrong, as log2.
     int p_wrong_log2 = 0;
-    /// Root mean square distance of the dots from their fitted places, per axis. 0 if the
-    /// covariance is unknown.
+    /// Root mean square residual of the dots in the pose fit, per axis. 0 if the covariance is
+    /// unknown.
     float residual_px = 0;
 
     /// Map from the image to the pattern, in spacings relative to `place`. Mapping the reference

@@ -38,8 +38,8 @@ struct PacerOptions {
     /// Rotation that counts as movement, as a binary angle: 2^31 is half a turn. Default: one
     /// degree.
     std::int32_t turned_bam = 11'930'465;
-    /// True to treat a loss of the pattern by a stationary device as movement, because the device
-    /// may have been lifted. Set to false if frames also fail while the device is at rest.
+    /// True if a stationary device that loses the pattern is assumed to be moving, because it may
+    /// have been lifted. Set to false if frames also fail while the device is at rest.
     bool lost_is_moved = true;
 };
 

@@ -24,9 +24,9 @@ struct FixedVec {
 ///
 ///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)).
 ///
-/// The map is exact for a tilted camera with the paper's lens distortion (eq. 2), if `centre` is
-/// the distortion centre. The core clamps the divisor to at least 1/4, because the map is singular
-/// where the divisor is 0.
+/// The map is exact for a tilted camera with radial lens distortion (paper, equation 2), if
+/// `centre` is the distortion centre. The core clamps the divisor to at least 1/4, because the map
+/// is singular where the divisor is 0.
 struct PlaneFromImage {
     FixedVec centre_q8;      ///< image point of (x, y) = (0, 0), in 2^-8 px
     FixedVec at_centre_q16;  ///< plane point at `centre`, in 2^-16 spacings

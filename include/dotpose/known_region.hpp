@@ -25,12 +25,12 @@ struct KnownRegion {
 };
 
 /// Minimum number of dots required to search for a grid if regions are known. A lower `min_dots` in
-/// the options takes precedence. In practice, a certain position needs about 25 dots.
+/// the options takes precedence. In practice, a reliable position needs about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
-/// Whether sheets other than the known sheets may be in view.
+/// Specifies whether sheets other than the known sheets may be in view.
 enum class OtherSheets : std::uint8_t {
-    possible,    ///< other sheets are also located, but they need more dots in view
+    possible,    ///< other sheets are also located, but require more dots in view
     impossible,  ///< only places on known sheets are possible
 };
 

@@ -122,7 +122,8 @@ class Locator : public RowLocator {
     /// locator does not copy the regions, so the array must remain valid until other regions are
     /// set or the locator is destroyed. An empty span removes all regions. Returns bad_argument,
     /// and keeps the previous regions, if a region is empty, extends beyond the plane, or has an
-    /// invalid code or section. Effort::device ignores the regions.
+    /// invalid code or section. With Effort::device, the regions are searched as described for
+    /// DeviceLocator::set_known.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
@@ -132,20 +133,20 @@ class Locator : public RowLocator {
     Fix locate(const ImageView& image);
 
     /// Locates the pattern near the predicted place. If the image does not confirm the prediction,
-    /// falls back to locating it without the prediction. `Fix::attempt` reports which attempt
-    /// succeeded. The prediction must have been made in `options().code`.
+    /// locates the image without the prediction. `Fix::attempt` reports which attempt succeeded.
+    /// The prediction must have been made in `options().code`.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
     /// Locates an image of a camera that has moved by `since_last` since the previous image. If the
     /// previous image was located, first searches near the place that the motion predicts.
     ///
     /// Successive images that are located with a motion form a series, which may include images
-    /// without a pattern. If this image alone does not give a certain position, combines its bits
-    /// with those of the previous images of its series. A moving camera can therefore obtain a fix
-    /// from views that are individually too small or too dirty. `Fix::frames` is the number of
-    /// images whose bits were combined. Locating an image with another function ends the series. An
-    /// unusable motion (see `MeasuredMotion::is_usable`) or an unknown spacing of the printed grid
-    /// also ends the series, and the image is located alone.
+    /// without a pattern. If the position is not certain from this image alone, combines the bits
+    /// of this image with those of the previous images of the series. A moving camera can therefore
+    /// obtain a fix from views that are individually too small or too dirty. `Fix::frames` is the
+    /// number of images whose bits were combined. Locating an image with another function ends the
+    /// series. An unusable motion (see `MeasuredMotion::is_usable`) or an unknown spacing of the
+    /// printed grid also ends the series, and the image is located alone.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
     /// Locates an image whose code variant is not known. Considers places in all code variants,
@@ -233,15 +234,15 @@ class DeviceLocator : public RowLocator {
 
     /// Locates the pattern in an image, in the code of the options.
     Fix locate(const ImageView& image);
-    /// Measures the dots of an image at their predicted places. If the image does not confirm the
-    /// prediction, it is located without the prediction.
+    /// Locates the pattern by measuring the dots at their predicted positions. If the image does
+    /// not confirm the prediction, locates the image without the prediction.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
     /// Starts a frame that is pushed row by row. The dots of each row are detected as the row
     /// arrives. Errors: bad_argument, image_too_small, image_too_large (too large for the memory).
     Status begin(int width_px, int height_px);
 
-    /// Starts a frame whose dots are measured at their predicted places, as the rows arrive.
+    /// Starts a frame whose dots are measured at their predicted positions as the rows arrive.
     /// Returns not_tracked if the prediction cannot be used. If the frame does not confirm the
     /// prediction, the fix that `finish` returns has the status not_tracked. A caller that has kept
     /// the rows can then push them again, without the prediction.

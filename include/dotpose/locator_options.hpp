@@ -25,8 +25,8 @@ struct LocatorOptions {
     /// the paper. Use 0 if the spacing is unknown. [0 to 1000 mm]
     double spacing_mm = 0.508;
 
-    /// Radial distortion k, per px^2: p_u = m + r_d / (1 + k |r_d|^2) (paper, eq. 1-2). Negative
-    /// for barrel distortion. [above -2^-9, below 2^-9]
+    /// Radial distortion k, per px^2: p_u = m + r_d / (1 + k |r_d|^2) (paper, equations 1 and 2).
+    /// Negative for barrel distortion. [above -2^-9, below 2^-9]
     double lens_k_per_px2 = 0;
     /// Distortion centre m, relative to the image centre. [-1024 to 1024 px]
     double lens_centre_dx_px = 0;
@@ -37,10 +37,10 @@ struct LocatorOptions {
     double reference_dy_px = 0;
 
     /// Maximum accepted bound on the probability that a fix is wrong. Positions with a larger bound
-    /// are rejected as not_certain. Rounded down to a power of two. [1e-300 to 1]
+    /// are rejected as not_certain. The value is rounded down to a power of two. [1e-300 to 1]
     double max_p_wrong = 1e-9;
-    /// Maximum fraction of bits that may contradict the position. Applies to each axis separately.
-    /// A larger fraction indicates that the frame contains two patterns. [0 to 1]
+    /// Maximum fraction of bits that may disagree with the code at the position. Applies to each
+    /// axis separately. A larger fraction indicates that the frame contains two patterns. [0 to 1]
     double max_bit_errors = 0.18;
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast fails
     /// with no_contrast. Increase the value for noisy cameras. With the default of 0, each attempt

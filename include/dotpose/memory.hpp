@@ -1,6 +1,6 @@
 /// Fixed-size memory for a Locator or DeviceLocator, which reuses it for each frame. The caller
-/// owns the memory, unless a Locator allocates it. It may be static, on the heap, or on a
-/// sufficiently large stack. Its contents are private to the core.
+/// owns the memory, unless a Locator allocates it. The memory may be static, on the heap, or on a
+/// sufficiently large stack. The contents are private to the core.
 #pragma once
 
 #include <array>

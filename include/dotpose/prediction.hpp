@@ -1,7 +1,7 @@
-/// Prediction: the expected place of the pattern in the next frame. With a prediction, a Locator
-/// needs only a fraction of the time, because it measures the dots at their expected places and
-/// compares their bits with the code. A prediction never makes a fix less certain. If a frame does
-/// not confirm its prediction, the frame is located without it.
+/// Prediction: the expected pose in the next frame. With a prediction, a Locator needs only a
+/// fraction of the time, because it measures the dots at their expected positions in the image and
+/// compares their bits with the code. A prediction never makes a fix less reliable. If a frame does
+/// not confirm the prediction, the frame is located without the prediction.
 ///
 ///     Fix fix = locator.locate(image);
 ///     for (;;) fix = locator.locate(image, Prediction::like(fix));

@@ -11,9 +11,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Result of a call. The comment on each value is its `message`. The numbers never change, because
-/// pose packets contain them. scripts/generate-fields copies names and messages to C, the other
-/// languages and the documents.
+/// Result of a call. The comment on each value is its `message`. The numeric values never change,
+/// because pose packets contain them. scripts/generate-fields copies names and messages to C, the
+/// other languages and the documents.
 enum class [[nodiscard]] Status : std::uint8_t{
     ok,  ///< located
     // Invalid arguments.

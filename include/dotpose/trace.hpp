@@ -36,8 +36,8 @@ struct DetectedDot {
     std::uint16_t area_px = 0;
 };
 
-/// Edge between two seeds, each of which is among the four nearest neighbours of the other. Seeds
-/// are the dots from which the lattice is found.
+/// Edge between two seeds that are among the four nearest neighbours of each other. Seeds are the
+/// dots from which the lattice is found.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
@@ -53,17 +53,17 @@ struct Lattice {
     FixedVec origin_q16;
 };
 
-/// Cell of the grid, with its entries in the paper's matrices P (Fig. 8).
+/// Cell of the grid, with the entries for this cell in the matrices P (paper, figure 8).
 struct GridCell {
     static constexpr std::uint16_t kNoDot = 65535;
-    /// Marks a cell in which graphics cover some of the four possible dot places. The low bits are
-    /// a mask of the covered places, indexed by Symbol.
+    /// Marks a cell in which graphics cover some of the four possible dot positions. The low bits
+    /// are a mask of the covered positions, indexed by Symbol.
     static constexpr std::uint16_t kHidden = 65504;
     bool has_dot() const { return dot < kHidden; }
     bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
     bool is_hidden(int symbol) const { return is_hidden() && (dot >> symbol & 1) != 0; }
-    /// Quasi-probabilities of the x bit and the y bit (paper, eq. 9), from -127 (certainly 0) to
-    /// 127 (certainly 1).
+    /// Quasi-probabilities of the x bit and the y bit (paper, equation 9), from -127 (certainly 0)
+    /// to 127 (certainly 1).
     std::int8_t x = 0;
     std::int8_t y = 0;
     /// Index of the cell's dot, kNoDot, or kHidden plus the mask.
@@ -116,7 +116,7 @@ struct Decoding {
     std::array<int, 2> p_wrong_log2_q8{};
 };
 
-/// The paper's matrices P^(x) and P^(y) (Fig. 8), for a rectangle of grid cells.
+/// The matrices P^(x) and P^(y) (paper, figure 8), for a rectangle of grid cells.
 struct GridView {
     std::span<const GridCell> cells;  ///< row by row
     GridRegion region;                ///< grid region of `cells`

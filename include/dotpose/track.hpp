@@ -10,13 +10,13 @@
 ///         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
 ///     }
 ///
-/// `predict` returns the expected place of the pattern in the next frame. See the loop in
-/// examples/follow_robot.cpp.
+/// `predict` returns the expected pose in the next frame. examples/follow_robot.cpp shows its use.
 ///
 /// Coordinates: all poses are in the plane of the sightings, which is the pattern frame or, for a
 /// robot that drives from sheet to sheet, the world of a sheet file. Positions are integers in
-/// nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from +x towards
-/// +y; 2^31 is half a turn. Velocities are in mm/s along x and y. Angular velocities are in rad/s.
+/// nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary angles, measured
+/// from +x towards +y. 2^31 is half a turn. Velocities are in mm/s along x and y. Angular
+/// velocities are in rad/s.
 ///
 /// The functions use no heap, no double precision and no global variables. Different trackers may
 /// be used concurrently.
@@ -99,8 +99,8 @@ struct TrackOptions {
     std::int64_t stationary_after_us = 500'000;
 
     /// Standard deviations of printing errors. Their squares are added to the covariance of each
-    /// sighting. Printing errors do not average out, because all frames at one place have the same
-    /// printing errors.
+    /// sighting. Printing errors do not average out, because all frames of one part of the paper
+    /// have the same printing errors.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
@@ -138,14 +138,14 @@ struct TrackedPose {
 /// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
-    /// The sighting is certain enough without the prior, and its place is possible or confirmed. A
-    /// place is possible if it is inside the gate or, while the robot is lost, if the robot can
-    /// have reached it. The place of the first sighting is always possible. A place is confirmed
-    /// after TrackOptions::confirmations sightings that are consistent with each other.
+    /// The sighting is certain enough without the prior, and its pose is possible or confirmed. A
+    /// pose is possible if it is inside the gate or, while the robot is lost, if the robot can have
+    /// reached it. The pose of the first sighting is always possible. A pose is confirmed after
+    /// TrackOptions::confirmations sightings that are consistent with each other.
     accepted,
     /// The sighting is weak, but certain enough together with the prior.
     with_prior,
-    /// The sighting is certain enough without the prior, but its place is impossible and not
+    /// The sighting is certain enough without the prior, but its pose is neither possible nor
     /// confirmed yet.
     gated,
     /// The sighting is weak and was rejected, because the robot is lost, because the sighting is
@@ -163,7 +163,7 @@ struct TrackEvents {
     /// The tracker has lost the robot, because there was no accepted sighting or motion for
     /// TrackOptions::lost_after_us, or because the uncertainty exceeds TrackOptions::max_sigma_mm.
     bool lost = false;
-    /// The robot has been moved by hand: confirmed sightings are at a place that it cannot have
+    /// The robot has been moved by hand: confirmed sightings show it at a pose that it cannot have
     /// reached by driving since its last accepted sighting.
     bool kidnapped = false;
     bool stationary = false;  ///< the robot came to rest
@@ -223,23 +223,23 @@ class Tracker {
 
     /// Updates the state with a frame and the motion since the previous update, measured by
     /// odometry. `right_mm` is along the direction theta of the sightings, which is the image x
-    /// axis or, with a camera file, the robot's heading. The motion advances the pose, and its
-    /// uncertainty increases the covariance. The sighting, if any, then corrects both.
+    /// axis or, with a camera file, the robot's heading. The motion advances the pose, and the
+    /// uncertainty of the motion increases the covariance of the pose. If there is a sighting, it
+    /// then corrects both.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 
     /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
-    /// Predicts the place of the pattern in the frame at `time_us`. `newest` must be a fix with
-    /// status ok, and `seen` must be its sighting. The prediction is the map of `newest`, moved to
-    /// the pose that the filter predicts, with the uncertainty of that pose. If `seen` is not
-    /// accepted yet, the prediction is computed from `seen` and the earlier sightings that are
-    /// consistent with it.
+    /// Predicts the pose in the frame at `time_us`. `newest` must be a fix with status ok, and
+    /// `seen` must be its sighting. The prediction is the map of `newest`, moved to the pose that
+    /// the filter predicts, with the uncertainty of that pose. If `seen` is not accepted yet, the
+    /// prediction is computed from `seen` and the earlier sightings that are consistent with it.
     ///
     /// Returns Prediction::like(newest) if no prediction is possible:
-    /// - `seen` is neither the newest sighting of the track nor the newest sighting that
-    ///   contradicts the track,
+    /// - `seen` is neither the newest sighting of the track nor the newest sighting that is
+    ///   inconsistent with the track,
     /// - the robot will be considered lost at `time_us`,
     /// - `time_us` is not after the time of `seen`,
     /// - the spacing is not known, or
@@ -276,8 +276,9 @@ class Tracker {
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
     /// Filter state after the newest accepted sighting or measured motion.
     track::MotionEstimate last_;
-    /// Estimate from the newest sightings that contradict the track. It is filtered like the track,
-    /// because the robot may have been put down elsewhere.
+    /// Estimate from the newest sightings that are inconsistent with the track. It is filtered like
+    /// the track, because it replaces the track if further sightings confirm that the robot was
+    /// moved.
     track::MotionEstimate candidate_;
     int agreeing_ = 0;  ///< number of sightings in `candidate_`
     TrackedPose rest_;  ///< reference pose for detecting movement

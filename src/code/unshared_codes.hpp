@@ -1,7 +1,7 @@
-// Unshared lines between codes: how well a position in one code can be distinguished from all
-// positions in another code. The tables contain the minimum number of lines that differ, as defined
-// in unshared_lines.hpp. The tables are generated, and tests/unit/code/unshared_codes_test.cpp
-// recomputes them.
+// Unshared lines between codes: tables that describe how well a position in one code can be
+// distinguished from all positions in another code. They contain the minimum number of lines that
+// differ, as defined in unshared_lines.hpp. The tables are generated, and
+// tests/unit/code/unshared_codes_test.cpp recomputes them.
 #pragma once
 
 #include <array>
@@ -15,8 +15,9 @@ namespace dotpose::code {
 
 /// Minimum numbers of unshared lines between a position in the code that was read and any position
 /// in another code. Indices: code that was read, other code, row of `kUnsharedOf`. Each string has
-/// one digit for each place of the first line in a4. Because anoto and libdots have most of a4 in
-/// common, the minimum between these codes excludes the same place at shift 0.
+/// one digit for each place of the first line in a4. The sequences a4 of anoto and libdots are
+/// equal in most places. The minimum between these two codes therefore excludes the same place at
+/// shift 0.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

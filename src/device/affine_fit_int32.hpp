@@ -7,7 +7,8 @@
 
 namespace dotpose::core {
 
-/// Accumulates image points and their grid coordinates, and solves for the affine map between them.
+/// Accumulates image points and their grid coordinates, and computes the affine map from the points
+/// to the coordinates.
 class AffineFitInt32 {
   public:
     template <typename Int>

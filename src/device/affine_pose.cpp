@@ -32,8 +32,8 @@ std::int32_t squared_q16(FixedVec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
-/// This function is not inlined, because the caller would otherwise need more registers than small
-/// processors have.
+/// Adds a point to the fit. This function is not inlined, because the caller would otherwise need
+/// more registers than small processors have.
 [[gnu::noinline]] void add(AffineFitInt32& fit, FixedVec p, FixedVec target) {
     fit.add(p, target);
 }
@@ -68,9 +68,9 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     const auto squared_residual_q16 = [&](FixedVec offset, Symbol symbol) {
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
-    // Upper limit of the squared residual: 12 times the median. For a two-dimensional Gaussian, the
-    // median is 1.39 sigma^2, so residuals of up to 4.1 sigma are accepted. One dot in 4,000
-    // exceeds this limit by chance.
+    // Maximum squared residual of a dot in the fit: 12 times the median. For a two-dimensional
+    // Gaussian, the median is 1.39 sigma^2, so residuals of up to 4.1 sigma are accepted. One dot
+    // in 4,000 exceeds this limit by chance.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +

@@ -42,7 +42,7 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
     if (status != Status::ok) return status;
     find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
     const Status grown = grow_grid(w.found_dots(), options.lattice, start, w.lattice,
-                                   w.grid_from_image);  // II-B.3
+                                   w.grid_from_image);  // paper, section II-B.3
     // The later stages expect a map relative to the image centre.
     w.grid_from_image = affine_tangent(w.grid_from_image, image_centre_q8(w.threshold));
     return grown;
@@ -51,9 +51,10 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
 /// Minimum number of columns and of rows in view, if sheets are known.
 constexpr int kMinKnownSide = 3;
 
+/// Reads the bits of the grid (paper, section II-B.4).
 Status read_bits(Workspace& w) {
     return assign_affine_likelihoods(w.found_dots(), w.grid_from_image, w.grid,
-                                     w.known.any() ? kMinKnownSide : kWindowSide);  // II-B.4
+                                     w.known.any() ? kMinKnownSide : kWindowSide);
 }
 
 /// Finds the place in the code. Searches the known sheets first, and then the whole code unless the
@@ -64,13 +65,13 @@ Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
         if (w.known.are_all() || w.in_whole_code == nullptr) return Status::not_certain;
         if (std::min(w.grid.columns, w.grid.rows) < kWindowSide) return Status::grid_too_small;
     }
-    return w.in_whole_code->read(options, w);  // II-B.5-7
+    return w.in_whole_code->read(options, w);  // paper, sections II-B.5 to II-B.7
 }
 
 Status measure_pose(const DeviceOptions& options, Workspace& w) {
     const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =
-        upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
+        upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // paper, section II-B.8
     const Observations observations(w.found_dots(), w.grid, nominal);
     w.fix.dots_used = fit_affine_pose(observations, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::no_grid;
@@ -83,12 +84,13 @@ Status measure_pose(const DeviceOptions& options, Workspace& w) {
 }  // namespace
 
 const Fix& finish_device_attempt(const DeviceOptions& options, DeviceWorkspace& w) {
+    // The comments at the right give the sections of the paper.
     Status status = w.keeps_frame ? w.on_sheets->find_dots_of_small(options, w)
-                                  : find_dots(options, w);        // II-B.1
-    if (status == Status::ok) status = find_grid(options, w);     // II-B.2-3
-    if (status == Status::ok) status = read_bits(w);              // II-B.4
-    if (status == Status::ok) status = find_place(options, w);    // II-B.5-7
-    if (status == Status::ok) status = measure_pose(options, w);  // II-B.8
+                                  : find_dots(options, w);        // section II-B.1
+    if (status == Status::ok) status = find_grid(options, w);     // sections II-B.2 and II-B.3
+    if (status == Status::ok) status = read_bits(w);              // section II-B.4
+    if (status == Status::ok) status = find_place(options, w);    // sections II-B.5 to II-B.7
+    if (status == Status::ok) status = measure_pose(options, w);  // section II-B.8
     w.fix.status = status;
     return w.fix;
 }

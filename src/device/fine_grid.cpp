@@ -19,8 +19,8 @@ constexpr std::int32_t kOneCell_q24 = 1 << 24;
 constexpr std::int32_t kMaxOffset_q24 = kOneCell_q24 / 8;
 
 /// Circular mean of the fractional parts of coordinates, which are their phases within the cells.
-/// Uses triangle waves instead of cosine and sine, because they need neither a table nor a
-/// multiplication.
+/// Uses triangle waves instead of cosine and sine, because triangle waves need neither a table nor
+/// a multiplication.
 class MeanPhase {
   public:
     /// Adds a coordinate, in 2^-8 cells.
@@ -59,7 +59,8 @@ class PhasesOfAxis {
     Line fit(int dots) const {
         const int first_q8 = halves_[0].q8();
         const int rise_q8 = static_cast<std::int8_t>(halves_[1].q8() - first_q8);
-        // The centres of the halves are twice the mean distance of a dot from the middle apart.
+        // The distance between the centres of the two halves is twice the mean distance of a dot
+        // from the middle.
         return {static_cast<std::int8_t>(first_q8 + rise_q8 / 2),
                 (rise_q8 * dots * (1 << 15)) / std::max<std::int32_t>(across_q8_, 1)};
     }
@@ -226,8 +227,8 @@ std::uint32_t code_at(std::span<const ComparedLine> lines, int line, int line_sh
     return cell_shift >= 0 ? bits >> cell_shift : bits << 1;
 }
 
-/// Returns the number of bits of an axis that contradict the code after the corner has moved by the
-/// given shift.
+/// Returns the number of bits of an axis that disagree with the code after the corner has moved by
+/// the given shift.
 int wrong_bits(const Tracking& tracking, std::span<const ComparedLine> lines, int line_shift,
                int cell_shift) {
     int wrong = 0;
@@ -240,8 +241,8 @@ int wrong_bits(const Tracking& tracking, std::span<const ComparedLine> lines, in
     return wrong;
 }
 
-/// Returns true if at most a quarter of the bits of all dots contradict the code after the corner
-/// has moved by `shift` cells.
+/// Returns true if at most a quarter of the bits of all dots disagree with the code after the
+/// corner has moved by `shift` cells.
 bool agrees(const Tracking& tracking, FixedVec shift) {
     const int wrong =
         wrong_bits(tracking, tracking.lines.first(kMaxComparedLines), shift.x, shift.y) +
@@ -249,14 +250,15 @@ bool agrees(const Tracking& tracking, FixedVec shift) {
     return 2 * wrong <= tracking.dots_measured;
 }
 
-/// Moves the corner to the place at which the code agrees with the bits, and marks the bits that
-/// contradict the code there. The new corner is at most one cell from the predicted corner along
+/// Moves the corner to the place where the code agrees with the bits, and marks the bits that
+/// disagree with the code there. The new corner is at most one cell from the predicted corner along
 /// each axis. Returns false if there is no such place. `phase_q8` is the shift of the grid relative
 /// to the prediction.
 DOTPOSE_NOINLINE bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
     // The phase determines the shift of the pattern only up to whole cells. If the magnitude of the
-    // phase is at least kLarge_q8, the shift may also be one cell smaller or larger, because the
-    // magnitude of this second shift is at most 3/5 of a cell.
+    // phase is at least kLarge_q8, the shift may also differ from the phase by one cell. The
+    // magnitude of this other shift is at most 3/5 of a cell, the maximum accepted error of a
+    // prediction.
     constexpr int kLarge_q8 = 256 * 2 / 5;
     const auto other = [](int phase) {
         return magnitude(phase) < kLarge_q8 ? 0 : phase > 0 ? 1 : -1;

@@ -1,8 +1,8 @@
 // Grow: extends the first grid estimate to all dots (paper, section II-B.3). Assumes no perspective
-// and no lens distortion. The paper refines the origin by eq. 6, and then the grid vectors by
-// median lengths between neighbours. This stage instead fits all terms by least squares, and treats
-// the displacements of the dots as noise. The first fit uses the dots near the origin, and each
-// further fit uses a larger area.
+// and no lens distortion. The paper first refines the origin (equation 6), and then the grid
+// vectors by the median distances between neighbouring dots. This stage instead fits all terms by
+// least squares, and treats the displacements of the dots as noise. The first fit uses the dots
+// near the origin, and each further fit uses a larger area.
 #pragma once
 
 #include "dotpose/device_options.hpp"

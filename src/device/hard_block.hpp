@@ -22,7 +22,7 @@ struct HardLine {
     std::uint32_t bits = 0;
     std::uint32_t seen = 0;  ///< a bit is 1 if the bit of its cell was read
 
-    /// Returns the number of bits that contradict the main sequence if the line starts at index
+    /// Returns the number of bits that disagree with the main sequence if the line starts at index
     /// `roll` of the sequence.
     int wrong_at(std::size_t roll) const { return bits_in((code::kMainWords[roll] ^ bits) & seen); }
 };
@@ -35,11 +35,11 @@ struct HardLines {
 
     const HardLine& operator[](int line) const { return first[line * step]; }
 
-    /// Returns the number of bits that contradict the code if line i starts at index `rolls[i] +
+    /// Returns the number of bits that disagree with the code if line i starts at index `rolls[i] +
     /// added`, modulo 63, of the main sequence. If this number exceeds `limit`, may stop counting
     /// early, with a result that also exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
-    /// Returns the number of bits that contradict the code. The roll of each line is (r + added)
+    /// Returns the number of bits that disagree with the code. The roll of each line is (r + added)
     /// mod 63, where r is its roll in section 0, taken from `rolls`. May stop early once the count
     /// exceeds `limit`, and then returns a value greater than `limit`.
     int wrong_at(const code::RollsAhead& rolls, std::uint32_t added, int limit) const;

@@ -10,11 +10,12 @@ namespace dotpose::core {
 namespace {
 
 Status read_in_whole_code(const DeviceOptions& options, DeviceWorkspace& w) {
-    // The decoder does not need the 8 x 8 window of the paper. The window is computed only for
-    // display.
-    if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
+    // The decoder does not need the 8 x 8 window (paper, section II-B.5). The window is computed
+    // only for display.
+    if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);
     choose_region(w);
-    Status status = decode_briefly(w.grid, options.code, w.line_scores, w.decoding);  // II-B.6-7
+    // Finds the orientation and the position (paper, sections II-B.6 and II-B.7).
+    Status status = decode_briefly(w.grid, options.code, w.line_scores, w.decoding);
     if (status == Status::ok) {
         status = verify_quickly(w.grid, options.code, w.decoding, options.integrity, w.line_scores,
                                 w.fix);

@@ -12,7 +12,7 @@ struct DeviceWorkspace;
 /// not linked into programs whose frames are so small that only known sheets can be read.
 struct WholeCodeFunctions {
     /// Finds the place of a frame without a prediction, and verifies it. Sets the place and the
-    /// orientation in the decoding (paper, section II-B.5-7).
+    /// orientation in the decoding (paper, sections II-B.5 to II-B.7).
     Status (*read)(const DeviceOptions& options, DeviceWorkspace& w);
     /// Verifies the predicted place of a tracked frame (see `verify_tracked`). Error: not_certain.
     Status (*verify)(const DeviceOptions& options, DeviceWorkspace& w);

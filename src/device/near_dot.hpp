@@ -1,5 +1,5 @@
 // Near dot: measures the dot near an intersection whose image point is known. The measurement does
-// not depend on the code, so it can confirm or contradict the code. Most functions are inline,
+// not depend on the code, so its result can be compared with the code. Most functions are inline,
 // because calls would account for a third of the time per dot on small processors.
 #pragma once
 
@@ -16,9 +16,9 @@ namespace dotpose::core {
 
 /// Half sides of the squares in which dots are read, in px. A square with half side n has 2 n + 1
 /// px per side. The square of kHalf_px is centred on an intersection and, at spacings of 7 to 14
-/// px, contains the dot whatever its symbol. If the displacement of the dots is small, symbols are
-/// read in the square of kSmallHalf_px, which allows dots closer to the image border to be read.
-/// The square of kDotHalf_px is centred on the dot itself.
+/// px, contains the dot regardless of its symbol. If the displacement of the dots is small, symbols
+/// are read in the square of kSmallHalf_px, because a smaller square allows reading dots closer to
+/// the image border. The square of kDotHalf_px is centred on the dot itself.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kSmallHalf_px = 3;
 inline constexpr int kDotHalf_px = 2;
@@ -59,7 +59,7 @@ bool lay_dot_pixels(Tracking& tracking);
 class ReadSymbol {
   public:
     static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
-    /// Constructs a clear reading. Pixels below `level`, from 0 to 255, belong to the dot.
+    /// Constructs a clear result. Pixels below `level`, from 0 to 255, belong to the dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
     /// Returns true if one of the four possible centres of the dot was clearly the darkest, and

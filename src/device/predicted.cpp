@@ -121,7 +121,7 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the radius of the search for the predicted position, in px at the image centre. The
+/// Returns the radius of the search around the predicted position, in px at the image centre. The
 /// radius is three standard deviations of the prediction, but at most 3/5 of the spacing.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
@@ -137,8 +137,8 @@ std::int32_t fine_spacing_q8(std::int32_t det_q24) {
         square_root(UINT32_MAX / static_cast<std::uint32_t>(det_q24 >> 8)));
 }
 
-/// Sets the cells of a grid that is not fine, and the members that depend on them. Returns false in
-/// the same cases as `lay_out_memory`.
+/// Sets the cells of a grid that is not fine, and the members that depend on the cells. Returns
+/// false in the same cases as `lay_out_memory`.
 bool lay_cells(const Prediction& prediction, const PlaneFromImage& plane, std::int32_t det_q24,
                Tracking& tracking) {
     invert(plane, det_q24, tracking.cells);

@@ -1,4 +1,4 @@
-// Predicted: computes the image points of grid cells from a prediction.
+// Predicted cells: computes the image points of grid cells from a prediction.
 #pragma once
 
 #include "core/math/fixed.hpp"
@@ -9,13 +9,13 @@
 
 namespace dotpose::core {
 
-/// Number of rows that are collected before the dots in them are read.
+/// Number of rows that are collected before their dots are read.
 inline constexpr int kRowsAtOnce = 12;
 
-/// Sets `plane`, relative to cell (0, 0). In `tracking`, sets the corner, the cells, and the
-/// members that depend on the spacing. The memory and the image size must already be set. The image
-/// must have at most 4096 px per side. The prediction may have any values. Returns not_tracked in
-/// each of these cases:
+/// Prepares the tracking of a frame from its prediction. Sets `plane`, relative to cell (0, 0). In
+/// `tracking`, sets the corner, the cells, and the members that depend on the spacing. The memory
+/// and the image size must already be set. The image must have at most 4096 px per side. The
+/// prediction may have any values. Returns not_tracked in each of these cases:
 /// - a value of the prediction is out of range,
 /// - the spacing is not from 7 to 14 px (from 5 to 14 px if sheets are known),
 /// - the angle between the grid axes is less than 45 degrees, or the spacing along one axis is more

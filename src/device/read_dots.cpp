@@ -11,9 +11,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Direction in which a row of cells is read. Along it, the image coordinate v does not decrease.
-/// `step_q16` is the step from one cell to the next in the image, and `i_step` is the step of the
-/// column, 1 or -1.
+/// Direction in which a row of cells is read. In this direction, the image coordinate v does not
+/// decrease. `step_q16` is the step from one cell to the next in the image, and `i_step` is the
+/// step of the column, 1 or -1.
 struct RowDirection {
     FixedVec step_q16;
     int i_step;
@@ -68,8 +68,8 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
     }
 }
 
-/// Marks both bits of a cell as read, and marks the bits that contradict the code as wrong. Returns
-/// true if both bits agree with the code.
+/// Marks both bits of a cell as read, and marks the bits that disagree with the code as wrong.
+/// Returns true if both bits agree with the code.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     ComparedLine& column = column_of(tracking, i);
     ComparedLine& row = row_of(tracking, j);
@@ -86,7 +86,7 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
 }
 
 /// Adds the next dot of a row to the sums, if it is not at the border, its mass is plausible, and
-/// its centre is near the predicted place. The symbol of the dot must agree with the code. Masses
+/// its centre is near the predicted centre. The symbol of the dot must agree with the code. Masses
 /// are below 2^12, offsets are at most 2 px (2^9 units of 2^-8 px), and columns are at most 2^4
 /// from the middle. The sums over a row of at most 32 dots are therefore at most 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {

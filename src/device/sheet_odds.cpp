@@ -28,11 +28,12 @@ struct PlacedLines {
     HardLines lines;
     std::uint32_t position;
     std::uint32_t section;
-    int wrong;  ///< number of bits that contradict the code
+    int wrong;  ///< number of bits that disagree with the code
 };
 
-/// Returns the number that must be added, modulo 63, to the rolls in section 0 of the lines of an
-/// axis. This number is the section of the axis plus the position on the other axis.
+/// Returns the roll of a line minus the roll of this line in section 0, modulo 63. This difference
+/// is the same for all lines of an axis: the section of the axis plus the position on the other
+/// axis.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
@@ -78,13 +79,13 @@ class OddsOfOthers {
     static constexpr int kNegligible_q8 = 48 * 256;
     CodeVariant code_;
     int odds_per_bit_q8_;
-    int max_lost_;  ///< number of additional wrong bits above which odds are negligible
+    int max_lost_;  ///< odds are negligible if more than this number of additional bits is wrong
     int log2_q8_ = kNever_q8;
 };
 
 /// Returns log2 of the number of places that may be in view, in units of 2^-8. The number includes
-/// all four orientations and places at which the block extends beyond a region. It is at least
-/// 2^10, because a tracked attempt tests a single place but chooses among up to 2^10 planes.
+/// all four orientations and places at which the block extends beyond a region. The number is at
+/// least 2^10, because a tracked attempt tests a single place but chooses among up to 2^10 planes.
 int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
     std::uint64_t places = 0;
     for (const KnownRegion& region : sheets.regions) {
@@ -120,8 +121,8 @@ int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const Pla
 
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options) {
-    // Maximum number of wrong bits to test. Only in large views can a place with more wrong bits be
-    // certain. For such views, the function returns the total number of bits, which excludes no
+    // Maximum number of wrong bits to test. A place with more wrong bits can be certain only in a
+    // large view. For large views, the function returns the total number of bits, which excludes no
     // place.
     constexpr int kMaxTested = 8;
     const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);

@@ -49,9 +49,9 @@ struct LinePair {
     AgreeingRolls second;
 };
 
-/// Returns the first line of the pair of adjacent lines with the most bits. A pair has as many bits
-/// as the shorter of its lines. Skips the lines in the bit set `tried`, and adds the pair to this
-/// set. Returns nullopt if no pair with bits is left.
+/// Returns the first line of the pair of adjacent lines with the most bits. The number of bits of a
+/// pair is that of its line with fewer bits. Skips the lines in the bit set `tried`, and adds the
+/// pair to this set. Returns nullopt if no pair with bits is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -136,15 +136,15 @@ class SheetSearch {
     void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
                    const Rolls& rolls, std::uint32_t position, std::uint32_t step);
     /// Tests the places at which the first line of an axis is at `position`. `wrong` is the number
-    /// of bits of this axis that contradict the code there. The roll of each line is its roll in
+    /// of bits of this axis that disagree with the code there. The roll of each line is its roll in
     /// section 0 plus `added`.
     void test_crossing(const KnownRegion& region, Axis axis, int quarters, std::uint32_t position,
                        std::uint32_t added, int wrong);
 
     const HardBlock& block_;
     CodeVariant code_;
-    int max_wrong_;  ///< maximum number of wrong bits on both axes together; after a place is
-                     ///< found, one less than at that place
+    int max_wrong_;  ///< maximum number of wrong bits, summed over both axes. After a place is
+                     ///< found, one less than the number at this place
     std::optional<SheetPlace> best_;
 };
 

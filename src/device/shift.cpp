@@ -59,9 +59,8 @@ void Shifts::measure_paper(const Tracking& tracking) {
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
     // Maximum distance of the visited cells from the middle cell, in cells along each axis. At any
-    // rotation of the grid, the visited cells contain every dot that is within two spacings of the
-    // middle column of the image, and that is in the first rows or can be moved into them by a
-    // shift.
+    // rotation of the grid, the visited cells include all dots within two spacings of the middle
+    // column of the image that are in the first rows or that a shift can move into the first rows.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -100,8 +99,9 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor of a sum of darkness. Dividing sums over fewer dots by this number reduces
-    // their means. This is intended, because the mean over a few dots may be large by chance.
+    // Minimum divisor of a sum of darkness. A sum over fewer dots is divided by this number, which
+    // reduces the mean. The reduction is intended, because the mean over a few dots may be large by
+    // chance.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

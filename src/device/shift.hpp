@@ -8,9 +8,9 @@
 namespace dotpose::core {
 
 /// Mean darkness of the pixels at the predicted dots near the middle column of the image, for each
-/// shift in the search range. The mean is largest at the correct shift, at which all dots coincide
-/// with their predicted centres. If few dots are in view, the mean may be nearly as large at a
-/// shift that is wrong by one spacing.
+/// shift in the search range. The mean is largest at the correct shift, because all dots then
+/// coincide with their predicted centres. If few dots are in view, the mean may be nearly as large
+/// at a shift that is wrong by one spacing.
 class Shifts {
   public:
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.

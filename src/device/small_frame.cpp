@@ -43,7 +43,7 @@ Status find_dots_of_small_frame(const DeviceOptions& options, DeviceWorkspace& w
     const auto dots = first(w.dots, w.dot_count);
     for (DetectedDot& dot : dots)
         dot.centre_q8 = dot.centre_q8 + middle_q8;
-    undistort(options.lens, image_centre_q8(w.threshold), dots);  // eq. 1-2
+    undistort(options.lens, image_centre_q8(w.threshold), dots);  // paper, equations 1 and 2
     return Status::ok;
 }
 

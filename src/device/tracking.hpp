@@ -103,9 +103,9 @@ struct Tracking {
     FixedVec du_q20;
     FixedVec dv_q20;
     std::int32_t displacement_q12 = 0;
-    int rows_kept = 0;  ///< number of rows for which there is memory
-    /// Number of first rows in which the prediction error is measured. In fine grids, the value of
-    /// rows_taken at which the next search for dots begins.
+    int rows_kept = 0;  ///< maximum number of rows that can be stored
+    /// Number of rows at the top of the tracked part in which the prediction error is measured. In
+    /// fine grids, the value of rows_taken at which the next search for dots begins.
     int first_rows = 0;
     int next_reading = 0;  ///< value of rows_taken at which dots are read next; in fine grids, the
                            ///< first row of the next search for dots

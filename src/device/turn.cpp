@@ -16,7 +16,7 @@ constexpr int kRounds = 4;
 /// agree with the code, in units of 1/8.
 constexpr int kMinDots = 12;
 constexpr int kMinFraction_q3 = 6;
-/// Minimum number of measured dots from which the fraction is tested.
+/// The fraction is tested only if at least this number of dots has been measured.
 constexpr int kMinMeasured = 8;
 
 /// A small similarity transform of the cells: shift, rotation and scale. A cell at c, relative to
@@ -36,7 +36,7 @@ struct Similarity {
             part(std::int64_t{s.stretch_q20} * v.y + std::int64_t{s.turn_q20} * v.x)};
 }
 
-/// Least-squares fit of a similarity to the offsets of dots.
+/// Least-squares fit of a similarity transform to the offsets of dots.
 class SimilarityFit {
   public:
     /// Adds a dot. `cell` is its cell, relative to the middle cell.
@@ -72,7 +72,7 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// Returns the map of the cells after a similarity around the cell `middle`.
+/// Returns the map of the cells after a similarity transform around the cell `middle`.
 CellMap changed(const CellMap& cells, FixedVec middle, const Similarity& s) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;
@@ -89,7 +89,7 @@ CellMap changed(const CellMap& cells, FixedVec middle, const Similarity& s) {
             along_x, along_y};
 }
 
-/// Measures rings of dots, and fits a similarity to the dots that agree with the code.
+/// Measures rings of dots, and fits a similarity transform to the dots that agree with the code.
 class Rounds {
   public:
     Rounds(Tracking& tracking, FixedVec middle)
@@ -99,7 +99,7 @@ class Rounds {
     /// neighbours. These dots need not agree with the code.
     void recentre();
     void measure(int i, int j);
-    /// Applies the fitted similarity to the cells.
+    /// Applies the fitted similarity transform to the cells.
     void lay_cells() {
         similarity_ = fit_.solve();
         tracking_.cells = changed(before_, middle_, similarity_);

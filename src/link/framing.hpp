@@ -1,6 +1,6 @@
-// Encodes a fixed number of arbitrary bytes as bytes without zeros (COBS), and appends a CRC. The
-// CRC covers the encoded bytes, because an error in a code byte of COBS shifts all following plain
-// bytes, and a CRC of the plain bytes would not always detect this.
+// Framing: encodes a fixed number of arbitrary bytes as bytes without zeros (COBS), and appends a
+// CRC. The CRC covers the encoded bytes, because an error in a code byte of COBS shifts all
+// following plain bytes, and a CRC of the plain bytes would not always detect this.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ inline constexpr std::size_t kPlainBytes = 27;
 /// 254 plain bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
 /// Number of bytes of the CRC. Each of them contains at most 7 bits of the CRC. The top bit is set,
-/// so that the byte is never zero.
+/// so the byte is never zero.
 inline constexpr std::size_t kCheckBytes = 3;
 inline constexpr std::size_t kFramedBytes = kCodedBytes + kCheckBytes;
 
@@ -23,9 +23,9 @@ using Plain = std::array<std::uint8_t, kPlainBytes>;
 using Framed = std::array<std::uint8_t, kFramedBytes>;
 
 /// Returns the CRC-16 with the polynomial 0x5935 and the initial value 0xFFFF, most significant bit
-/// first. No 16-bit polynomial detects more errors at this length: this one detects all errors of
-/// up to 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004). In the notation of
-/// this paper, the polynomial is 0xAC9A.
+/// first. The CRC detects all errors of up to 4 bits in up to 241 bits of data, and no 16-bit
+/// polynomial detects more errors at this length (Koopman and Chakravarty, DSN 2004, where the
+/// polynomial is written as 0xAC9A).
 std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);

@@ -6,8 +6,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum predicted motion, in spacings. Larger motions are not predicted, because they may
-/// overflow integers.
+/// Maximum predicted motion, in spacings. Larger motions are not predicted, because fixed-point
+/// coordinates could overflow.
 constexpr float kMaxMotion = 2048;
 /// Minimum standard deviation of a predicted position, in 2^-16 spacings. Accounts for the error of
 /// the last plane, which is not part of `MeasuredMotion::sigma_mm`.

@@ -21,7 +21,7 @@ namespace dotpose::core {
 enum class Step : std::uint8_t { first, turning, second, resampled, device };
 
 /// Returns true if the status means that the image shows a grid of dots whose bits do not determine
-/// a certain position in this code. An attempt in another code may succeed.
+/// a reliable position in this code. An attempt in another code may succeed.
 bool leaves_code_open(Status status);
 
 /// Makes attempts to locate one frame. The results of the last attempt are in the workspace.
@@ -38,7 +38,7 @@ class Attempts {
 
     /// Returns the codes in which the step should be tried, starting with the most likely code. If
     /// several codes are possible, returns at most one code for `resampled`: the code with the
-    /// fewest bit errors among the codes in which `second` was not certain.
+    /// fewest bit errors among the codes for which `second` found only a doubtful position.
     std::span<const CodeVariant> codes_for(Step step) const;
     /// Returns true if the options allow a second attempt and the image is large enough for one.
     bool may_try_twice() const;
@@ -49,10 +49,10 @@ class Attempts {
     /// Returns true if a rotation of the scene during the readout may explain the residuals of the
     /// fix. A search for this rotation (`Step::turning`) may then give a better fix.
     bool shows_turn();
-    /// Returns true if the last attempt found too few cells for a certain fix in any code.
+    /// Returns true if the last attempt found too few cells for a reliable fix in any code.
     bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }
     /// Returns true if, in the most recent first attempt, all measured dots were clear and agreed
-    /// with the code, but were too few for a certain position.
+    /// with the code, but were too few for a reliable position.
     bool has_clear_bits() const { return w_.measurement.has_clear_bits; }
 
   private:

@@ -30,7 +30,7 @@ float half_side_px(const ImageView& image) {
 /// - The number of dots that were read is at least `Frame::min_dots` and at least half of the
 ///   number of dots that were seen.
 /// - Dots were seen in at least a quarter of the listed cells, or the view is partial.
-/// - On each axis, at most max_bit_error_q8 / 256 of the bits contradict the code.
+/// - On each axis, at most max_bit_error_q8 / 256 of the bits disagree with the code.
 bool are_plausible(const BitsRead& bits, const MeasuredDots& dots, const Frame& frame,
                    bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
@@ -41,9 +41,9 @@ bool are_plausible(const BitsRead& bits, const MeasuredDots& dots, const Frame& 
            !exceeds_error_rate(bits.wrong_x) && !exceeds_error_rate(bits.wrong_y);
 }
 
-/// Returns true if the bits need no second reading. This is the case if at least kClear_percent of
-/// the dots that were seen were also read, and if at most max(kMaxWrong, n / kDotsPerWrong) bits of
-/// the n dots that were read are wrong.
+/// Returns true if the bits need no second reading. This is the case if at least kClear_percent %
+/// of the dots that were seen were also read, and if at most max(kMaxWrong, n / kDotsPerWrong) bits
+/// of the n dots that were read are wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <=
@@ -60,7 +60,7 @@ bool shows_overlay(const BitsRead& bits) {
                tuned::kMaxWrongInOverlay * static_cast<float>(2 * bits.read);
 }
 
-/// Returns true if the image shows too few cells for a certain position (see `are_too_few_cells`).
+/// Returns true if the image shows too few cells for a reliable position (see `are_too_few_cells`).
 /// Overwrites the list of dots.
 bool shows_too_few_cells(const Frame& frame, CellsInView view, MeasuredDots& dots) {
     view.margin_px = 0;
@@ -181,8 +181,8 @@ struct Reach {
           now(deciding) {
         if (!hypothesis.is_partial_view) return;
         // The pattern may end anywhere in a partial view, so the first round reads only nearby
-        // dots. Their bits may be too few for a certain position, so the position is tested only in
-        // the round that reaches the deciding distance.
+        // dots. Their bits may be too few to make the position certain, so the position is tested
+        // only in the round that reaches the deciding distance.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
@@ -265,8 +265,9 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         }
         if (decides && !hypothesis.is_certain) {
             measurement.bits = 2 * bits.read;
-            // In small views, clean bits are sufficient, because the remaining dots have little
-            // influence and further attempts take long.
+            // If the bits are clear but do not make the position certain, the frame has too few
+            // bits. In small views, clean bits count as clear, because the few remaining dots have
+            // little influence and further attempts take long.
             const bool are_clear = hypothesis.is_small_view && !hypothesis.reads_cut_dots
                                        ? is_clean(bits)
                                        : bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;

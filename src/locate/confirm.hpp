@@ -21,12 +21,12 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane);
 ///     sqrt(variance) / displacement + bit_errors / bits > kMaxImplausible.
 ///
 /// `bits` is the number of bits read, two per dot, and `bit_errors` is the number of these bits
-/// that contradict the code.
+/// that disagree with the code.
 ///
 /// For example, two overlapping patterns that are nearly aligned can look like a third pattern,
 /// with the columns of one pattern and the rows of the other. In such a frame, a quarter of the
-/// cells have no dot at the expected place, and half of the dots are at another place of their
-/// cell. docs/integrity.md contains the measurements.
+/// cells have no dot at the expected position, and half of the dots are at another of the four dot
+/// positions of their cell. docs/integrity.md contains the measurements.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Returns true if the surface is uneven and less than half of the dots are inliers of the fitted
@@ -50,20 +50,20 @@ struct Measurement {
     MeasuredDots dots;
     RollMemory rolls;
     // Results for a confirmed hypothesis.
-    Hypothesis hypothesis;              ///< with the fitted plane
+    Hypothesis hypothesis;              ///< confirmed hypothesis, with the fitted plane
     PlaneFromImage pattern_from_image;  ///< plane of `hypothesis`, in fixed point
     TurnFit turn;                       ///< fitted rotation, if `Frame::removed_turn` is not null
     /// Number of bits that were used to decide whether the place is certain, two per dot. Not set
     /// if `Hypothesis::is_certain` is true.
     int bits = 0;
-    /// True if the frame shows fewer cells than a certain position needs without known sheets, or
-    /// if its view is small, its dots are clear, and the position is not certain. Further attempts
-    /// are then skipped. Computed only if the result is `too_few_bits`.
+    /// True if the frame shows too few cells for a reliable position (see `are_too_few_cells`), or
+    /// if the bits of a small view are clear but do not make the position certain. Further attempts
+    /// are then skipped. `confirm` sets this flag only if its result is `too_few_bits`.
     bool shows_too_few_cells = false;
     /// True if the result of the first attempt is `too_few_bits`, that is, its bits are clear but
-    /// too few for a certain position. In this case, the scene did not rotate during the readout,
-    /// because a rotation would have moved some dots away from their predicted places, and their
-    /// bits would not be clear.
+    /// too few to make the position certain. In this case, the scene did not rotate during the
+    /// readout, because a rotation would have moved some dots away from their predicted positions,
+    /// and their bits would not be clear.
     bool has_clear_bits = false;
 };
 
@@ -75,9 +75,9 @@ struct Measurement {
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix);
 
-/// Returns true if `count` cells are too few for a certain position even if all their bits are
-/// clear and agree with the code, because so few bits may agree with a position by chance. Returns
-/// false if sheets are known, because a place on a known sheet can be certain with fewer cells.
+/// Returns true if `count` cells are too few for a reliable position: even if all their bits are
+/// clear and agree with the code, so few bits may agree by chance. Returns false if sheets are
+/// known, because fewer cells can then be sufficient.
 bool are_too_few_cells(const Frame& frame, int count);
 
 /// Returns true if the residual of a fix is at least kRough_px and at least kRough spacings. A

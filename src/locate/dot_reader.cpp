@@ -164,8 +164,9 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
 
 bool DotReader::correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                                    const PoseFit& fit, FloatVec& remaining_px2) const {
-    // The bias averages out if the dots have different sub-pixel phases. The phases differ if dots
-    // are sampled directly (see `can_sample_directly`) or if the lens has distortion.
+    // The bias averages out if the dots have different sub-pixel phases. The phases differ if the
+    // lens has distortion. They also differ if the dots are sampled directly, because
+    // `can_sample_directly` requires different phases.
     if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =
         fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);

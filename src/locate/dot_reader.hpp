@@ -9,8 +9,8 @@
 namespace dotpose::core {
 
 /// Returns true if the dots of a predicted hypothesis can be sampled directly. Direct sampling
-/// takes one sample at each of the four places of a cell, and measures centres in small centroid
-/// windows.
+/// takes one sample at each of the four possible dot positions of a cell, and measures centres in
+/// small centroid windows.
 bool can_sample_directly(const Hypothesis& hypothesis);
 
 /// Returns true if the pixel bias is significant. This is the case if all dots of a row or column
@@ -18,8 +18,8 @@ bool can_sample_directly(const Hypothesis& hypothesis);
 /// of the mean centre along one axis. `side_px` is the longer image side.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
-/// Reads and measures the listed dots. If the hypothesis is exact, samples the four places of each
-/// cell. Otherwise, uses windows around the intersections.
+/// Reads and measures the listed dots. If the hypothesis is exact, samples the four possible dot
+/// positions of each cell. Otherwise, uses windows around the intersections.
 class DotReader {
   public:
     DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)

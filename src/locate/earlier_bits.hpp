@@ -1,6 +1,6 @@
 // Earlier bits: the bits of earlier frames, in the grid of the newest earlier frame. A measured
-// motion relates this grid to the current grid. Frames whose positions are not certain individually
-// may determine a certain position together. See docs/integrity.md, "Frames read together".
+// motion relates this grid to the current grid. Frames that do not determine a reliable position
+// individually may do so together. See docs/integrity.md, "Frames read together".
 #pragma once
 
 #include <optional>
@@ -49,9 +49,9 @@ class EarlierBits {
     /// Returns true between `begin_frame` and `end_frame`.
     bool is_in_series() const { return is_in_frame_; }
     bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
-    /// Joins a block of the current frame with the earlier bits. Drops cells in which the frames
-    /// contradict each other. Returns nullopt if there are no earlier bits, or if the upper bound
-    /// on the probability of a wrong grid match exceeds half of the accepted probability of a wrong
+    /// Joins a block of the current frame with the earlier bits. Drops cells whose bits differ
+    /// between the frames. Returns nullopt if there are no earlier bits, or if the upper bound on
+    /// the probability of a wrong grid match exceeds half of the accepted probability of a wrong
     /// fix.
     std::optional<JoinedBits> join(const BitBlock& block, const FloatPlane& grid_from_image) const;
 

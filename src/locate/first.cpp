@@ -100,8 +100,8 @@ class PatchSearch {
         auto hypothesis = read_grid(patch_, grid, middle_of(patch_, frame_.image), evidence_);
         if (!hypothesis) return Confirmation::implausible;
         move_origin_to_centre(*hypothesis);
-        // If the patch is the whole image, the grid is fitted to all dots. It then predicts each
-        // dot to within a fraction of a pixel, unless the spacing is too small.
+        // If the patch is the whole image, the grid is fitted to all dots, and predicts each dot to
+        // within a fraction of a pixel unless the spacing is too small.
         hypothesis->is_predicted =
             is_whole_image(patch_, frame_.image) &&
             spacing_px(hypothesis->pattern_from_image) >= tuned::kMinSpacingForPrediction_px;
@@ -109,9 +109,9 @@ class PatchSearch {
     }
 
     /// Returns true if the patch covers the whole of a small image and contains at least half of
-    /// `Frame::min_dots`, but too few dots for a certain position, even if filtering the image
-    /// reveals more. Returns false if the frame is part of a series, because the bits of earlier
-    /// frames may make the position certain.
+    /// `Frame::min_dots` dots, but too few dots for a reliable position, even if filtering the
+    /// image reveals more dots. Returns false if the frame is part of a series, because the bits of
+    /// earlier frames may make the position certain.
     bool shows_too_few_dots() const {
         const int dots = patch_.dots.count;
         return 2 * dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&
@@ -122,7 +122,7 @@ class PatchSearch {
     }
 
     /// Returns true if the patch is the whole image, and a grid with the spacing of the given grid
-    /// has too few cells in this image for a certain position. Returns false if the frame is part
+    /// has too few cells in this image for a reliable position. Returns false if the frame is part
     /// of a series, because the bits of earlier frames may make the position certain.
     bool shows_too_few_cells(const FloatPlane& grid_from_image) const {
         if (!is_whole_image(patch_, frame_.image) || evidence_.earlier.is_in_series()) return false;
@@ -161,7 +161,7 @@ class PatchSearch {
     }
 
     /// Searches a patch around an image point. If there is no hypothesis and the dots are densest
-    /// far from the middle, also searches a patch around the densest point.
+    /// far from the middle of the patch, also searches a patch around the densest point.
     Confirmation search_around(FixedVec around_px, int scale) {
         for (int round = 0; round < 2 && tries_left_ > 0; ++round) {
             FixedVec densest_px = around_px;

@@ -123,7 +123,8 @@ void count_from_centre(CodeVariant code, Hypothesis& hypothesis) {
 }
 
 Similarity similarity_of(const DotOffsets& found) {
-    // Closed-form least squares for offset = shift + (scale + i turn) * place, in complex numbers.
+    // Closed-form least squares for offset = shift + (scale + i turn) * predicted point, in complex
+    // numbers.
     const float fraction = 1 / static_cast<float>(found.points);
     const float u = found.u * fraction;  // mean predicted point
     const float v = found.v * fraction;

@@ -20,8 +20,8 @@ struct Hypothesis {
     float displacement = 0;         ///< typical distance between dot and intersection, in spacings
     bool is_certain = false;        ///< true if the place needs no confirmation
     bool is_predicted = false;      ///< true if dots are predicted to within a fraction of a pixel
-    /// True if each dot is closer to its predicted place than to the other places of its cell. Such
-    /// dots are sampled directly.
+    /// True if each dot is closer to its predicted image position than to the other three possible
+    /// dot positions of its cell. The dots are then sampled directly.
     bool is_exact = false;
     /// True if the bits are also read from dots that are cut off by the image border. Such dots are
     /// not used to fit the pose.
@@ -60,8 +60,8 @@ struct RollMemory {
 /// Pixels with more contrast belong to a dot.
 inline constexpr int kContrastCut_q8 = 160;
 
-/// Returns the minimum distance from a dot centre to the image border at which the dot is not cut
-/// off by the border.
+/// Returns the width of the image margin that may contain incomplete dots, in px. Dots whose
+/// centres are outside this margin are not cut off by the image border.
 float margin_of_whole_dots_px(float spacing_px);
 
 FloatLens float_lens(const FixedLens& lens);
@@ -72,10 +72,11 @@ FloatLens float_lens(const FixedLens& lens);
 CellsInView cells_in_view(const Frame& frame, const Hypothesis& hypothesis, float reach_px,
                           int max_cells, const RollMemory& rolls);
 
-/// Renumbers the cells, so that cell (0, 0) is at the intersection nearest to `from_centre`.
+/// Renumbers the cells so that cell (0, 0) contains the intersection nearest to `from_centre`.
 void count_from_centre(CodeVariant code, Hypothesis& hypothesis);
 
-/// Least-squares similarity from predicted dots to measured dots: shift, scale and rotation.
+/// Similarity transform from predicted to measured dots: shift, scale and rotation, fitted by least
+/// squares.
 struct Similarity {
     FloatVec shift_px;
     float scale = 0;  ///< scale factor minus 1
@@ -83,8 +84,8 @@ struct Similarity {
     float squares_px2 = 0;  ///< sum of the squared residuals of the fit
 };
 
-/// Fits a similarity to the offsets of at least one dot. Fits only the shift if all dots have the
-/// same predicted point.
+/// Fits a similarity transform to the offsets of at least one dot. Fits only the shift if all dots
+/// have the same predicted point.
 Similarity similarity_of(const DotOffsets& found);
 
 /// Moves, scales and rotates a plane by a similarity.

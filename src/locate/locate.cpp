@@ -26,8 +26,8 @@ namespace {
 
 namespace tuned = tuning::cascade;
 
-/// Makes attempts to locate one frame, in all possible codes, until there is a certain fix. The
-/// workspace then contains the fix and the results of the stages.
+/// Makes attempts to locate one frame, in all possible codes, until a fix is certain. The workspace
+/// then contains the fix and the results of the stages.
 class Cascade {
   public:
     Cascade(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,
@@ -59,7 +59,7 @@ class Cascade {
 
   private:
     /// Makes the tracked attempt. Searches for a rotation if the residuals indicate one. Returns
-    /// nullopt if there is no certain fix.
+    /// nullopt unless it finds a fix that is certain.
     std::optional<Judgement> track(const Prediction* prediction) {
         if (prediction == nullptr || options_.effort == Effort::device) return {};
         const CodeVariant code = options_.code;
@@ -85,8 +85,8 @@ class Cascade {
     /// Runs the steps in order until a fix is certain. Tries each step in the codes that
     /// `Attempts::codes_for` returns. A step after `turning` ends early if it fails for a reason
     /// that does not depend on the code. Skips the remaining steps if the first doubtful fix is
-    /// ambiguous between codes, or if the image shows too few cells for a certain fix. Without a
-    /// certain fix, returns the first doubtful fix. Without a doubtful fix, returns the last
+    /// ambiguous between codes, or if the image shows too few cells for a reliable fix. If no fix
+    /// is certain, returns the first doubtful fix. If there is no doubtful fix, returns the last
     /// failure in the most likely code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
@@ -115,11 +115,11 @@ class Cascade {
         return *doubtful;
     }
 
-    /// Returns the certain fix of a step, or a better fix if one of the following attempts finds
-    /// it. Reads the frame again in another code if the other code is more likely. After a first
-    /// attempt, searches for a rotation if the residuals indicate one. If this does not lead to a
-    /// certain fix, makes a second attempt if the residuals are large. If none of these attempts
-    /// finds a certain fix, repeats the original attempt to restore its results in the workspace.
+    /// Returns the fix of a step, which must be certain, or a better fix if one of the following
+    /// attempts finds it. Reads the frame again in another code if the other code is more likely.
+    /// After a first attempt, searches for a rotation if the residuals indicate one. If this search
+    /// fails, makes a second attempt if the residuals are large. If none of these attempts finds a
+    /// fix that is certain, repeats the original attempt to restore its results in the workspace.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempts_.make(other_step, other)) return false;
@@ -159,8 +159,8 @@ class Cascade {
     }
 
     /// Tests the frame against the other codes, ignoring all earlier evidence. If another code
-    /// yields a fix, adds the evidence of this frame to the reading. Otherwise, strong earlier
-    /// evidence for one code would prevent all fixes on sheets in other codes.
+    /// yields a fix, adds the evidence of this frame to the reading. Without this test, strong
+    /// earlier evidence for one code would prevent all fixes on sheets in other codes.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes all{CodeEvidence{}};

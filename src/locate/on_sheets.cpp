@@ -9,9 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the hard bits of the cells in `region`. Omits a cell if either of its bits has a weight
-/// below kMinWeight.
-/// Cell (0, 0) of the block is cell `middle` of the grid.
+/// Returns the hard bits of the cells in `region`. Omits a cell if the weight of either bit is
+/// below kMinWeight. Cell (0, 0) of the block is cell `middle` of the grid.
 BitBlock bits_of(const Grid& grid, const GridRegion& region, FixedVec middle) {
     BitBlock block;
     const auto is_clear = [](int weight) { return std::abs(weight) >= tuning::known::kMinWeight; };

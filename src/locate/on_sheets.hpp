@@ -18,7 +18,7 @@ bool is_possible(CodeVariant code, const Decoding& decoding, const KnownSheets& 
 
 /// Returns the most likely place of a block on the known sheets. Returns nullopt if the block has
 /// no bits, if this place is in a code other than the code of the options, or if too many bits
-/// contradict the place.
+/// disagree with the code at this place.
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
                                                const BitBlock& block, const KnownSheets& known);
 
@@ -28,7 +28,7 @@ bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, 
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
 /// Finds the position of the decoded region on the known sheets. Returns false and changes nothing
-/// if there is no position. Otherwise, sets `bit_errors` and `p_wrong_log2` of the fix, and returns
+/// if no position is found. Otherwise, sets `bit_errors` and `p_wrong_log2` of the fix, and returns
 /// true if the position is certain. If the position is certain, also sets the decoding and `prior`
 /// of the fix.
 bool read_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Grid& grid,

@@ -139,7 +139,8 @@ Status SecondAttempt::read_position(const PlaceEvidence& evidence) {
 bool SecondAttempt::fit_pattern(const Frame& frame, const Nominal& nominal, PoseFit& fit) {
     const FixedLens& lens = frame.options.lens;
     PlaneFromImage& plane = w_.pattern_from_image;
-    plane = upright_plane(w_.grid_from_image, w_.decoding.pattern_from_grid);  // section II-B.8
+    // Turns the plane upright (paper, section II-B.8).
+    plane = upright_plane(w_.grid_from_image, w_.decoding.pattern_from_grid);
     w_.dot_count = measure_dots(frame.image, lens, plane, nominal, w_.grid, w_.dots);
     undistort(lens, centre_q8(frame.image), first(w_.dots, w_.dot_count));
     w_.seed_count = 0;  // seeds are indices of the previous dots

@@ -18,7 +18,7 @@ namespace tuned = tuning::tracked;
 
 /// Fits position, scale and rotation to the dots by least squares. Keeps the predicted perspective
 /// and shear. Returns false if fewer than kMinNear dots are within `max_off` spacings of their
-/// places.
+/// predicted positions.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float max_off, FloatPlane& plane) {
     const ScaledPlane scaled(plane, reach_px);
@@ -106,8 +106,7 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
             return true;
         }
     }
-    // Uses windows around intersections, because they can measure larger offsets than centroid
-    // windows.
+    // Uses windows around intersections, which can measure larger offsets than centroid windows.
     kernels.list_cells(view, dots);
     kernels.measure_windows(
         image, view, {spacing, 0.3F, hypothesis.dot_contrast_q8 * kContrastCut_q8 >> 8}, dots);
@@ -158,8 +157,8 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Fr
     return hypothesis;
 }
 
-/// Corrects the hypothesis at one image point after another, until its bits confirm it. Returns
-/// false if no point leads to a confirmed hypothesis.
+/// Corrects the hypothesis with the dots near one image point after another, until the bits confirm
+/// the corrected hypothesis. Returns false if no point leads to a confirmed hypothesis.
 bool confirm_corrected(const Frame& frame, const Hypothesis& hypothesis, int max_px,
                        const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {
     for (const FloatVec fraction : tuned::kPoints) {

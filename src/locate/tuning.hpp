@@ -13,17 +13,17 @@ namespace first {
 /// grid, the search continues with patches two and four times as wide and high.
 inline constexpr int kPatchWidth_px = 224;
 inline constexpr int kPatchHeight_px = 160;
-/// Minimum spacing at which a patch predicts dots well enough for direct sampling. In finer grids,
-/// direct sampling is less accurate than windows.
+/// Dots are sampled directly at positions predicted from a patch only if the spacing is at least
+/// this. In finer grids, direct sampling is less accurate than windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Assumed maximum ratio of the number of dots in the filtered image to the number of dots in the
 /// original image.
 inline constexpr float kDotsOfFilteredImage = 1.25F;
-/// Maximum size, in pixels, of an image that is rejected without further attempts if it contains
-/// too few dots. In larger images, filtering often reveals many more dots.
+/// Images with too few dots are rejected without further attempts if they have at most this number
+/// of pixels. In larger images, filtering often reveals many more dots.
 inline constexpr int kMaxPixelsOfFewDots = 96 * 96;
-/// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
-/// because each uncertain hypothesis increases the probability of a wrong fix.
+/// Maximum number of uncertain hypotheses that are tested away from the image centre. The number is
+/// limited, because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
 /// Parameters of the wave search away from the image centre: the numbers of central dots from which
 /// the waves are computed, and factors for the estimated spacing. The search tries all
@@ -52,36 +52,37 @@ inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
 /// A grid replaces the best grid so far if its agreement is larger by more than this factor.
 inline constexpr float kBetter = 1.0005F;
-/// Minimum of explained / (dots * variance) for a significant rotation. `explained` is the part of
-/// the squared residuals that the rotation explains, summed over both axes. `variance` is the
-/// remaining variance along one axis. The values 0.5 and 3 correspond to a fifth and to three
-/// fifths of all squared residuals. kMinGainIfEven applies if the remaining residuals of
-/// neighbouring dots are not correlated, and kMinGain otherwise.
+/// A rotation is significant if explained / (dots * variance) is at least this limit. `explained`
+/// is the part of the squared residuals that the rotation explains, summed over both axes.
+/// `variance` is the remaining variance along one axis. The values 0.5 and 3 correspond to a fifth
+/// and to three fifths of all squared residuals. kMinGainIfEven applies if the remaining residuals
+/// of neighbouring dots are not correlated, and kMinGain otherwise.
 inline constexpr float kMinGainIfEven = 0.5F;
 inline constexpr float kMinGain = 3;
-/// Maximum variance of the offset between a dot and the nearest place of its cell, per axis, in
-/// spacings^2. In a false grid, the offsets are evenly distributed over discs with a radius of 0.18
-/// spacings, so their variance is 0.008.
+/// A grid is rejected if the variance of the offset between a dot and the nearest of the four
+/// possible dot positions of its cell exceeds this, per axis, in spacings^2. In a false grid, the
+/// offsets are uniformly distributed over discs with a radius of 0.18 spacings, so their variance
+/// is 0.008.
 inline constexpr float kMaxVariance = 0.002F;
-/// Maximum number of grids that the search looks up in the code. If none of these grids is found,
-/// further rotations usually lead to the same grids.
+/// Maximum number of grids that the search looks up in the code. If none of these grids has a place
+/// in the code, the search ends, because further rotations usually lead to the same grids.
 inline constexpr int kMaxClimbs = 3;
 /// The image is measured again if the correction of the rotation moves the dots in its corners by
 /// at least kSettled_px. Smaller corrections are applied to the measured dots. kMaxRounds is the
 /// maximum number of measurements.
 inline constexpr float kSettled_px = 0.5F;
 inline constexpr int kMaxRounds = 5;
-/// Minimum fraction of the dots that `keep_isolated` must keep before a search for a rotation. If
-/// it keeps fewer dots, noise and dirt explain the failure of the first attempt. The fraction was
-/// at least 0.9 in 400 frames of rotating scenes, and less than 0.8 in most hard frames.
+/// The search for a rotation is skipped if `keep_isolated` keeps less than this fraction of the
+/// dots. In this case, noise and dirt explain the failure of the first attempt. The fraction was at
+/// least 0.9 in 400 frames of rotating scenes, and less than 0.8 in most hard frames.
 inline constexpr float kMinIsolated = 0.88F;
 }  // namespace turning
 
 /// Tracked attempt (locate/tracked).
 namespace tracked {
 /// Half side of the square that contains the dots for a correction, in spacings. The square is
-/// centred on the point where the prediction is corrected. At this distance from the point, an
-/// angular error of the prediction does not yet assign a dot to the wrong intersection.
+/// centred on the point where the prediction is corrected. The square is small enough that an
+/// angular error of the prediction does not assign a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots for a correction.
 inline constexpr int kMinNear = 10;
@@ -94,13 +95,14 @@ inline constexpr float kCoarsest_px = 80;
 /// Range of plausible displacements in a prediction, in spacings.
 inline constexpr float kMinDisplacement = 0.05F;
 inline constexpr float kMaxDisplacement = 0.4F;
-/// Maximum distance between a dot and its predicted place, in spacings: kFirstOff in the first fit,
-/// and kSecondOff in the second.
+/// Maximum distance between a dot and its predicted position, in spacings: kFirstOff in the first
+/// fit, and kSecondOff in the second.
 inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
-/// Maximum offset at which a dot is measured in a centroid window.
+/// Maximum offset of a dot that is measured in a centroid window. Dots with larger offsets are
+/// dropped.
 inline constexpr float kMaxOffset_px = 1.5F;
-/// Conversion factor from the ratio of moment to weight in a centroid window to the offset of the
+/// Factor that converts the ratio of moment to weight in a centroid window to the offset of the
 /// dot, in px (see `find_centres`). For a typical dot, the resulting offset is accurate to 20 %.
 inline constexpr float kWeight_px = 0.84F;
 /// The dots are measured again if the scale and rotation of a correction move the dots at the image
@@ -114,13 +116,13 @@ inline constexpr FloatVec kPoints[] = {
     {0, 0}, {-0.25F, -0.22F}, {0.25F, 0.22F}, {0.25F, -0.22F}, {-0.25F, 0.22F}};
 }  // namespace tracked
 
-/// Measurement of dots at known places (locate/confirm, locate/dot_reader).
+/// Measurement of dots at predicted positions (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reading distance in the first round, in spacings, if the pattern fills the image and half the
-/// image side exceeds kDenseAtMost. The first round measures all dots within this distance of
-/// `Hypothesis::from_centre`. The bits of these dots must make the position certain.
+/// Reading distance in the first round, in spacings, if the pattern fills the image and half of the
+/// longer image side exceeds kDenseAtMost. The first round measures all dots within this distance
+/// of `Hypothesis::from_centre`. The bits of these dots must make the position certain.
 inline constexpr float kDense = 10;
-/// Maximum half side of an image that is measured in a single round, in spacings.
+/// An image is measured in a single round if half of its longer side is at most this, in spacings.
 inline constexpr float kDenseAtMost = 17;
 /// Reading distance in the first round of a partial view, in spacings. The distance is small
 /// because the pattern may end anywhere.
@@ -130,8 +132,8 @@ inline constexpr float kDecidingOfPart = 32;
 /// Maximum growth factor of the reading distance from round to round. The factor is limited,
 /// because the plane fitted in one round must predict the dots of the next round.
 inline constexpr float kFarther = 3.5F;
-/// Limits for clean bits, which need no second reading. At least kClear_percent of the dots must be
-/// clear. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
+/// Limits for clean bits, which need no second reading. At least kClear_percent % of the dots must
+/// be clear. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
 /// kMaxWrong is 2 because one misread dot can have two wrong bits.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
@@ -152,8 +154,8 @@ inline constexpr int kMaxLooks = 3;
 /// windows are on the table beyond the sheet, where noise can look like dots.
 inline constexpr float kTable = 0.4F;
 /// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, a dot with any blur
-/// fits in a small centroid window. Below kMinSpacingForDirectSampling_px, one sample per place
-/// cannot separate the four places of a cell.
+/// fits in a small centroid window. Below kMinSpacingForDirectSampling_px, one sample per position
+/// cannot distinguish the four possible dot positions of a cell.
 inline constexpr float kMaxSpacingForSmallWindow_px = 13;
 inline constexpr float kMinSpacingForDirectSampling_px = 8;
 /// Radius of a centroid window, in dot radii. With this radius, the window includes the edge of the
@@ -161,64 +163,64 @@ inline constexpr float kMinSpacingForDirectSampling_px = 8;
 inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
-/// Window radius above which facing dots bias each other's centroids, as a fraction of the distance
-/// between the two dots. Facing dots are adjacent dots that are displaced towards each other. See
+/// If the window radius exceeds this fraction of the distance between two facing dots, they bias
+/// each other's centroids. Facing dots are adjacent dots that are displaced towards each other. See
 /// pose/facing_dots.hpp.
 inline constexpr float kFacing = 0.55F;
 /// If the step between cells deviates from a whole number of pixels by less than this distance, the
 /// dots of a row or column have about the same sub-pixel phase. At larger deviations, the phases in
-/// view are evenly distributed.
+/// view are uniformly distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// The pixel bias is corrected only if the sub-pixel phases of the dots of a row or column change
 /// by less than this distance across the view. The correction is restricted in this way because it
 /// takes several times as long as all other steps of a frame.
 inline constexpr float kDriftInView_px = 0.35F;
-/// Maximum variance of the mean centre along one axis at which the pixel bias is significant. At a
-/// larger variance, other errors are larger than the bias.
+/// The pixel bias is not significant if the variance of the mean centre along one axis exceeds
+/// this, because other errors are then larger than the bias.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// Minimum and maximum size of image areas that are prefetched. Smaller areas are already in the
 /// cache. Larger areas would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// Number of cells in the image below which the bits are also read from dots that are cut off by
+/// If the image contains fewer cells than this, bits are also read from dots that are cut off by
 /// the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
 /// Maximum number of pixels of a small view, in which the work spent on the sums over alternatives
 /// is limited. Larger images show so few cells only in rare cases, for example if a rolling shutter
 /// stretches the cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
-/// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
-/// may be partly visible.
+/// The dot of a cell may be partly visible if its intersection is outside the image by at most this
+/// distance, in spacings.
 inline constexpr float kBeyondBorder = 0.2F;
 /// Minimum number of dots that `DotReader::find_centres` must find to fit a plane to them.
 inline constexpr int kMinFound = 8;
-/// Maximum offset of a directly sampled dot from its predicted place. Dots with larger offsets are
-/// dropped.
+/// Maximum offset of a directly sampled dot from its predicted position. Dots with larger offsets
+/// are dropped.
 inline constexpr float kMaxOff_px = 1;
-/// Maximum of sqrt(variance) / displacement + bit_errors / bits (`is_implausible`). Positions above
-/// this maximum do not explain the frame well. docs/integrity.md contains the measurements.
+/// If sqrt(variance) / displacement + bit_errors / bits exceeds this, the position does not explain
+/// the frame well (see `is_implausible`). docs/integrity.md contains the measurements.
 inline constexpr float kMaxImplausible = 0.57F;
-/// Limits of `shows_overlay`. If less than kMinRight of the dots seen were read without a wrong
-/// bit, at most kMaxWrongInOverlay of the bits read may be wrong. Among 1,800 fixes in frames with
-/// seams, cuts, blank areas and wrong bits, this fraction of the dots was below kMinRight in two
-/// fixes, which had no wrong bits, and 0.40 to 0.51 in two others. In two wrong fixes of the test
-/// `Adversarial.ColumnsAndRowsAreOfOnePattern`, it was 0.27 and 0.25, and 3.6 and 1.6 % of the bits
-/// were wrong.
+/// Limits of `shows_overlay`. Let r be the fraction of the dots seen that were read without a wrong
+/// bit. A fix is refused if r is below kMinRight and more than kMaxWrongInOverlay of the bits read
+/// are wrong. 1,800 fixes were measured in frames with seams, cuts, blank areas and wrong bits. In
+/// two of these fixes, r was below kMinRight, but no bits were wrong. In two other fixes, r was
+/// 0.40 to 0.51. In two wrong fixes of the test `Adversarial.ColumnsAndRowsAreOfOnePattern`, r was
+/// 0.27 and 0.25, and 3.6 % and 1.6 % of the bits were wrong.
 inline constexpr float kMinRight = 0.375F;
 inline constexpr float kMaxWrongInOverlay = 0.005F;
-/// Minimum residual at which a second attempt may be better: kRough_px or kRough spacings,
-/// whichever is larger. Residuals due to noise are constant in px. Residuals due to bad printing
-/// are constant in spacings.
+/// A second attempt may give a better fix if the residual is at least kRough_px and at least kRough
+/// spacings. Residuals due to noise are constant in px. Residuals due to bad printing are constant
+/// in spacings.
 inline constexpr float kRough_px = 0.30F;
 inline constexpr float kRough = 0.027F;
 }  // namespace confirm
 
 /// Views of known sheets (locate/hypothesis, locate/on_sheets).
 namespace known {
-/// kSmallView is the length of the shorter image side, in spacings, below which dots are read up to
-/// a distance of kMargin_px from the image border. The usual margin is at least 1.7 px. Of 300
-/// views of 36 x 36 px at 6 px per spacing, 97 % are located with a margin of 1.0 px, and 88 % with
-/// the usual margin. The pose errors are equal (`dotpose_tables known`).
+/// If the shorter image side is less than kSmallView spacings, dots are read up to a distance of
+/// kMargin_px from the image border. The usual margin is at least 1.7 px. Of 300 views of 36 x 36
+/// px at 6 px per spacing, 97 % are located with a margin of 1.0 px, and 88 % with the usual
+/// margin. The pose errors are equal (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
@@ -269,15 +271,15 @@ namespace cascade {
 /// If the odds of another code relative to the code of the fix exceed this number, the frame is
 /// read again in the other code.
 inline constexpr float kBetterOdds = 2;
-/// Minimum number of dots per wrong bit at which a reading in another code is reported. A dot has
-/// two bits, so in such a reading, at most one bit in a hundred is wrong. Misread bits can cause
-/// such an error rate even if the reading is correct.
+/// A place in another code is reported only if it was read with at least this number of dots per
+/// wrong bit. A dot has two bits, so at most one bit in a hundred is wrong. Misread bits can cause
+/// such an error rate even if the place is correct.
 inline constexpr int kMinDotsPerBitError = 50;
-/// Minimum odds, relative to the fix, at which a different place in another code is reported in
-/// addition to a certain fix.
+/// A different place in another code is reported in addition to the fix if its odds relative to the
+/// fix are at least this number.
 inline constexpr float kNamedElsewhere = 0.99F;
-/// Minimum odds, relative to the fix, at which the place of the fix in another code is reported in
-/// addition to a certain fix.
+/// The same place in another code is reported in addition to the fix if its odds relative to the
+/// fix exceed this number.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade
 

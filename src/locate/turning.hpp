@@ -24,10 +24,10 @@ bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t
 /// and returns false.
 bool locate_turning(const Frame& frame, DesktopWorkspace& w);
 
-/// Removes the predicted rotation from the image, and measures the dots at their predicted places.
-/// If their bits confirm the prediction, stores the fix in the workspace and returns true. Returns
-/// false if the bits do not confirm the prediction, if the rotation is out of range, or if the
-/// workspace has no room for the image without rotation.
+/// Removes the predicted rotation from the image, and measures the dots at their predicted
+/// positions. If their bits confirm the prediction, stores the fix in the workspace and returns
+/// true. Returns false if the bits do not confirm the prediction, if the rotation is out of range,
+/// or if the workspace has no room for the image without rotation.
 bool locate_tracked_turning(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

@@ -9,9 +9,9 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Minimum standard deviations of a prediction, because the filter covariance becomes too small
-/// when the robot rests for a long time. The dot search covers three standard deviations, so it
-/// covers at least 3/32 spacing and 0.53 degrees.
+/// Minimum standard deviations of a prediction. They are needed because the covariance of the
+/// filter becomes too small when the robot rests for a long time. The dot search covers three
+/// standard deviations, so it covers at least 3/32 spacing and 0.53 degrees.
 constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
 constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;

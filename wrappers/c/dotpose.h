@@ -172,7 +172,7 @@ typedef struct dotpose_plane {
 
 /* Attempts that can produce a fix, for the member `attempt`. */
 enum {
-    /* The dots were measured at their predicted places. */
+    /* The dots were measured at their predicted positions. */
     DOTPOSE_ATTEMPT_TRACKED = 0,
     /* The grid was found in patches of the image, without a prediction. */
     DOTPOSE_ATTEMPT_FIRST = 1,
