@@ -134,10 +134,10 @@ TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
 /// equally often.
 TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
 
-/// Returns the wrong position that shares the maximum number of lines with `place`, among `lines`
-/// consecutive columns that begin at `place`, or rows if `is_along_x` is false. Along this axis,
-/// the wrong position differs from `place` in one secondary sequence and in its section. All lines
-/// of the other axis are equal.
+/// Returns a wrong position for the worst case. Considers `lines` consecutive lines that begin at
+/// `place`: columns if `is_along_x` is true, and rows otherwise. Of the wrong positions that differ
+/// from `place` in one secondary sequence of this axis and in the section, returns the one that
+/// shares the most of these lines with `place`. The lines of the other axis are those of `place`.
 Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose::tables

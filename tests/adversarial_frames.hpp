@@ -20,7 +20,7 @@ enum class Adversary : std::uint8_t {
     noise,           ///< dark grains of 1 to 4 px
     text,            ///< a page of printed words
     halftone,        ///< a printed halftone screen with dots of varying size
-    texture,         ///< 1/f noise, in some frames thresholded
+    texture,         ///< 1/f noise, thresholded in some frames
     plain_grid,      ///< dots on the intersections, without displacement
     random_symbols,  ///< a perfect grid with random symbols
     random_offsets,  ///< dots displaced by the nominal length in a random direction

@@ -23,7 +23,7 @@ struct Field {
     /// Name of the JSON array that contains the field. Adjacent fields with the same array name
     /// form one array. In CSV, each field is a separate column.
     std::string array = {};
-    /// Whether an empty field is null in JSON. Otherwise, JSON omits it.
+    /// True if an empty field is written to JSON as null. If false, an empty field is omitted.
     bool is_null_if_empty = false;
 };
 

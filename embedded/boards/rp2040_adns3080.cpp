@@ -1,6 +1,6 @@
-// Port for a Raspberry Pi Pico (RP2040) with the Pico SDK and an ADNS-3080, the sensor of an
-// optical mouse with 30 x 30 px, which is read by SPI. The port was compiled against stubs of the
-// SDK, but never run.
+// Port for a Raspberry Pi Pico (RP2040) with the Pico SDK and an ADNS-3080, an optical mouse sensor
+// with 30 x 30 px. The sensor is read over SPI. The port was compiled against stubs of the SDK, but
+// has never been run.
 //
 // The sensor sees about 5 x 5 cells. This is enough for a fix only if sheets are known, and even
 // then rarely in a single frame. Add `locator_.set_known(kSheets, OtherSheets::impossible)` to

@@ -148,8 +148,8 @@ enum class Verdict : std::uint8_t {
     /// The sighting is certain enough without the prior, but its pose is neither possible nor
     /// confirmed yet.
     gated,
-    /// The sighting is weak and was rejected, because the robot is lost, because the sighting is
-    /// outside the gate, or because the sighting is not certain enough even with the prior.
+    /// The sighting is weak and was rejected: the robot is lost, or the sighting is outside the
+    /// gate or not certain enough even with the prior.
     too_weak,
 };
 /// Number of verdicts.

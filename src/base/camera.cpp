@@ -167,7 +167,7 @@ PixelPoint undistorted(const Camera& camera, PixelPoint pixel) {
 PixelPoint distorted(const Camera& camera, PixelPoint point) {
     const double du = point.u - camera.centre_px.u;
     const double dv = point.v - camera.centre_px.v;
-    // Solves eq. 2 of the paper for r_d and takes the root that equals r_u if k is 0.
+    // Solves equation 2 of the paper for r_d and takes the root that equals r_u if k is 0.
     const double root = std::sqrt(std::max(1 - 4 * camera.k_per_px2 * (du * du + dv * dv), 0.0));
     const double stretch = 2 / (1 + root);
     return {camera.centre_px.u + stretch * du, camera.centre_px.v + stretch * dv};

@@ -42,7 +42,7 @@ struct Seen {
     std::array<T, 2> undistorted(const T* lens) const {
         const T x = u - lens[1] / reach_px;
         const T y = v - lens[2] / reach_px;
-        const T stretch = reach_px / (1.0 + lens[0] * (x * x + y * y));  // eq. 2
+        const T stretch = reach_px / (1.0 + lens[0] * (x * x + y * y));  // equation 2
         return {stretch * x, stretch * y};
     }
     /// Returns the printed position of the dot in the coordinate frame of the pose, in mm.

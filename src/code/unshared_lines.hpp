@@ -10,7 +10,8 @@
 
 namespace dotpose::code {
 
-/// Number of consecutive lines that are compared. The index is the *row* of the tables below.
+/// Numbers of consecutive lines for which the tables below have entries. The index into this array
+/// is called the *row*.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
 /// Index of the first entry of each sequence in `kUnshared`. The sequences are a1, a2, a3 and the

@@ -95,7 +95,7 @@ class FineGrid {
     /// not determine a plane.
     int read_and_fit();
 
-    /// Returns the phases at the middle, in 2^-8 cells.
+    /// Returns the phase of the grid at the image centre along both axes, in 2^-8 cells.
     FixedVec phase_q8() const { return phase_q8_; }
     std::int32_t displacement_q16() const { return displacement_q24_ >> 8; }
 

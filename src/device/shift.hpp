@@ -38,7 +38,8 @@ class Shifts {
     void add_dots(const Tracking& tracking);
     void add_dot(const Tracking& tracking, int u, int v);
     void divide_by_dots();
-    /// Returns the sums of a row of steps. The elements next to both ends of the row are 0.
+    /// Returns a pointer to the first sum in row `y` of the search range. On each side, the row is
+    /// followed by an element that is 0.
     std::uint16_t* row_of(int y) { return sums_.data() + (y + 1) * kPerRow + 1; }
     void forget_around(FixedVec at);
 

@@ -107,8 +107,9 @@ struct Tracking {
     /// Number of rows at the top of the tracked part in which the prediction error is measured. In
     /// fine grids, the value of rows_taken at which the next search for dots begins.
     int first_rows = 0;
-    int next_reading = 0;  ///< value of rows_taken at which dots are read next; in fine grids, the
-                           ///< first row of the next search for dots
+    /// Value of `rows_taken` at which the next dots are read. In fine grids, this is the first row
+    /// of the next search for dots.
+    int next_reading = 0;
     int reach_px = 0;  ///< maximum position error that the search covers, in px at the image centre
     Place corner;      ///< place of cell (0, 0) in the code
     int first_cell = 0;  ///< first cell, along each axis, that may be in view

@@ -21,7 +21,8 @@ constexpr int kMinMeasured = 8;
 
 /// A small similarity transform of the cells: shift, rotation and scale. A cell at c, relative to
 /// the middle cell, moves by shift + stretch c + turn J c, where J is a rotation by 90 degrees. The
-/// shear of a rolling shutter is part of the cell map, so the rotation does not change it.
+/// transform is applied before the cell map. The cell map contains the shear of a rolling shutter,
+/// so the rotation does not rotate this shear.
 struct Similarity {
     std::int32_t stretch_q20 = 0;
     std::int32_t turn_q20 = 0;

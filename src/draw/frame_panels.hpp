@@ -5,14 +5,15 @@
 
 namespace dotpose::draw {
 
-/// Draws the dots and the edges between neighbours on the frame, as in Fig. 2 and 3 of the paper.
+/// Draws the dots and the edges between neighbours on the frame, as in figures 2 and 3 of the
+/// paper.
 void draw_detection(const FrameView& view, Svg& svg);
 
-/// Draws all edges from a common origin, as in Fig. 4 of the paper. `side` is the side of the
+/// Draws all edges from a common origin, as in figure 4 of the paper. `side` is the side of the
 /// square plot.
 void draw_edges(const FrameView& view, double side, Svg& svg);
 
-/// Draws the grid and the symbols on a faded frame, as in Fig. 9 of the paper.
+/// Draws the grid and the symbols on a faded frame, as in figure 9 of the paper.
 void draw_reading(const FrameView& view, Svg& svg);
 
 /// Writes the pose, or the reason why there is no pose.

@@ -117,7 +117,7 @@ double FrameView::estimate_spacing_px() const {
     return 3 * std::sqrt(*middle * 4 / std::numbers::pi);
 }
 
-/// Inverts eq. 2 of the paper by solving |p_u - m| = r / (1 + k r^2) for r.
+/// Inverts equation 2 of the paper by solving |p_u - m| = r / (1 + k r^2) for r.
 Point FrameView::image_from_ideal(Point ideal_px) const {
     const Point r_u = ideal_px - lens_centre_px_;
     const double squared = r_u.x * r_u.x + r_u.y * r_u.y;

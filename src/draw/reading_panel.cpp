@@ -226,7 +226,7 @@ void Reading::draw_axes() const {
     const Point reference = view_.at(view_.reference_px());
     const double stroke = std::max(view_.stroke(), 0.35);
     const FixedVec cell = window_corner(trace_);
-    svg_.line(view_.at_grid(cell.x, cell.y), reference,  // the vector t of the paper's eq. 10
+    svg_.line(view_.at_grid(cell.x, cell.y), reference,  // the vector t of the paper's equation 10
               fmt::format(R"(stroke="{}" stroke-width="{:.2f}" stroke-dasharray="{:.2f}")",
                           colour::kWindow, 4 * stroke, 11 * stroke));
     const double reach = 2.4 * view_.spacing();

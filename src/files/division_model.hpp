@@ -1,4 +1,4 @@
-/// Converts the lens model of ROS and OpenCV to the nearest division model (paper eq. 2).
+/// Converts the lens model of ROS and OpenCV to the nearest division model (paper, equation 2).
 #pragma once
 
 #include "dotpose/files/camera.hpp"

@@ -30,8 +30,9 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane);
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Returns true if the surface is uneven and less than half of the dots are inliers of the fitted
-/// plane. If these inliers are in one part of the image, the plane can be wrong in the other part,
-/// and the covariance, which assumes that all dots are near the plane, does not contain this error.
+/// plane. If these inliers are in one part of the image, the plane can be wrong in the other part.
+/// The covariance does not account for this error, because it assumes that all dots are near the
+/// plane.
 bool explains_few_dots(const PoseFit& fit, int dots_seen);
 
 /// Result of `confirm`.

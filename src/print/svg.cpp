@@ -12,9 +12,9 @@
 namespace dotpose::print {
 namespace {
 
-// Drawing units per mm. Coordinates are whole numbers of 0.1 µm, which are short and more precise
-// than any printer. Positions are rounded before they are subtracted, so rounding errors do not
-// accumulate.
+// Drawing units per mm. Coordinates are integer multiples of 0.1 µm. They are short, but finer than
+// the resolution of any printer. Positions are rounded before they are subtracted, so rounding
+// errors do not accumulate.
 constexpr double kUnitsPer_mm = 10'000;
 
 std::int64_t to_units(double mm) {

@@ -9,8 +9,8 @@ namespace {
 constexpr Vec2 kInvisible{1e9, 1e9};
 
 /// Returns the distorted position of an undistorted point, in px from the centre of distortion.
-/// Solves eq. 2 of the paper for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. Selects the root that
-/// equals r_u for k = 0.
+/// Solves equation 2 of the paper for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. Selects the root
+/// that equals r_u for k = 0.
 Vec2 distorted(Vec2 undistorted, double k) {
     const double square = undistorted.x * undistorted.x + undistorted.y * undistorted.y;
     const double discriminant = 1 - 4 * k * square;
@@ -111,7 +111,7 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     const double time = (pixel.y - centre_px_.y) / height_px_;
     const double dx = pixel.x - centre_px_.x;
     const double dy = pixel.y - centre_px_.y;
-    const double scale = 1 / (focal_px_ * (1 + k_ * (dx * dx + dy * dy)));  // paper eq. 2
+    const double scale = 1 / (focal_px_ * (1 + k_ * (dx * dx + dy * dy)));  // paper, equation 2
     // The viewing ray is (rx, ry, 1) * depth. On the paper, depth = distance + z. Therefore
     // x_axis.xy * ox + y_axis.xy * oy = (rx, ry) * (distance + x_axis.z * ox + y_axis.z * oy).
     double rx = dx * scale - time * (readout_px_.x / focal_px_);

@@ -83,8 +83,8 @@ struct PenTip {
 struct Camera {
     int width_px = 0;
     int height_px = 0;
-    /// Coefficient k of the radial distortion about `centre_px` (paper eq. 1-2, a division model).
-    /// Negative for barrel distortion.
+    /// Coefficient k of the radial distortion about `centre_px` (paper, equations 1-2, a division
+    /// model). Negative for barrel distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
     /// View of the paper: the map from the undistorted image to the paper. None if the camera is
@@ -143,7 +143,7 @@ struct Camera {
 /// - Another value is not finite or out of its range, for example a length that is not positive.
 void validate(const Camera& camera);
 
-/// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
+/// Returns the undistorted pixel of `pixel` (paper, equations 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
 /// Inverse of `undistorted`. If k is positive, it has no solution far from the distortion centre.
 /// In this case, returns a pixel in the same direction from the distortion centre as `undistorted`,

@@ -25,7 +25,8 @@ inline constexpr int kCameraFileVersion = 1;
 /// the key, in these cases:
 /// - The file cannot be read, or has another format or version.
 /// - A key is missing, unknown, of the wrong type or out of range.
-/// - The distortion model is not plumb_bob, or eq. 2 of the paper cannot approximate the lens to
+/// - The distortion model is not plumb_bob, or equation 2 of the paper cannot approximate the lens
+/// to
 ///   within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 

@@ -43,8 +43,9 @@ struct CheckPrintOptions {
     /// `pattern`.
     bool any_code = false;
     /// Sheets that the scan may contain, for example the sheets of a sheet file. A field within the
-    /// region of a sheet is compared with the dimensions of that sheet. Ignores sheets that cannot
-    /// share cells with sheets of the code variant of `pattern` (see `overlap` in sheet_file.hpp).
+    /// region of a sheet is compared with the dimensions of that sheet. A
+    /// sheet is ignored if its code variant rules out an overlap with sheets in the code variant of
+    /// `pattern` (see `overlap` in sheet_file.hpp).
     std::vector<Sheet> sheets;
     /// Resolution of the scan. An image is treated as a photo if it has no resolution, or if it
     /// shows the perspective or lens distortion of a camera. The check of a photo allows for

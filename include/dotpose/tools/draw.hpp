@@ -56,11 +56,11 @@ struct DrawOptions {
 /// image, and `DeviceOptions::show_stages` must be set.
 ///
 /// The left panel shows the image with a ring around each dot, the symmetric connections of the
-/// neighbour search, and the origin of the grid (paper Fig. 2 and 3). Below the panel, the same
-/// connections are drawn from one origin, with the grid vectors (Fig. 4). The right panel shows the
-/// decoding (Fig. 9): the grid, the symbol of each dot, coloured by its likelihood, the decoded
-/// window and its corner, the reference point and the angle theta. Below the panel is the pose, or
-/// the reason why there is none.
+/// neighbour search, and the origin of the grid (paper, figures 2 and 3). Below the panel, the same
+/// connections are drawn from one origin, with the grid vectors (figure 4). The right panel shows
+/// the decoding (figure 9): the grid, the symbol of each dot, coloured by its likelihood, the
+/// decoded window and its corner, the reference point and the angle theta. Below the panel is the
+/// pose, or the reason why there is none.
 ///
 /// Everything is drawn at its position in the image, so grid lines are curved if the lens has
 /// distortion. To keep the picture of a photo below 1 MB, large images are embedded at a lower
@@ -128,11 +128,11 @@ void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> 
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 
-/// Draws Fig. 13 of the paper: the accuracy of x at each position.
+/// Draws figure 13 of the paper: the accuracy of x at each position.
 void draw_figure_13(std::ostream& out, const Protocol& protocol);
-/// Draws Fig. 14 of the paper: the accuracy of y at each position.
+/// Draws figure 14 of the paper: the accuracy of y at each position.
 void draw_figure_14(std::ostream& out, const Protocol& protocol);
-/// Draws Fig. 15 of the paper: the accuracy of theta at each angle.
+/// Draws figure 15 of the paper: the accuracy of theta at each angle.
 void draw_figure_15(std::ostream& out, const Protocol& protocol);
 
 /// Draws the success rate and the errors of both decoders as functions of the varied condition.

@@ -58,7 +58,7 @@ struct SheetOptions {
 /// The top left intersection is the first intersection with these properties: its dot is inside the
 /// margins, and its coordinates are odd multiples of half a 300 dpi printer pixel. With these
 /// coordinates, every dot of the default pattern covers whole printer pixels at 300, 600 and 1200
-/// dpi (paper section III-A.1, Fig. 11).
+/// dpi (paper, section III-A.1, figure 11).
 ///
 /// Throws BadArgument if the options do not give a valid sheet (see `validate`), if the margins
 /// leave less space than kMinSheetCells columns and rows, or if the region would extend past the
@@ -80,7 +80,7 @@ void validate_resolution(const Sheet& sheet, double dpi);
 
 /// File formats of printed sheets.
 enum class PrintFormat {
-    text,  ///< the letters u, d, l, r; one line per row of the pattern (paper section III-A.1)
+    text,  ///< the letters u, d, l, r; one line per row of the pattern (paper, section III-A.1)
     svg,   ///< true size in mm, black round dots
     png,   ///< 1 bit per pixel
     tiff,  ///< 1 bit per pixel, CCITT group 4

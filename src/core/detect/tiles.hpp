@@ -8,7 +8,7 @@
 
 namespace dotpose::core {
 
-/// Measures the tiles of a band from every fourth row. All rows of the band must be stored.
+/// Measures the tiles of a band, using only every fourth row. All rows of the band must be stored.
 void measure_tiles(int band, const AdaptiveThreshold& threshold, std::span<Tile> tiles);
 
 }  // namespace dotpose::core

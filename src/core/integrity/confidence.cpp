@@ -32,7 +32,7 @@ std::uint32_t wrong_fraction_q16(int log_odds_q8) {
     return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));
 }
 
-/// Returns Chernoff's bound on the probability that random bits agree with a given place at least
+/// Returns the Chernoff bound on the probability that random bits agree with a given place at least
 /// as well as the bits that were read, as log2 in units of 2^-16.
 std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
     std::int64_t sum_q16 = 0;

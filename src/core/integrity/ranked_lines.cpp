@@ -13,8 +13,8 @@ static_assert(code::kA4Restored.size() == code::kA4Published.size() &&
 
 namespace {
 
-/// Converts losses to odds. Caches the results, because the losses of hard bits have few different
-/// values.
+/// Converts losses to odds. Caches the results, because the losses of hard bits take only a few
+/// distinct values.
 class OddsByLoss {
   public:
     explicit OddsByLoss(const LikelihoodRatios& ratios) : ratios_(ratios) { losses_.fill(kNone); }

@@ -14,8 +14,9 @@ inline constexpr int kMaxSteps = 18;
 /// that loses at least kLimitParts parts is excluded.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps in which a different digit causes no loss: no step, or any single step. The second case
-/// applies to seam alternatives, which have no loss in the step across the border.
+/// Number of steps in which the digit may differ from the digit of the reading without a loss:
+/// none, or any one step. `any_one` is for seam alternatives, which have no loss in the step across
+/// the border.
 enum class Excused : std::uint8_t { none, any_one };
 
 /// Steps in which digits are compared, and the loss if a digit differs from the digit of the

@@ -273,7 +273,8 @@ class AxisWeigher {
         others.begin_count();
         others.add_unsimilar();
         if (!steps_) steps_ = losses_.of_steps(ratios_);
-        // Searches the a4 of `other` for the digits of the reading in the a4 of `read`.
+        // Takes the digits that the reading has in sequence a4 of the code `read`, and searches for
+        // similar digits in sequence a4 of the code `other`.
         code::Secondary a4 = code::basis(other)[kA4];
         a4.rolls = ratios_.basis[kA4].rolls;
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);

@@ -8,7 +8,8 @@ namespace dotpose::core {
 /// Estimated work that may still be done, in processor instructions.
 class WorkLimit {
   public:
-    /// Maximum work of the sums for all places that are tested in one frame of a small view.
+    /// Maximum work for the sums over alternatives in one frame with a small view, for all places
+    /// that are tested.
     /// docs/speed.md, "Small frames", compares limits. All other steps of a first attempt take
     /// about 200,000 instructions.
     static constexpr std::size_t kOfFrame = 600'000;

@@ -155,7 +155,7 @@ TEST(CornerSigma, IsThatOfTheDivisionModel) {
     EXPECT_NEAR(corner_sigma_px(camera), by_k, 1e-5 * by_k);
 
     camera.sigma = {{"k_per_px2", 0}, {"centre_u_px", 0.2}, {"centre_v_px", 0}};
-    // With the centre c, eq. 2 is p = c + q / (1 + k q^2), where q = r - c.
+    // With the centre c, equation 2 is p = c + q / (1 + k q^2), where q = r - c.
     const double along = 1 - 1 / d + 2 * camera.k_per_px2 * x * x / (d * d);
     const double across = 2 * camera.k_per_px2 * x * y / (d * d);
     const double by_centre = std::hypot(along, across) * 0.2;

@@ -1,5 +1,5 @@
 // Tests poses in space. The expected pixels come from a projection in this file: a pinhole camera
-// with the division model of eq. 2 of the paper.
+// with the division model of equation 2 of the paper.
 #include "dotpose/tools/space_pose.hpp"
 
 #include <array>
@@ -107,7 +107,7 @@ struct View {
     /// to the optical axis.
     std::array<double, 2> distorted(double x_mm, double y_mm, double k) const {
         const auto [a, b] = straight(x_mm, y_mm);
-        // Solves eq. 2, r_u = r_d / (1 + k r_d^2), by bisection.
+        // Solves equation 2, r_u = r_d / (1 + k r_d^2), by bisection.
         const double wanted = std::hypot(a, b);
         double low = 0;
         double high = 2 * wanted;

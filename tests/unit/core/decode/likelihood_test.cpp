@@ -1,4 +1,4 @@
-// Tests the quasi-probabilities (paper eq. 7-9) and the matrices P (Fig. 8).
+// Tests the quasi-probabilities (paper, equations 7-9) and the matrices P (figure 8).
 #include "core/decode/likelihood.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace core;
 
-/// Returns f(r) of eq. 9 for the nominal offset of a sixth of the spacing.
+/// Returns f(r) of equation 9 for the nominal offset of a sixth of the spacing.
 double f(double r) {
     constexpr double kR0 = 1.0 / 6;
     if (r * r >= 3 * kR0 * kR0) return 0;
@@ -76,8 +76,8 @@ TEST(Likelihood, TheLikelierOfTwoDotsInACellStaysWhateverTheOrder) {
         ASSERT_EQ(assign_likelihoods(dots, kPlane, owned.grid), Status::ok);
         const GridCell& cell = owned.grid.at(1, 2);
         EXPECT_EQ(cell.dot, good_first ? 2 : 3);
-        // According to eq. 7-8 with y down, the x bit is computed from dy - dx, and the y bit from
-        // dy + dx.
+        // According to equations 7-8 with y down, the x bit is computed from dy - dx, and the y bit
+        // from dy + dx.
         EXPECT_NEAR(cell.x / 127.0, f(0.01 - 0.16), 0.03);
         EXPECT_NEAR(cell.y / 127.0, f(0.01 + 0.16), 0.03);
         EXPECT_EQ(quality(cell), std::abs(cell.x * cell.y));

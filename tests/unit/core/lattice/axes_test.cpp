@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 25;
 
-/// Returns the symmetric edges (paper, Fig. 4) of the dots closest to the middle of an image.
+/// Returns the symmetric edges (paper, figure 4) of the dots closest to the middle of an image.
 std::vector<SeedEdge> edges_of(const std::vector<DetectedDot>& dots, Vec2 image_px) {
     std::array<std::uint16_t, kMaxSeeds> seeds;
     const FixedVec centre = fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);

@@ -134,7 +134,7 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
             const FixedVec from = dots[static_cast<std::size_t>(edge.from)].centre_q8;
             const FixedVec to = dots[static_cast<std::size_t>(edge.to)].centre_q8;
             ASSERT_EQ(edge.step_q8, (FixedVec{to.x - from.x, to.y - from.y}));
-            // All edges point down, and horizontal edges point to the right (Fig. 4).
+            // All edges point down, and horizontal edges point to the right (figure 4).
             ASSERT_TRUE(edge.step_q8.y > 0 || (edge.step_q8.y == 0 && edge.step_q8.x >= 0));
         }
         ASSERT_EQ(static_cast<int>(found.size()), count);  // each edge is found once

@@ -1,5 +1,5 @@
-// Tests the mapping of points between image and plane (paper eq. 3-5, with perspective and lens)
-// against double precision.
+// Tests the mapping of points between image and plane (paper, equations 3-5, with perspective and
+// lens) against double precision.
 #include "core/math/plane.hpp"
 
 #include <gtest/gtest.h>
