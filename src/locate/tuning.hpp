@@ -33,8 +33,9 @@ inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 /// Factors for the estimated spacing if sheets are known. On a known sheet, the place of a strip of
 /// three rows can be certain. The spacing of such a strip is overestimated, because the estimate
-/// assumes that the nearest neighbours of a dot fill a disc.
-inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
+/// assumes that the nearest neighbours of a dot fill a disc. The same is true of dots among
+/// graphics.
+inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F, 0.85F, 0.65F};
 }  // namespace first
 
 /// Search for a rotation of the scene during the readout (locate/turning).

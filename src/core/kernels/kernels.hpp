@@ -112,6 +112,8 @@ struct WindowOptions {
     /// Typical mass of a dot, relative to the paper level. The mass is the summed darkness of the
     /// dot's pixels. If 0, `measure_windows` estimates the typical mass from the windows.
     float typical_mass = 0;
+    /// True if most of the windows may contain graphics or blank paper.
+    bool is_partial_view = false;
 };
 /// Maximum half side of a measurement window.
 inline constexpr int kMaxHalfWindow_px = 24;
