@@ -12,13 +12,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum of the result: kNegligible for each pair of places and each shift, so that no fix relies
-/// on smaller expected odds. The 190,027 pairs include 2,217 pairs that contain a place of the
-/// reading.
+/// Lower limit of the result: kNegligible for each pair of places and each shift, so that no fix
+/// relies on smaller expected odds. The 190,027 pairs include 2,217 pairs that contain a place of
+/// the reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// If the odds of an alternative exceed 2^kLargeOdds_log2, it is counted individually, unless the
-/// search for such alternatives takes too long (see `kMaxPairs`).
+/// An alternative is counted individually if its odds exceed 2^kLargeOdds_log2, unless the search
+/// for such alternatives would take too long (see `kMaxPairs`).
 constexpr int kLargeOdds_log2 = -36;
 
 /// Set of anchors, which are the lines with the most information. Bit n represents anchor n.
@@ -248,8 +248,8 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of an alternative with two given places, at the shift at which it shares
-    /// the given anchor.
+    /// Returns the odds of an alternative with two given places, at the shift where it shares the
+    /// given anchor.
     float odds(std::size_t sequence_a, std::uint32_t place_a, std::size_t sequence_b,
                std::uint32_t place_b, std::size_t anchor) const {
         RollOffsets a;

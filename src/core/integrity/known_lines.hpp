@@ -99,7 +99,7 @@ struct ScoredTurn {
 
 /// Cache for the table of one axis. Sheets in the same file often have the same positions on one
 /// axis, so the next region reuses the table if its code and positions are the same. All calls of
-/// `of` must have the same `axis` and `rest`.
+/// `of` must pass the same `axis` and `rest`.
 template <typename Table>
 class KeptTable {
   public:

@@ -180,7 +180,7 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
         offsets[static_cast<std::size_t>(line)] = roll_offset(own[line], alternative[line]);
 }
 
-/// Returns the loss of an alternative at the shift at which it shares the line `shared`. If the
+/// Returns the loss of an alternative at the shift where it shares the line `shared`. If the
 /// alternative is negligible (see `LikelihoodRatios::is_hopeless`), stops early and returns the
 /// loss so far. Otherwise, returns nullopt if the alternative also shares an earlier line at this
 /// shift, because the caller counts the alternative at the earlier line.

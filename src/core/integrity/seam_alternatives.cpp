@@ -21,8 +21,8 @@ constexpr int kSeam_q8 = -32 * 256;
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative in the lines before and in the lines after each border, over
-/// all shifts. May skip shifts at which the total loss cannot be below `loss_limit`. If all shifts
-/// are skipped, the minimum is kNone.
+/// all shifts. May skip shifts where the total loss cannot be below `loss_limit`. If all shifts are
+/// skipped, the minimum is kNone.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
