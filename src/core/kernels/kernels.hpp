@@ -297,9 +297,10 @@ struct Kernels {
     /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
     /// main sequence, and subtracts 127 otherwise.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
-    /// For each of `positions` consecutive positions of the first line, sums the scores of all
-    /// lines. `rolls` contains the rolls of consecutive lines of the code, starting at the first of
-    /// these positions.
+    /// Sums the scores of all lines for each of `positions` consecutive positions of the first
+    /// line. sums[i] contains the sums at the i-th position, indexed by an offset that is added to
+    /// all rolls. `rolls` contains the rolls of consecutive lines of the code, starting at the
+    /// first of these positions.
     void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
                       RollSums* sums);
     /// Lists the cells in view, with their window centres and coded symbols. Sets `x` and `y` to
