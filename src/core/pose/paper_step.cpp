@@ -24,7 +24,7 @@ constexpr float kBehind = tuned::kBehind;
 /// Sums over the dots in one part of the sheet. A dot is *coherent* if its residual is small enough
 /// to be explained by a displacement of the part (tuned::kTogether).
 struct PartSums {
-    /// In this order:
+    /// Four numbers, in this order:
     /// - number of dots,
     /// - sum of the log odds that a dot is on the plane of the whole sheet rather than at a random
     ///   position (see tuned::kOnPlane),
@@ -98,7 +98,7 @@ struct Symmetric3 {
 
 /// Least-squares affine map from the positions of all coherent dots to their residuals. A step
 /// biases the plane that was fitted to all dots: if the step is in the middle of the view, an
-/// affine change of this plane absorbs most of it. The step and this map are therefore fitted
+/// affine change of this plane absorbs most of the step. The step and this map are therefore fitted
 /// jointly.
 class AffineFit {
   public:

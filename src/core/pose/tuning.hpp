@@ -1,7 +1,7 @@
 // Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
 // on the hard frames listed in decode/tuning.hpp. Some comments state the results with other values
 // of a constant: the number of located frames, and the median and 95th percentile of their errors.
-// The command is
+// These results are printed by the command
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
@@ -94,7 +94,8 @@ inline constexpr int kMaxRounds = 30;
 
 /// Bias of facing dots (pose/facing_dots).
 namespace facing {
-/// Minimum significance of a bias that is corrected, in standard deviations.
+/// A bias is corrected only if it is significant: its ratio to its standard deviation must exceed
+/// this value.
 inline constexpr float kSure = 4;
 }  // namespace facing
 
