@@ -24,7 +24,7 @@ inline constexpr int kOrder = 5;
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63 for n < 4095. Replaces the division by shifts, because 64 modulo 63 is 1.
+/// Returns n modulo 63 for n < 4095. Uses shifts instead of a division, because 64 modulo 63 is 1.
 constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
