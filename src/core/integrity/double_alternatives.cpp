@@ -137,10 +137,11 @@ class AnchorOffsets {
     std::array<std::array<AnchorBytes, code::kA4Restored.size()>, 4> all_;
 };
 
-/// A place in one sequence. offsets[n] is the roll offset of the place at a fixed anchor `one`
-/// minus its roll offset at anchor n, modulo 63. An alternative that combines this place with a
-/// place in another sequence, and that shares `one`, also shares anchor n if offsets[n] equals the
-/// roll offset of the other place at anchor n minus its roll offset at `one`.
+/// A place in one sequence. For a fixed anchor `one`, offsets[n] is the roll offset of the place at
+/// `one` minus the roll offset of the place at anchor n, modulo 63. Consider an alternative that
+/// combines this place with a place in another sequence and shares `one`. It also shares anchor n
+/// if offsets[n] equals the roll offset of the other place at anchor n minus the roll offset of the
+/// other place at `one`.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;
@@ -305,8 +306,8 @@ std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines
 struct Search {
     int anchors;
     int shared;
-    /// Returns the number of pairs of anchors that `Finder` visits. The time is proportional to
-    /// this number.
+    /// Returns the number of pairs of anchors that `Finder` visits. The search time is proportional
+    /// to this number.
     int pairs() const {
         const int groups = shared - 1;
         const int size = anchors / groups;

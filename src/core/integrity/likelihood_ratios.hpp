@@ -39,7 +39,7 @@ inline constexpr int kMaxShared = 7;
 /// log2(62) in units of 2^-8, rounded up. A line has 62 rolls other than that of the reading.
 inline constexpr int kOtherRolls_q8 = 1525;
 
-/// Minimum odds: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds are replaced by
+/// Minimum odds: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds are replaced with
 /// 2^-64.
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;

@@ -26,7 +26,7 @@ class PlaceList {
             }
         }
     }
-    /// Sets the results of `offsets` and `key` for the listed places.
+    /// Computes the roll offsets and keys of the listed places.
     void set_offsets(const RankedLines& lines, std::size_t sequence, const Gaps& gaps) {
         const auto line_count = static_cast<std::size_t>(lines.count());
         for (std::size_t n = 0; n < count_; ++n) {

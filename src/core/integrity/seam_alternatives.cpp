@@ -90,7 +90,7 @@ bool may_matter(const LikelihoodRatios& ratios, std::size_t sequence, std::uint3
                 int loss_limit) {
     RollOffsets offsets;
     set_roll_offsets(ratios, sequence, place, offsets);
-    // Minimum loss in all lines before each line, at the best shift.
+    // For each line, the minimum loss in all lines before it, at the best shift.
     std::array<int, kMaxLines> before;
     const auto count = static_cast<std::size_t>(ratios.count());
     std::array<int, kSections> kept{};  // losses that the alternative avoids, by shift

@@ -129,8 +129,8 @@ class OtherPlaces {
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
-    /// Returns the sums. Also computes the position of the likeliest other place, if its odds are
-    /// large enough to be reported.
+    /// Returns the odds of the same place and of all other places. Also computes the position of
+    /// the likeliest other place, if its odds are large enough to be reported.
     const OtherAxis& result() {
         // Minimum odds of a place that is reported.
         constexpr float kMinReportedOdds = 1e-6F;
@@ -265,7 +265,7 @@ class AxisWeigher {
         return others;
     }
 
-    /// Replaces the bound by a sum over all other places, unless the bound times `across` is
+    /// Replaces the bound with a sum over all other places, unless the bound times `across` is
     /// negligible. `across` is the summed odds on the other axis.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
