@@ -43,7 +43,7 @@ class Periodogram {
         }
     }
 
-    /// Returns the sums of the cosine and the sine of the wave's phase over the seeds.
+    /// Returns the sums, over all seeds, of the cosine and the sine of the wave's phase.
     FixedVec sum(const Wave& wave) const {
         const FixedVec wave_q30 = wave.vector_q30();
         FixedVec total;
