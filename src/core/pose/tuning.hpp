@@ -134,7 +134,7 @@ namespace uneven {
 /// - kUneven: above this limit, a sheet without a line counts as uneven. At most about 1 in 1,000
 ///   flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
-/// The limit is kMaybeLine if there are at most this number of dots. With more dots, the limit is
+/// If there are at most this many dots, the limit is kMaybeLine. With more dots, the limit is
 /// kMaybeLine * sqrt(dots / kMaybeLineDots), because block residuals become more significant on any
 /// sheet.
 inline constexpr float kMaybeLineDots = 200;
