@@ -76,8 +76,9 @@ std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
     return place;
 }
 
-/// Decodes the columns of a window, or the rows if `columns` is false. Sets the roll and the
-/// position of the first column or row. Errors: not_in_code, ambiguous.
+/// Decodes the columns of a window, or the rows if `columns` is false. Sets `first_roll` and
+/// `position` to the roll and the position of the first column or row. Errors: not_in_code,
+/// ambiguous.
 Status read_axis(CodeVariant code, const SymbolWindow& window, bool columns,
                  std::uint8_t& first_roll, std::uint32_t& position) {
     Rolls rolls{};

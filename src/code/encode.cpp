@@ -22,8 +22,8 @@ int roll(CodeVariant code, std::uint32_t p) noexcept {
     //     periods = (p - place) / length
     //
     // Modulo 63, the division by `length` is a multiplication by its inverse. This inverse times
-    // rolls[length] is `period_roll`. `lines` replaces p because it is small and congruent to p
-    // modulo 63. The term 4 * 63 keeps `lines - place` positive.
+    // rolls[length] is `period_roll`. `lines` is used instead of p, because `lines` is small and
+    // congruent to p modulo 63. The term 4 * 63 keeps `lines - place` positive.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(code)) {
@@ -60,7 +60,7 @@ struct AxisPlace {
     std::uint8_t cross;
 };
 
-/// Returns `place` moved to the position `target`, which is outside [0, L), where L =
+/// Moves `place` to the position `target`, which is outside [0, L), and wraps it around. L is
 /// kPositionsPerAxis. Not inlined, because the function is rarely called.
 [[gnu::noinline]] AxisPlace wrapped(CodeVariant code, AxisPlace place, std::int64_t target) {
     // For a move by L along x, the rolls of columns p and p + L differ by roll(L), so the column

@@ -17,8 +17,9 @@ namespace dotpose::code {
 /// `cross` is the position of its first bit on the other axis.
 int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross);
 
-/// Returns the roll of a position in the code `other` minus its roll in the code `read`, modulo 63.
-/// `place` is the place of the position in a4, the only sequence that differs between codes.
+/// Returns the roll of a position in the code `other`, minus the roll of the same position in the
+/// code `read`, modulo 63. `place` is the place of the position in a4, the only sequence that
+/// differs between codes.
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place);
 
 /// Sets rolls[i] to the roll of line `position` + i. `first_roll` is the roll of line `position`.
@@ -26,8 +27,8 @@ int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, st
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 
-/// Sets rolls[i] to the roll of line `position` + i of a section. `cross` is the position of the
-/// first bits of the lines on the other axis.
+/// Sets rolls[i] to the roll of line `position` + i in a section. `cross` is the position, on the
+/// other axis, of the first bit of each line.
 void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross,
                   std::span<std::uint8_t> rolls);
 
@@ -39,16 +40,16 @@ class RollsAhead {
 
     /// Advances the position by 63 lines. This is faster than constructing a new object.
     void advance();
-    /// Returns the roll of the line `position` + i plus `added`, modulo 63. Requires i <
-    /// kLinesAhead and added < 63.
+    /// Returns the roll of line `position` + i, plus `added`, modulo 63. Requires i < kLinesAhead
+    /// and added < 63.
     std::uint32_t at(std::uint32_t i, std::uint32_t added) const {
         return short_modulo_sections(sum_ + added + here_[0][i] + here_[1][i] + here_[2][i] +
                                      here_[3][i] + kMinDelta * i);
     }
 
   private:
-    /// Sets the place in sequence k, and adds the contribution of the preceding whole periods of
-    /// the sequence to `sum_`.
+    /// Sets the place in sequence k, and adds the contribution of all whole periods before this
+    /// place to `sum_`.
     void add(const Secondary& sequence, std::size_t k, std::uint32_t place) {
         here_[k] = sequence.rolls + place;
         sum_ += (lines_ - place) * sequence.period_roll;

@@ -24,7 +24,7 @@ inline constexpr int kOrder = 5;
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63 for n < 4095. Replaces the division by shifts, because 64 modulo 63 is 1.
+/// Returns n modulo 63 for n < 4095. Uses shifts instead of a division, because 64 modulo 63 is 1.
 constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
@@ -39,8 +39,9 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
 
 /// A secondary sequence with its tables. The type is the same for all lengths and bases.
 struct Secondary {
-    /// Contribution to the roll, by place: the sum of all weighted digits before the place, modulo
-    /// 63. The table contains kLinesAhead + kVectorAhead entries beyond the end of the sequence.
+    /// Contribution of the sequence to the roll, indexed by place: the sum of all weighted digits
+    /// before the place, modulo 63. The table contains kLinesAhead + kVectorAhead entries beyond
+    /// the end of the sequence.
     const std::uint8_t* rolls;
     /// First place of each 5-digit string, or kAbsent if the string does not occur. The index is
     /// the `key` of the string.
@@ -73,8 +74,8 @@ struct Secondary {
         return static_cast<std::uint8_t>((weighted >= weight ? 1 : 0) +
                                          (weighted > weight ? 1 : 0));
     }
-    /// Compares the `count` digits that begin at `place` with those that begin at each of 32
-    /// places. Bit i of the result is 1 if the digits that begin at place 32 * word + i are equal.
+    /// Compares the `count` digits that begin at `place` with the digits at each of 32 places. Bit
+    /// i of the result is 1 if the `count` digits that begin at place 32 * word + i are the same.
     /// Indices wrap around. Bits beyond the end of the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;

@@ -1,6 +1,6 @@
-// Unshared lines between codes: tables that describe how well a position in one code can be
-// distinguished from all positions in another code. They contain the minimum number of lines that
-// differ, as defined in unshared_lines.hpp. The tables are generated, and
+// Unshared lines between codes: the minimum number of unshared lines (see unshared_lines.hpp)
+// between a position in one code and all positions in another code. The larger this number, the
+// more reliably the two codes can be distinguished. The tables are generated, and
 // tests/unit/code/unshared_codes_test.cpp recomputes them.
 #pragma once
 
@@ -15,9 +15,9 @@ namespace dotpose::code {
 
 /// Minimum numbers of unshared lines between a position in the code that was read and any position
 /// in another code. Indices: code that was read, other code, row of `kUnsharedOf`. Each string has
-/// one digit for each place of the first line in a4. The sequences a4 of anoto and libdots are
-/// equal in most places. The minimum between these two codes therefore excludes the same place at
-/// shift 0.
+/// one digit for each place of the first line in a4. In most places, the sequences a4 of anoto and
+/// libdots are equal. For these two codes, the minimum therefore excludes the same place at shift
+/// 0.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

@@ -88,10 +88,10 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
 /// Maximum number of unshared lines that `kMaxPositionsWith` covers.
 inline constexpr std::size_t kMaxCounted = 7;
 
-/// Upper bounds on the number of positions with exactly n unshared lines. The indices are the row,
-/// the sequence, and n - 1. The bounds count the positions that differ from the decoded position
-/// only in this sequence, once for each shift at which they share a line. The bounds are valid for
-/// all decoded positions and all codes.
+/// Upper bounds on the number of positions with exactly n unshared lines, among the positions whose
+/// place differs from that of the decoded position in only one sequence. Indices: row, this
+/// sequence, n - 1. A position is counted once for each shift where it shares a line with the
+/// decoded position. The bounds are valid for all decoded positions and all codes.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{
         {{{1, 4, 15, 34, 64, 120, 227},

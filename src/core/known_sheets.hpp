@@ -10,8 +10,8 @@
 namespace dotpose::core {
 
 /// Range of positions along one axis at which a block of `lines` adjacent lines overlaps a region.
-/// The position of a block is the position of its first line. The region begins at `region_first`
-/// and has `region_size` positions.
+/// The position of a block is the position of its first line. The region starts at `region_first`
+/// and spans `region_size` positions.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;

@@ -17,10 +17,11 @@ struct OtherAxis {
     float elsewhere = 0;
     /// Largest ratio among the examined places, excluding the place that was read.
     float best = 0;
-    std::uint32_t position = 0;  ///< position of the first compared line at the place with the
-                                 ///< ratio `best`
-    std::uint8_t roll = 0;       ///< roll of the first compared line at this place, minus its roll
-                                 ///< in the reading
+    /// Position of the first compared line, at the place with the ratio `best`.
+    std::uint32_t position = 0;
+    /// Roll of the first compared line at the place with the ratio `best`, minus the roll of this
+    /// line in the reading.
+    std::uint8_t roll = 0;
 };
 
 /// Likelihood ratios in one other code, along both axes.

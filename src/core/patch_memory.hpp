@@ -13,7 +13,7 @@ namespace dotpose::core {
 struct PatchDots {
     static constexpr int kMax = 2048;
     int count = 0;
-    // Padded to whole vectors. Unused elements of the last vector are far outside the patch.
+    // Padded to a multiple of the vector length. The padding elements are far outside the patch.
     alignas(64) std::array<float, kMax + 16> x;
     alignas(64) std::array<float, kMax + 16> y;
 };
@@ -56,8 +56,8 @@ struct Patch {
     }
 };
 
-/// Measured dots and their cells in the pattern. The arrays are padded to whole vectors. After a
-/// measurement, `x` is kNoDot_px in the padding.
+/// Measured dots and their cells in the pattern. The arrays are padded to a multiple of the vector
+/// length. After a measurement, `x` is kNoDot_px in the padding.
 struct MeasuredDots {
     int count = 0;
     std::span<float> column;  ///< column of the cell, in coordinates of the current plane

@@ -60,8 +60,8 @@ Status find_dots(const DeviceOptions& options, Workspace& w);
 /// `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the region of the grid to decode. The region has at most as many columns, and as many
-/// rows, as fit in the memory for lines.
+/// Chooses the region of the grid to decode. The memory for line scores limits the numbers of
+/// columns and rows in the region.
 void choose_region(Workspace& w);
 
 /// Returns `mirrored` if the bits agree with a mirrored pattern, and `reason` otherwise.

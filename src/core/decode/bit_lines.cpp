@@ -56,9 +56,9 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the best score of a line after a half turn minus its best score as read. If the line is
-/// exact (see `exact_roll`) in only one of these directions, its scores are not computed: the
-/// result is 127 (n - 6) if the line is exact after the half turn, and -127 (n - 6) otherwise,
+/// Returns the best score of a line after a half turn, minus its best score as read. If the line is
+/// exact (see `exact_roll`) in only one of these directions, computes no scores. Instead, returns
+/// 127 (n - 6) if the line is exact after the half turn, and -127 (n - 6) if it is exact as read,
 /// where n is the number of valid bits. Six bits provide no evidence, because the main sequence
 /// contains almost every string of six bits.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {

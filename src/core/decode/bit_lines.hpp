@@ -1,7 +1,7 @@
-// Bit lines: a block of 64 x 64 cells as bits, with one word per column and one word per row. A few
-// instructions reverse a line, compare two lines or count the bits of a line. The decoder follows
-// the paper (sections II-B.4 to II-B.7), but uses hard bits (0, 1 or not read) instead of
-// probabilities.
+// Bit lines: a block of 64 x 64 cells as bits, with one word per column and one word per row.
+// Reversing a line, comparing two lines or counting the bits of a line takes only a few
+// instructions. The decoder follows the paper (sections II-B.4 to II-B.7), but uses hard bits (0, 1
+// or not read) instead of probabilities.
 #pragma once
 
 #include "core/decode/lines.hpp"

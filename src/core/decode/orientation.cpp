@@ -87,7 +87,7 @@ std::int32_t max_possible(const Voters& voters) {
     return sum;
 }
 
-/// Returns the best agreement over both reading directions, with bits as read or flipped.
+/// Returns the best of four agreements: for both reading directions, with bits as read and flipped.
 std::int32_t best_agreement(const Voters& voters) {
     const auto [forwards, backwards] = agreement(voters);
     return std::max(std::max(forwards.as_is, forwards.flipped),

@@ -1,7 +1,7 @@
 // Tuning: empirical constants of decoding. They were determined on the frames of `dotpose evaluate
 // --preset hard --frames 4000 --seed 404`, on 3,000 frames with `--seed 5001`, and on the refused
 // frames of seeds 777 and 778. docs/accuracy.md contains results for other frames. Some comments
-// state how many frames are located with other values of a constant. The command is
+// state how many frames are located with other values of a constant, as printed by the command
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //

@@ -104,8 +104,9 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
 /// 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
-/// Adds the tiles with at least `min_contrast` to the histogram, and returns their number. All
-/// other tiles are blank, so their mean is set to 0. Updates `max_contrast`.
+/// Adds the contrasts of all tiles with at least `min_contrast` to the histogram, and returns the
+/// number of these tiles. Sets the mean of all other tiles, which are blank, to 0. Updates
+/// `max_contrast`.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, int& max_contrast, Histogram& histogram) {
     int blank = 0;

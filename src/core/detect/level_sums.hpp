@@ -33,7 +33,8 @@ struct PixelBox {
     int pixels() const { return columns() * rows(); }
 };
 
-/// A summed-area table of grey levels (Crow 1984). It gives the sum over any box within its area.
+/// A summed-area table of grey levels (Crow 1984), which gives the sum over any box within its
+/// area.
 class LevelSums {
   public:
     static constexpr int kMaxSide_px = 48;

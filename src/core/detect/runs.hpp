@@ -15,8 +15,7 @@ struct OpenBlob;
 struct Run {
     std::uint16_t begin = 0;
     std::uint16_t end = 0;     ///< exclusive
-    std::uint32_t mass = 0;    ///< sum of the pixel weights; the weight of a pixel is the low
-                               ///< threshold minus its level
+    std::uint32_t mass = 0;    ///< sum of the pixel weights (low threshold minus grey level)
     std::uint32_t sum_x = 0;   ///< sum of weight times u, modulo 2^32
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
     OpenBlob* blob = nullptr;  ///< blob of the run, or null if there were too many blobs

@@ -43,7 +43,7 @@ class Means {
     std::uint32_t inverse_q20_;
 };
 
-/// Returns the darkness of two pixels from their level sum.
+/// Returns the darkness of a pair of pixels. `min` is the sum of their levels.
 constexpr std::uint8_t darkness_of_pair(std::uint32_t min) {
     return static_cast<std::uint8_t>(255 - min / 2);
 }

@@ -1,6 +1,6 @@
 // Tuning: empirical constants of dot detection. The constants of the second attempt were determined
 // on the hard frames listed in decode/tuning.hpp. Some comments state how many frames are located
-// with other values of a constant. The command is
+// with other values of a constant, as printed by the command
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
@@ -49,15 +49,14 @@ inline constexpr int kSmall_px = 48;
 /// has fewer tiles, half of them are enough.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
-/// With `DotTiles::pale`, one in kPaleParts of the tiles with contrast is paler than the tile whose
-/// darkness is used as the dot contrast. This darkness must be at most kMaxPale times the median
-/// darkness.
+/// Parameters of `DotTiles::pale`. The dot contrast is the 1/kPaleParts quantile of the darkness of
+/// the tiles with contrast. It must be at most kMaxPale times the median darkness.
 inline constexpr int kPaleParts = 6;
 inline constexpr float kMaxPale = 0.75F;
 /// Minimum darkness of a dot, in 1/256 of the darkness of a typical dot. Lighter minima are treated
 /// as noise.
 inline constexpr int kThreshold_q8 = 150;
-/// Distances from a minimum at which its surroundings are tested, along the axes and diagonally, in
+/// Distances of the points that are tested around a minimum, along the axes and diagonally, in
 /// patch pixels. At most kMaxDark of the eight directions may be dark. The limit is not 0, because
 /// neighbouring dots may be in some of the directions.
 inline constexpr int kAway_px = 4;

@@ -44,7 +44,7 @@ class ScaledPlane {
 
     /// Returns the values of the perspective, shear and lens distortion parameters, and 0 for all
     /// other parameters. For a camera without distortion that looks straight at the sheet, all
-    /// parameters are 0.
+    /// elements of the result are 0.
     Parameters distortions() const;
     /// Returns the unit of places, in spacings: the pattern length that corresponds to `reach_px`.
     float scale() const { return scale_; }

@@ -11,7 +11,7 @@ namespace dotpose::core {
 /// Both values are log2 in units of 2^-8.
 struct AlternativeSet {
     int alternatives_q8 = 0;  ///< upper bound on the number of combinations of places
-    /// Probability that an alternative has the digits of the reading in a given step, in all
+    /// Probability that, in a given step, an alternative has the same digits as the reading in all
     /// sequences of the set.
     int equal_q8 = 0;
 };

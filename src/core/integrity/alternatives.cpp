@@ -23,7 +23,7 @@ constexpr int kMaxSharedInARow = code::kOrder;
 /// The far alternatives are evaluated in detail only if their expected odds are below this value.
 /// If the expected odds are larger, a detailed evaluation is unlikely to make the fix certain.
 constexpr float kMaxOddsForDetail = 1e-4F;
-/// Default limit of the summed odds.
+/// Default limit on the summed odds.
 constexpr float kUsualLimit = 0x1p-30F;
 
 /// Returns the summed odds of the reading's position in all other sections. In each of these
@@ -64,8 +64,8 @@ struct Expectation {
 /// alternatives, the other sections, and the near alternatives that share kMaxSharedInARow lines.
 /// The function adds the odds of the remaining alternatives. Double alternatives, and near
 /// alternatives that share kMaxSharedInARow - 1 lines, are counted one by one, because their true
-/// odds may exceed their expected odds. Expected odds are used only for sums that are negligible,
-/// or that cannot be counted in reasonable time. Stops when the sum reaches `limit`.
+/// odds may exceed their expected odds. Expected odds replace only sums that are negligible, or
+/// that would take too long to compute. Stops when the sum reaches `limit`.
 float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
                         Expectation expected, float limit) {
     // Even if the caller's limit is larger than the default limit, sums count as negligible only if
@@ -80,9 +80,9 @@ float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float 
     }
     sum += known;
     if (sum >= limit) return sum;
-    // Maximum of the expected odds of the double alternatives that are not counted one by one. It
-    // is at most an eighth of the difference between the limit and the sum so far, so that an
-    // expectation alone does not cause a refusal.
+    // Limit on the expected odds of the double alternatives that are not counted one by one. It is
+    // at most an eighth of the difference between `limit` and the sum so far, so that expected odds
+    // alone do not cause a refusal.
     const float negligible = std::min(sum < usual / 8 ? usual / 16 : sum / 8, (limit - sum) / 8);
     return sum +
            sum_of_double_alternatives(kernels, lines, expected.of_two, negligible, limit - sum);

@@ -109,8 +109,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     return count;
 }
 
-/// Returns the loss of a single alternative at the shift at which it shares the line `shared`. If
-/// the odds cannot exceed kSkippedOdds, stops early and returns the loss so far.
+/// Returns the loss of a single alternative at the shift where it shares the line `shared`. If the
+/// odds cannot exceed kSkippedOdds, stops early and returns the loss so far.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -126,8 +126,8 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns an upper bound on the odds of the single alternatives that share a line. Uses the table
-/// bound of a sequence if this bound is at most `limit` / 12. Otherwise, lists the places in the
+/// Returns an upper bound on the odds of the single alternatives that share a line. If the table
+/// bound of a sequence is at most `limit` / 12, uses this bound. Otherwise, lists the places in the
 /// sequence whose odds may exceed kSkippedOdds, adds the odds of these places, and adds
 /// kSkippedOdds for each other place and each line. Returns 1 if the list cannot be made (see
 /// `Kernels::list_similar_places`).

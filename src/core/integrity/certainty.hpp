@@ -63,7 +63,7 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
 /// IntegrityOptions). Returns false if the evidence has at most kMaxShared columns, or at most
 /// kMaxShared rows. Sets `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless
 /// `others` is null, the odds of the other codes. On failure, `fix.p_wrong_log2` is not valid. If
-/// `work` is not null, it bounds the work, and the result is false if the work does not suffice.
+/// `work` is not null, it limits the work, and the function returns false if this limit is too low.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr,
                 WorkLimit* work = nullptr);

@@ -63,10 +63,10 @@ class Confidence {
 /// docs/integrity.md, "Alternatives: odds". Returns 0 if the bits contain no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Returns Chernoff's upper bound on the probability that random bits with the same weights agree
-/// with a given place at least as well as the bits that were read, as log2 in units of 2^-8.
-/// Computes the bound for the given odds and for odds of 2^16, and returns the smaller bound. The
-/// result is an upper bound for any value of `odds_per_bit_q8`.
+/// Returns the Chernoff bound on the probability that random bits with the same weights agree with
+/// a given place at least as well as the bits that were read, as log2 in units of 2^-8. Computes
+/// the bound for the given odds and for odds of 2^16, and returns the smaller bound. The result is
+/// an upper bound on this probability for any value of `odds_per_bit_q8`.
 int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 
 /// Returns log2 of an upper bound on the probability that random bits agree with any place, in any

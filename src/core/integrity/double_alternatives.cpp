@@ -12,13 +12,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum of the result: kNegligible for each pair of places and each shift, so that no fix relies
-/// on smaller expected odds. The 190,027 pairs include 2,217 pairs that contain a place of the
-/// reading.
+/// Lower limit of the result: kNegligible for each pair of places and each shift, so that no fix
+/// relies on smaller expected odds. The 190,027 pairs include 2,217 pairs that contain a place of
+/// the reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// If the odds of an alternative exceed 2^kLargeOdds_log2, it is counted individually, unless the
-/// search for such alternatives takes too long (see `kMaxPairs`).
+/// An alternative is counted individually if its odds exceed 2^kLargeOdds_log2, unless the search
+/// for such alternatives would take too long (see `kMaxPairs`).
 constexpr int kLargeOdds_log2 = -36;
 
 /// Set of anchors, which are the lines with the most information. Bit n represents anchor n.
@@ -137,10 +137,11 @@ class AnchorOffsets {
     std::array<std::array<AnchorBytes, code::kA4Restored.size()>, 4> all_;
 };
 
-/// A place in one sequence. offsets[n] is the roll offset of the place at a fixed anchor `one`
-/// minus its roll offset at anchor n, modulo 63. An alternative that combines this place with a
-/// place in another sequence, and that shares `one`, also shares anchor n if offsets[n] equals the
-/// roll offset of the other place at anchor n minus its roll offset at `one`.
+/// A place in one sequence. For a fixed anchor `one`, offsets[n] is the roll offset of the place at
+/// `one` minus the roll offset of the place at anchor n, modulo 63. Consider an alternative that
+/// combines this place with a place in another sequence and shares `one`. It also shares anchor n
+/// if offsets[n] equals the roll offset of the other place at anchor n minus the roll offset of the
+/// other place at `one`.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;
@@ -248,8 +249,8 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of an alternative with two given places, at the shift at which it shares
-    /// the given anchor.
+    /// Returns the odds of an alternative with two given places, at the shift where it shares the
+    /// given anchor.
     float odds(std::size_t sequence_a, std::uint32_t place_a, std::size_t sequence_b,
                std::uint32_t place_b, std::size_t anchor) const {
         RollOffsets a;
@@ -305,8 +306,8 @@ std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines
 struct Search {
     int anchors;
     int shared;
-    /// Returns the number of pairs of anchors that `Finder` visits. The time is proportional to
-    /// this number.
+    /// Returns the number of pairs of anchors that `Finder` visits. The search time is proportional
+    /// to this number.
     int pairs() const {
         const int groups = shared - 1;
         const int size = anchors / groups;

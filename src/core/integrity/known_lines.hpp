@@ -85,13 +85,13 @@ struct ScoredTurn {
           columns(kernels, upright.columns, ranges.columns, ranges.rows.first),
           rows(kernels, upright.rows, ranges.rows, ranges.columns.first) {}
 
-    /// Returns the positions of the block's first column at which the block overlaps the columns of
-    /// `region`.
+    /// Returns the range of positions that the block's first column can have if the block overlaps
+    /// the columns of `region`.
     PositionRange columns_of(const KnownRegion& region) const {
         return {region.first.x, region.columns, columns.count()};
     }
-    /// Returns the positions of the block's first row at which the block overlaps the rows of
-    /// `region`.
+    /// Returns the range of positions that the block's first row can have if the block overlaps the
+    /// rows of `region`.
     PositionRange rows_of(const KnownRegion& region) const {
         return {region.first.y, region.rows, rows.count()};
     }
@@ -99,7 +99,7 @@ struct ScoredTurn {
 
 /// Cache for the table of one axis. Sheets in the same file often have the same positions on one
 /// axis, so the next region reuses the table if its code and positions are the same. All calls of
-/// `of` must have the same `axis` and `rest`.
+/// `of` must pass the same `axis` and `rest`.
 template <typename Table>
 class KeptTable {
   public:

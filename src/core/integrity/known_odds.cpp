@@ -105,8 +105,8 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
         columns += static_cast<float>(x.count / kSections + 1);
         rows += static_cast<float>(y.count / kSections + 1);
     }
-    // A tracked attempt tests only one place, but chooses among up to 2^10 planes. The number of
-    // trials is therefore at least 2^10.
+    // A tracked attempt tests only one place, but chooses among up to 2^10 planes. The bound
+    // therefore assumes at least 2^10 trials.
     const float trials = std::max(kTurns * places, 1024.0F);
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;

@@ -9,8 +9,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of bits on one axis that agree with the code. The first index is the class, which
-/// is the position modulo 63. The second index is the roll that is added to the rolls in section 0.
+/// Maximum number of agreeing bits on one axis, over all positions in a class. The first index is
+/// the class, which is the position modulo 63. The second index is the roll that is added to the
+/// rolls in section 0.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {
@@ -51,8 +52,8 @@ struct Peak {
     int y_agreeing = 0;
 };
 
-/// Returns the place in a region where the most bits agree with the code. Returns nullopt if at
-/// most `min_agreeing` bits agree at every place.
+/// Returns the place in a region where the number of agreeing bits is highest. Returns nullopt if
+/// this number is at most `min_agreeing`.
 std::optional<Peak> peak_on(const KnownRegion& region, const ScoredTurn& turn, const Peaks& columns,
                             const Peaks& rows, int min_agreeing) {
     struct Classes {

@@ -16,7 +16,7 @@ struct KnownPlace {
     CodeVariant code = CodeVariant::anoto;
     int quarters = 0;            ///< argument of `turned` that makes the block upright
     Place place;                 ///< place of cell (0, 0) of the turned block
-    int bits = 0;                ///< number of bits in the block; a dot has two bits
+    int bits = 0;                ///< number of bits in the block, two per dot
     std::array<int, 2> wrong{};  ///< number of wrong x bits and of wrong y bits
 
     /// Returns true if at most max_bit_error_q8 / 256 of the bits on each axis are wrong.
@@ -30,7 +30,7 @@ struct KnownPlace {
 bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place,
                  const BitBlock& block);
 
-/// Returns the place at which the most bits of the block agree with the code, over all sheets,
+/// Returns the place where the number of bits that agree with the code is highest, over all sheets,
 /// codes and orientations. Returns nullopt if the block has no bits. `sheets` must contain at least
 /// one region.
 std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,

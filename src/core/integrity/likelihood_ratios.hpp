@@ -39,7 +39,7 @@ inline constexpr int kMaxShared = 7;
 /// log2(62) in units of 2^-8, rounded up. A line has 62 rolls other than that of the reading.
 inline constexpr int kOtherRolls_q8 = 1525;
 
-/// Minimum odds: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds are replaced by
+/// Minimum odds: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds are replaced with
 /// 2^-64.
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
@@ -180,7 +180,7 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
         offsets[static_cast<std::size_t>(line)] = roll_offset(own[line], alternative[line]);
 }
 
-/// Returns the loss of an alternative at the shift at which it shares the line `shared`. If the
+/// Returns the loss of an alternative at the shift where it shares the line `shared`. If the
 /// alternative is negligible (see `LikelihoodRatios::is_hopeless`), stops early and returns the
 /// loss so far. Otherwise, returns nullopt if the alternative also shares an earlier line at this
 /// shift, because the caller counts the alternative at the earlier line.

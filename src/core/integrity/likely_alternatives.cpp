@@ -26,7 +26,7 @@ class PlaceList {
             }
         }
     }
-    /// Sets the results of `offsets` and `key` for the listed places.
+    /// Computes the roll offsets and keys of the listed places.
     void set_offsets(const RankedLines& lines, std::size_t sequence, const Gaps& gaps) {
         const auto line_count = static_cast<std::size_t>(lines.count());
         for (std::size_t n = 0; n < count_; ++n) {
@@ -137,8 +137,8 @@ class Finder {
     }
 
     /// Adds the odds of all combinations of the given places that share exactly the lines `shared`.
-    /// Lines without a positive minimum loss may be shared or not. Returns false if the search ends
-    /// early.
+    /// Lines without a positive minimum loss may or may not be shared. Returns false if the search
+    /// ends early.
     bool add_all(const PlaceSets& places, LineSet shared) {
         std::size_t combinations = 1;
         for (std::size_t k = 0; k < lists_.size(); ++k) {
@@ -195,7 +195,7 @@ class Finder {
         visit_pairs([](std::uint16_t& newest, std::uint16_t) { newest = kNone; });
     }
 
-    /// Adds the odds of the alternative with the given places, at the shift at which it shares the
+    /// Adds the odds of the alternative with the given places, at the shift where it shares the
     /// first shared line. Adds nothing if it does not share exactly the lines passed to
     /// `set_pattern`, or if it differs from the reading in fewer than two sequences. `indices` are
     /// indices into the lists of places.

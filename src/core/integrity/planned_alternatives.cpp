@@ -123,8 +123,8 @@ class SetSearch {
     }
 
     /// Adds the odds of the far alternatives that share exactly the lines `shared`, which must not
-    /// be empty. Lines without a positive minimum loss may be shared or not. Returns false if the
-    /// search must end, because the sum exceeds `max_odds` or the work does not suffice.
+    /// be empty. Lines without a positive minimum loss may or may not be shared. Returns false if
+    /// the search must end, because the sum exceeds `max_odds` or the work does not suffice.
     bool add(LineSet shared) {
         PlaceSets places = equal_places_.all();
         for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1)
@@ -206,7 +206,7 @@ class SetSearch {
             pair;
     }
 
-    /// Adds the odds of the alternative with the given places, at the shift at which it shares the
+    /// Adds the odds of the alternative with the given places, at the shift where it shares the
     /// first shared line. Most alternatives lose kSkippedBits in the first few lines, and count as
     /// skipped. The arguments are indices into the lists of places.
     void add(const Pattern& pattern, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {

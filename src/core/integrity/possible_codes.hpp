@@ -34,8 +34,8 @@ class PossibleCodes {
     std::span<const CodeVariant> in_order() const { return std::span(order_).first(count_); }
     CodeVariant likeliest() const { return order_[0]; }
     bool is_known() const { return is_known_; }
-    /// Returns true if earlier frames do not favour a code, so that the two likeliest codes have
-    /// equal odds.
+    /// Returns true if the two likeliest codes have equal odds, because earlier frames do not
+    /// favour either of them.
     bool are_equal() const { return !is_known_ && weight(order_[1]) == 1; }
 
     /// Returns the weighted number of possible codes. The weight of a code is its odds relative to

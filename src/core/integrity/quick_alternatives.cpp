@@ -14,11 +14,11 @@ namespace {
 
 /// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places.
 constexpr int kSingles_q8 = 2441;
-/// Limit for the odds of the far alternatives, as log2 in units of 2^-8. If a bound on these odds
-/// is below this limit, no tighter bound is computed.
+/// Limit on the odds of the far alternatives, as log2 in units of 2^-8. If a bound on these odds is
+/// below this limit, no tighter bound is computed.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// Default limit of the error probability, as log2 in units of 2^-8. If the limit of the caller is
-/// larger, the bounds are still computed as tightly as for this limit.
+/// Default limit on the error probability, as log2 in units of 2^-8. If the caller's limit is
+/// larger, the bounds are still computed as tightly as for the default limit.
 constexpr int kUsualLimit_q8 = -30 * 256;
 /// Upper bound on the odds of a single alternative that is not evaluated, as log2 in units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
@@ -66,10 +66,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // Summed odds of the alternatives that have shared all lines since a given line, with one
-    // element for each such line. All sums in this function are divided by the probability that all
-    // digits so far are equal. An element therefore does not change while its alternatives continue
-    // to share lines.
+    // Summed odds of the alternatives that share all lines from a given line to the newest line,
+    // but not the line before the given line. There is one element for each given line. All sums in
+    // this function are divided by the probability that all digits so far are equal. An element
+    // therefore does not change while its alternatives continue to share lines.
     std::array<int, kMaxShared + kMaxLines> sharing;
     // pairs[n] is log2 of the sum of the odds in sharing[n] and sharing[n - 1]. Adding pairs halves
     // the number of additions.
@@ -154,7 +154,7 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     return sum;
 }
 
-/// Sums the odds of single alternatives at every shift at which the loss may be below `loss_limit`.
+/// Sums the odds of single alternatives at every shift where the loss may be below `loss_limit`.
 class ByShift {
   public:
     ByShift(const LikelihoodRatios& ratios, int loss_limit);
@@ -192,8 +192,8 @@ class ByShift {
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< total of all losses
     /// Number of elements of `losses_` that `may_matter` adds before its first check, and the sum
-    /// of these losses. An earlier check would be useless: at the shift at which an alternative
-    /// shares the first of these lines, its loss in the other lines is below `loss_limit_`.
+    /// of these losses. An earlier check would be useless: an alternative that shares the first of
+    /// these lines loses less than `loss_limit_` in the other lines.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// For each shift, `none_` plus the losses that the current alternative avoids by sharing
@@ -280,8 +280,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 
 /// Returns an upper bound on the odds of the single alternatives in one sequence that share a line,
 /// as log2 in units of 2^-8. Assumes that each alternative has the minimum loss of the sequence. An
-/// alternative is counted once for each shift at which it shares a line, so at most
-/// `ratios.count()` times.
+/// alternative is counted once for each shift where it shares a line, so at most `ratios.count()`
+/// times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -348,7 +348,7 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     // There is no tighter bound for hard bits, so the summation stops only if the sum exceeds the
-    // limit of the caller.
+    // caller's limit.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);

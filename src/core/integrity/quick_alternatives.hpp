@@ -9,8 +9,9 @@
 namespace dotpose::core {
 
 /// Returns log2 of an upper bound on the summed odds of all alternatives except seam alternatives,
-/// in units of 2^-8. The result is at most 0. `limit_q8` is the limit of the caller, in the same
-/// unit. Returns 0 if the far alternatives and the other sections alone reach this limit.
+/// in units of 2^-8. The result is at most 0. `limit_q8` is the caller's limit on the error
+/// probability, in the same unit. Returns 0 if the far alternatives and the other sections alone
+/// reach this limit.
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8 = 0);
 
 }  // namespace dotpose::core

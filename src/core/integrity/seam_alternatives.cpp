@@ -21,8 +21,8 @@ constexpr int kSeam_q8 = -32 * 256;
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative in the lines before and in the lines after each border, over
-/// all shifts. May skip shifts at which the total loss cannot be below `loss_limit`. If all shifts
-/// are skipped, the minimum is kNone.
+/// all shifts. May skip shifts where the total loss cannot be below `loss_limit`. If all shifts are
+/// skipped, the minimum is kNone.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -90,7 +90,7 @@ bool may_matter(const LikelihoodRatios& ratios, std::size_t sequence, std::uint3
                 int loss_limit) {
     RollOffsets offsets;
     set_roll_offsets(ratios, sequence, place, offsets);
-    // Minimum loss in all lines before each line, at the best shift.
+    // For each line, the minimum loss in all lines before it, at the best shift.
     std::array<int, kMaxLines> before;
     const auto count = static_cast<std::size_t>(ratios.count());
     std::array<int, kSections> kept{};  // losses that the alternative avoids, by shift

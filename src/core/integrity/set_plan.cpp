@@ -17,9 +17,9 @@ constexpr float kChanges = 54;
 /// Correction factors for the expected odds of alternatives that differ in two and in three
 /// sequences. The factors are necessary because the model assumes that the roll offsets of lines
 /// that are not shared are uniformly distributed, but few changes of the roll are possible if few
-/// sequences differ. The result of `sum_of_expected_alternatives` was divided by the result of the
-/// model on 700 axes of nominal frames. The mean ratio was 10 to 17 for two different sequences, 2
-/// for three, and 0.6 for four.
+/// sequences differ. On 700 axes of nominal frames, the mean ratio of the result of
+/// `sum_of_expected_alternatives` to the result of the model was 10 to 17 for two different
+/// sequences, 2 for three, and 0.6 for four.
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
 /// Probabilities that the roll offset is 0 again after a gap, for alternatives that differ in two,

@@ -20,7 +20,7 @@ struct PlannedSet {
 };
 
 /// Chooses the sets of lines to search. Lines without a positive minimum loss are in no set, and
-/// may be shared or not.
+/// may or may not be shared.
 class SetPlan {
   public:
     /// Makes a plan. The rest is the sum of the expected odds of all sets that are not searched.

@@ -63,9 +63,9 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     }
     constexpr int kParts = kLimitParts;
     const int part = (needed + kParts - 1) / kParts;
-    // Maximum total loss, in parts, of a set of nonadjacent steps: among all steps so far, and
-    // among all steps before the last. Adjacent steps share a line, whose loss must not count
-    // twice.
+    // Maximum total loss of nonadjacent steps, in parts: among all steps so far, and among all
+    // steps before the last. Adjacent steps are excluded, because they share a line, whose loss
+    // must not count twice.
     int max_loss = 0;
     int max_loss_before = 0;
     for (int step = 0; step < count; ++step) {

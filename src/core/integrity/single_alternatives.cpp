@@ -9,16 +9,16 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the loss limit for skipping alternatives, in bits. An alternative that loses at least
-/// this much is not evaluated line by line. Instead, it contributes the odds at this limit once for
-/// each line. The limit is lower for views with at most 16 lines, because many places in such views
-/// lose 52 to 56 bits and would otherwise be evaluated. For 16 lines, the skipped alternatives
-/// contribute at most 2^-38 in total.
+/// Returns the loss limit for skipping alternatives, in bits. An alternative whose loss reaches
+/// this limit is not evaluated line by line. Instead, it contributes the odds at this limit once
+/// for each line. The limit is lower for views with at most 16 lines, because many places in such
+/// views lose 52 to 56 bits and would otherwise be evaluated. For 16 lines, the skipped
+/// alternatives contribute at most 2^-38 in total.
 int bits_of_skipped(int lines) {
     return lines <= 16 ? 52 : 56;
 }
 
-/// Returns the odds of a single alternative at the shift at which it shares a line.
+/// Returns the odds of a single alternative at the shift where it shares a line.
 float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t shared) {
     // Adding `base` makes the offset in the shared line 126, which is 0 modulo 63, and keeps the
     // other offsets positive.

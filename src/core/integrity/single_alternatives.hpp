@@ -10,7 +10,7 @@
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of all single alternatives that share a line with the
-/// reading. The sum includes each alternative at every shift at which it shares a line.
+/// reading. The sum includes each alternative at every shift where it shares a line.
 float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines);
 
 /// Variant with bounded work, for small views. Returns nullopt if `work` does not suffice.

@@ -25,7 +25,7 @@ class Bounds {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
         // Adds the alternatives with more than kMaxCounted unshared table lines. An alternative is
-        // counted once for each shift at which it shares a line, so at most `ratios.count()` times.
+        // counted once for each shift where it shares a line, so at most `ratios.count()` times.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
         std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);

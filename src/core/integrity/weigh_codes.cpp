@@ -17,7 +17,7 @@ constexpr std::size_t kA4 = 3;
 /// Upper bound on the odds of each skipped place, as log2 in units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Limit for the summed odds. If an upper bound on the sum is at most this limit, no tighter bound
+/// Limit on the summed odds. If an upper bound on the sum is at most this limit, no tighter bound
 /// is computed.
 constexpr float kNegligibleOdds = 1e-12F;
 
@@ -80,7 +80,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // There is no loss in lines in which both codes have the same roll.
+        // Lines in which both codes have the same roll cause no loss.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
@@ -102,8 +102,7 @@ class OtherPlaces {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = unshared.min_loss(table) - ratios_.max_gain();
-        // A place is counted once for each shift at which it shares a line, so at most `count_`
-        // times.
+        // A place is counted once for each shift where it shares a line, so at most `count_` times.
         result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
@@ -130,8 +129,8 @@ class OtherPlaces {
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
-    /// Returns the sums. Also computes the position of the likeliest other place, if its odds are
-    /// large enough to be reported.
+    /// Returns the odds of the same place and of all other places. Also computes the position of
+    /// the likeliest other place, if its odds are large enough to be reported.
     const OtherAxis& result() {
         // Minimum odds of a place that is reported.
         constexpr float kMinReportedOdds = 1e-6F;
@@ -266,7 +265,7 @@ class AxisWeigher {
         return others;
     }
 
-    /// Replaces the bound by a sum over all other places, unless the bound times `across` is
+    /// Replaces the bound with a sum over all other places, unless the bound times `across` is
     /// negligible. `across` is the summed odds on the other axis.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;

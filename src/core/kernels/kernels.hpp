@@ -154,8 +154,8 @@ struct DotOffsets {
     float squared = 0;  ///< sum of squared offsets
     float off_u = 0;    ///< sums of the offsets
     float off_v = 0;
-    /// Sum of the inner products of (u, v) and the offset. `across` is the sum of their cross
-    /// products.
+    /// Sum of the inner products of (u, v) and the offset. `across` is the sum of the cross
+    /// products of (u, v) and the offset.
     float along = 0;
     float across = 0;
     /// Sums of d_x times the offset along u and along v, where d is the direction of the dot's
@@ -171,7 +171,7 @@ struct BlockSums {
         Four sums;  ///< stored as one vector, so that a dot is added in a single operation
         float inliers() const { return sums[0]; }
         float dots() const { return sums[1]; }  ///< number of measured dots, including outliers
-        /// Sum of the residuals of the inliers, in spacings.
+        /// Sums of the residuals of the inliers along x and y, in spacings.
         float off_x() const { return sums[2]; }
         float off_y() const { return sums[3]; }
     };
@@ -256,7 +256,7 @@ using OddsByOffset = std::array<float, kRollEntries>;
 /// the most information (docs/integrity.md, "Alternatives: odds").
 using OddsByShared = std::array<float, 7>;
 
-/// Sums of the n smallest losses, indexed by n from 0 to 8.
+/// Sums of the smallest losses. Element n is the sum of the n smallest losses, for n = 0 to 8.
 using SmallestSums = std::array<std::int32_t, 9>;
 
 /// Bits of 64 lines with 64 cells each, one word per line. A bit in `valid` is 1 if the
@@ -289,7 +289,8 @@ struct Kernels {
     /// of 4.5 degrees, and frequencies from 0.6 to 1.63 times `per_px`. If there is no such pair,
     /// the power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
-    /// Assigns each dot to a cell. Returns the sums over the dots near a place of their cell.
+    /// Assigns each dot to a cell. Returns the sums of `CellSums` over the dots near a place of
+    /// their cell.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
     /// Sets the bits of cells whose dots are clearly at one of the four places. The first column
     /// and the first row intersect in cell (-32, -32). A bit is invalid if two dots in a cell
@@ -299,9 +300,10 @@ struct Kernels {
     /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
     /// main sequence, and subtracts 127 otherwise.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
-    /// For each of `positions` consecutive positions of the first line, sums the scores of all
-    /// lines. `rolls` contains the rolls of consecutive lines of the code, starting at the first of
-    /// these positions.
+    /// Sums the scores of all lines for each of `positions` consecutive positions of the first
+    /// line. sums[i] contains the sums at the i-th position, indexed by an offset that is added to
+    /// all rolls. `rolls` contains the rolls of consecutive lines of the code, starting at the
+    /// first of these positions.
     void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
                       RollSums* sums);
     /// Lists the cells in view, with their window centres and coded symbols. Sets `x` and `y` to
@@ -336,8 +338,9 @@ struct Kernels {
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
     /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot is `weight_px` times the
-    /// ratio of the moment to the weight in its window. If `weight_px` is 0, it is estimated from
-    /// dots in the middle of the list. Returns the sums over the remaining dots.
+    /// ratio of the moment to the weight in its window. If `weight_px` is 0, this factor is
+    /// estimated from dots in the middle of the list. Returns the sums of `DotOffsets` over the
+    /// remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
@@ -345,8 +348,8 @@ struct Kernels {
     /// cell (-32, -32). The lines must be empty on entry, and no cell may have two dots.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines* columns, BitLines* rows);
-    /// Returns the sums over the inliers. A dot is an inlier if its squared residual is at most
-    /// `limit`, in spacings^2. `scale` is the unit of (u, v) in FitSums, in spacings.
+    /// Returns the sums of `FitSums` over the inliers. A dot is an inlier if its squared residual
+    /// is at most `limit`, in spacings^2. `scale` is the unit of (u, v), in spacings.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float scale, float limit);
     /// Sums the residuals of the inliers (see `sum_fit`) in each block of a square grid. The grid

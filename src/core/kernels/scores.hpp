@@ -27,8 +27,8 @@ struct ScoredLine {
     BestScore best;
 };
 
-/// Size of a table indexed by roll: kSections rounded up to a whole number of vectors. The last
-/// entry is unused.
+/// Size of a table indexed by roll: kSections rounded up to a multiple of the vector length. The
+/// last entry is unused.
 inline constexpr std::size_t kRollEntries = 64;
 
 /// Scores of up to kMaxLines adjacent lines, indexed by roll. A score is the number of cells that

@@ -49,7 +49,7 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
         corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
-    // Chooses a bucket size at which a bucket contains one to four seeds on average. The 3 x 3
+    // Chooses the bucket size so that a bucket contains one to four seeds on average. The 3 x 3
     // buckets around a seed then usually contain its four nearest neighbours.
     const int max_buckets = static_cast<int>(seeds.size());
     do {

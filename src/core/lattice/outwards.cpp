@@ -202,8 +202,9 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
     // Limits on the number of dots that are tested as origins. Testing one dot takes time
-    // proportional to the number of dots, so fewer dots are tested if noise adds many. About
-    // kMaxDistances distances are computed, but at least kMinCandidates dots are tested.
+    // proportional to the number of dots, so fewer dots are tested in noisy patches, which contain
+    // many dots. About kMaxDistances distances are computed, but at least kMinCandidates dots are
+    // tested.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;

@@ -43,7 +43,7 @@ class Periodogram {
         }
     }
 
-    /// Returns the sums of the cosine and the sine of the wave's phase over the seeds.
+    /// Returns the sums, over all seeds, of the cosine and the sine of the wave's phase.
     FixedVec sum(const Wave& wave) const {
         const FixedVec wave_q30 = wave.vector_q30();
         FixedVec total;
@@ -116,8 +116,8 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     const FixedVec a = first.vector_q30();
     const FixedVec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
-    // Limit for the axis components, in 2^-16 px, to prevent an overflow if both waves have the
-    // same direction. The caller rejects such a lattice later.
+    // Limit on the axis components, in 2^-16 px, to prevent an overflow if both waves have the same
+    // direction. The caller rejects such a lattice later.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
         return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);

@@ -1,6 +1,6 @@
 // Tuning: empirical constants of grid detection. The constants of the second attempt were
 // determined on the hard frames listed in decode/tuning.hpp. Some comments state how many frames
-// are located with other values of a constant. The command is
+// are located with other values of a constant, as printed by the command
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //

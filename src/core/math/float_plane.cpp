@@ -33,7 +33,7 @@ FloatPlane recentred(const FloatPlane& plane, FloatVec to_px) {
 }
 
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px) {
-    // Limit of the coordinates, in spacings: the range of PlaneFromImage::at_centre_q16.
+    // Limit on the coordinates, in spacings: the range of PlaneFromImage::at_centre_q16.
     constexpr float kFarthest = 32768;
     constexpr float kFinest_px = 3;
     constexpr float kCoarsest_px = 400;

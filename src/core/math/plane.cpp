@@ -55,7 +55,7 @@ FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point) {
     // Maximum number of Newton steps. Each step uses the derivatives at the current point. For an
     // affine plane, one step is exact up to truncation.
     constexpr int kMaxRounds = 12;
-    // Limit of the image coordinates, because the iteration may diverge where the map folds.
+    // Limit on the image coordinates, because the iteration may diverge where the map folds.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
     FixedVec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMaxRounds; ++round) {

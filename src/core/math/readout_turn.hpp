@@ -74,8 +74,8 @@ struct ReadoutTurn {
     }
 
   private:
-    /// Returns the displacement of the scene point `axis` from the readout of row 0 to the readout
-    /// of `row`. The direction of motion turns with the scene, so the path is an arc.
+    /// Returns the displacement of the scene point `axis` between the readout of row 0 and the
+    /// readout of `row`. The direction of motion turns with the scene, so the path is an arc.
     FloatVec way(float row) const {
         const float half = rad_per_row * row / 2;
         const FloatVec chord = rotated(drift, small_unit(half));

@@ -24,7 +24,7 @@ constexpr float kBehind = tuned::kBehind;
 /// Sums over the dots in one part of the sheet. A dot is *coherent* if its residual is small enough
 /// to be explained by a displacement of the part (tuned::kTogether).
 struct PartSums {
-    /// In this order:
+    /// Four numbers, in this order:
     /// - number of dots,
     /// - sum of the log odds that a dot is on the plane of the whole sheet rather than at a random
     ///   position (see tuned::kOnPlane),
@@ -98,7 +98,7 @@ struct Symmetric3 {
 
 /// Least-squares affine map from the positions of all coherent dots to their residuals. A step
 /// biases the plane that was fitted to all dots: if the step is in the middle of the view, an
-/// affine change of this plane absorbs most of it. The step and this map are therefore fitted
+/// affine change of this plane absorbs most of the step. The step and this map are therefore fitted
 /// jointly.
 class AffineFit {
   public:
@@ -231,8 +231,8 @@ class Search {
     }
 
   private:
-    /// Returns the sums over the dots in each strip between two adjacent lines. The lines are
-    /// perpendicular to `direction`.
+    /// Returns the sums over the dots in each strip. A strip is the area between two adjacent lines
+    /// that are perpendicular to `direction`.
     std::array<PartSums, kLines> strips_along(FloatVec direction) const {
         std::array<PartSums, kLines> strips{};
         const auto last = static_cast<std::int32_t>(lines_) - 1;
@@ -299,11 +299,11 @@ class Search {
                           std::max(max_of(here) - here.on_plane(), 0.0F));
     }
 
-    /// Returns the log likelihood ratio of separate planes for the two parts to one plane for the
-    /// whole sheet. Both parts have their own plane, because the plane of the whole sheet may fit
-    /// neither of them. If the dots beyond the line fit their own plane worse than they fit random
-    /// positions, their log odds count as 0. If the dots on this side fit their own plane worse
-    /// than they fit the plane of the whole sheet, they add nothing to the result.
+    /// Returns the log likelihood ratio of two models: separate planes for the two parts, and one
+    /// plane for the whole sheet. Both parts have their own plane, because the plane of the whole
+    /// sheet may fit neither of them. If the dots beyond the line fit their own plane worse than
+    /// they fit random positions, their log odds count as 0. If the dots on this side fit their own
+    /// plane worse than they fit the plane of the whole sheet, they add nothing to the result.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));

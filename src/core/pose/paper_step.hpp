@@ -20,8 +20,9 @@ struct PaperStep {
     /// Distance from the reference point to the line, in spacings. Negative if the reference point
     /// is beyond the line.
     float distance = 0;
-    float gain = 0;  ///< natural log of the likelihood ratio of a sheet divided by this line to a
-                     ///< single plane
+    /// Natural log of the likelihood ratio of two models: a sheet divided by this line, and a
+    /// single plane.
+    float gain = 0;
 };
 
 /// Returns the line with the largest gain. If no line has a positive gain, the `gain` of the result

@@ -127,8 +127,8 @@ class AxisBias {
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the variance, in px^2, that the bias remaining after the correction adds to the mean
-    /// centre.
+    /// Returns the variance of the mean centre, in px^2, due to the bias that remains after the
+    /// correction.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;

@@ -13,7 +13,7 @@ namespace dotpose::core {
 
 /// The centroid window in which the dots were measured.
 struct CentroidWindow {
-    float radius_px = 0;      ///< radius of the window; the weight is 0 beyond it
+    float radius_px = 0;      ///< radius of the window, beyond which the weight is 0
     float dot_radius_px = 0;  ///< approximate dot radius
     /// Origin of the dot coordinates, in px relative to the centre of the top left pixel.
     FloatVec centre_px;

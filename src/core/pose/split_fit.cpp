@@ -13,9 +13,9 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Among the residuals of the dots near a point, finds the one that agrees with the most others,
-/// and sets `common` to this residual, in spacings. Residuals agree if their squared difference is
-/// less than kAgreement. Returns false if fewer than kMinAgreeing residuals agree.
+/// Considers the residuals of the dots near a point, and sets `common` to the residual that agrees
+/// with the largest number of others, in spacings. Two residuals agree if their squared difference
+/// is less than kAgreement. Returns false if fewer than kMinAgreeing residuals agree.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;

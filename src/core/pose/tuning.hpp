@@ -1,7 +1,7 @@
 // Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
 // on the hard frames listed in decode/tuning.hpp. Some comments state the results with other values
 // of a constant: the number of located frames, and the median and 95th percentile of their errors.
-// The command is
+// These results are printed by the command
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
@@ -94,7 +94,8 @@ inline constexpr int kMaxRounds = 30;
 
 /// Bias of facing dots (pose/facing_dots).
 namespace facing {
-/// Minimum significance of a bias that is corrected, in standard deviations.
+/// A bias is corrected only if it is significant: its ratio to its standard deviation must exceed
+/// this value.
 inline constexpr float kSure = 4;
 }  // namespace facing
 
@@ -133,7 +134,7 @@ namespace uneven {
 /// - kUneven: above this limit, a sheet without a line counts as uneven. At most about 1 in 1,000
 ///   flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
-/// The limit is kMaybeLine if there are at most this number of dots. With more dots, the limit is
+/// If there are at most this many dots, the limit is kMaybeLine. With more dots, the limit is
 /// kMaybeLine * sqrt(dots / kMaybeLineDots), because block residuals become more significant on any
 /// sheet.
 inline constexpr float kMaybeLineDots = 200;

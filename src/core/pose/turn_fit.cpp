@@ -34,7 +34,7 @@ void transfer(const ReadoutTurn& from, const ReadoutTurn& to, MeasuredDots& dots
     }
 }
 
-/// Returns the change of the pose at the reference point from one plane to another.
+/// Returns the pose at the reference point for the plane `to`, minus the pose for the plane `from`.
 Vec3 change_of_pose(const FloatPlane& from, const FloatPlane& to, FloatVec reference_px) {
     const FloatPlane a = recentred(from, reference_px);
     const FloatPlane b = recentred(to, reference_px);

@@ -158,7 +158,7 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
 }
 
 /// Searches for a line if there are many outliers, or if the scatter between blocks exceeds
-/// `min_excess`, a limit of `GroupScatter::excess`. Otherwise, widens the covariance if the scatter
+/// `min_excess`, a limit on `GroupScatter::excess`. Otherwise, widens the covariance if the scatter
 /// is significant.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
@@ -169,7 +169,7 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
         widen_by_blocks(blocks, fit);
 }
 
-/// Returns the limit of `GroupScatter::excess` for the second attempt, which searches for a line if
+/// Returns the limit on `GroupScatter::excess` for the second attempt, which searches for a line if
 /// the limit is exceeded. The limit increases with the number of dots, because with more dots, even
 /// the small block residuals of a flat sheet, such as those due to pixel bias, become significant.
 /// The residuals at a dividing line become more significant too, so they still exceed the limit.

@@ -21,10 +21,10 @@ struct DarkSums {
 /// dot, so the corners contribute little.
 inline constexpr int kHalfOfDiamond = 2;
 
-/// Returns the sums of a square with 2 Half + 1 pixels per side, or of a diamond if Half is
-/// kHalfOfDiamond. `row` points to the upper left pixel of the square. The size is a template
-/// argument so that compilers unroll the loops. The function is not inlined, because its caller
-/// would then need more registers than small processors have.
+/// Returns the darkness sums over a square with 2 Half + 1 pixels per side, or over a diamond if
+/// Half is kHalfOfDiamond. `row` points to the upper left pixel of the square. The size is a
+/// template argument so that compilers unroll the loops. The function is not inlined, because its
+/// caller would then need more registers than small processors have.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {
