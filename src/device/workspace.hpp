@@ -39,7 +39,8 @@ struct DeviceWorkspace : Workspace {
 /// other elements that the stages can store.
 struct DeviceCapacity {
     int width_px = 0;
-    /// Maximum height of a frame. At most kMaxSideWithLowTiles_px if the width is larger than this.
+    /// Maximum height of a frame. Must be at most kMaxSideWithLowTiles_px if `width_px` exceeds
+    /// kMaxSideWithLowTiles_px.
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
