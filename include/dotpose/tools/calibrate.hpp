@@ -86,9 +86,9 @@ struct CalibrationDot {
 /// The calibrated camera, with measures of its reliability.
 struct LensCalibration {
     Camera camera;
-    /// True if the camera is mounted, with the same height and tilt in all frames. The height and
-    /// tilt of a hand-held camera differ between frames, so `camera.paper` and `camera.tilt` are
-    /// none.
+    /// True if the camera is mounted, with the same height and tilt in all frames. If false, the
+    /// camera is hand-held: its height and tilt differ between frames, so `camera.paper` and
+    /// `camera.tilt` are none.
     bool is_mounted = true;
     CodeVariant code = CodeVariant::anoto;  ///< given or detected code variant
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
@@ -261,7 +261,7 @@ struct ReadoutCalibration {
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
 /// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
-/// - Fewer than 5 frames are located together with the frames before and after them.
+/// - There are fewer than 5 located frames whose previous and next frames are also located.
 /// - The standard deviation of the readout time is 10 % of the readout time or more.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
@@ -328,7 +328,7 @@ struct Stitching {
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
     std::vector<SeamMeasurement> measurements;  ///< measurements of pairs of connected sheets
-    /// Names of the sheets that no chain of frames connects to the fixed sheet.
+    /// Names of the sheets that are not connected to the fixed sheet by any chain of frames.
     std::vector<std::string> unconnected;
     int frames = 0;
     int used = 0;              ///< number of frames that show two sheets
