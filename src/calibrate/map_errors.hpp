@@ -7,8 +7,8 @@
 
 namespace dotpose::calibrate {
 
-/// How the mean offset, turn and scale of the seen dots are determined: by an earlier map, or fixed
-/// at 0 by `fix_gauge`.
+/// Determines the mean offset, turn and scale of the dots that were seen: those of an earlier map,
+/// or 0, as set by `fix_gauge`.
 enum class Gauge : bool { earlier, fixed };
 
 /// Returns the covariances of the shift and turn of a view, at the nodes of a grid over the page.

@@ -54,7 +54,8 @@ class MapSystem {
     double prior_weight_;  ///< weight of the prior of an offset given the field: 1 / jitter^2
     std::vector<double> information_;  ///< for each offset, sum of the weights of its equations
     std::vector<Eigen::Vector2d> offsets_;
-    std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< for each part of the work, a sum per dot
+    /// Sums of the observed offsets of each dot: one vector of sums for each part of the work.
+    std::vector<std::vector<Eigen::Vector2d>> sums_;
     std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;
     Eigen::LLT<Eigen::Matrix<double, kCameraTerms, kCameraTerms>> camera_block_;
     std::vector<double> field_diagonal_;

@@ -42,8 +42,8 @@ double median(std::vector<double>& values) {
 
 /// Removes the levels of grey areas beside the paper from the sorted levels at the corners of
 /// cells. Assumes that at least a quarter of the levels are paper. Estimates the standard deviation
-/// of paper from the 75 % and 95 % quantiles. Removes levels more than kSigmas standard deviations
-/// below the 75 % quantile.
+/// of the paper levels from the 75 % and 95 % quantiles. Removes levels more than kSigmas standard
+/// deviations below the 75 % quantile.
 void keep_paper(std::vector<double>& levels) {
     constexpr double kSigmas = 3.6;
     constexpr double kSigmasPerRange = 1.6449 - 0.6745;
@@ -232,7 +232,8 @@ class Meter {
     const TileMap& map_;
     double displacement_;
     double reach_px_;
-    /// Squared distances from the point between which pixels have partial weight.
+    /// Pixels have partial weight if their squared distances from the point are between these
+    /// limits.
     double inner_px2_;
     double outer_px2_;
     double sample_px_;

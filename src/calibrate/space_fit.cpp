@@ -73,7 +73,7 @@ SpaceState moved(const SpaceState& state, const Parameters& step) {
     SpaceState result = state;
     result.position_mm += step.head<3>();
     if (angle > 0) {
-        // Normalizes the quaternion, so that rounding errors do not accumulate.
+        // Normalises the quaternion, so that rounding errors do not accumulate.
         const Eigen::Quaterniond rotation(state.rotation * Eigen::AngleAxisd(angle, turn / angle));
         result.rotation = rotation.normalized().toRotationMatrix();
     }
@@ -81,7 +81,7 @@ SpaceState moved(const SpaceState& state, const Parameters& step) {
     return result;
 }
 
-/// Normal equations of one linearization.
+/// Normal equations of one linearisation.
 struct Sums {
     Information information = Information::Zero();
     Parameters gradient = Parameters::Zero();
