@@ -41,7 +41,7 @@ class MapField {
     /// Returns, for each node of this field, the nodes of a coarser field that surround it.
     std::vector<Around> nodes_in(const MapField& coarse) const;
 
-    /// Standard deviation of the second differences of adjacent nodes, in mm. The value is
+    /// Prior standard deviation of the second differences of adjacent nodes, in mm. The value is
     /// approximately the maximum second difference of a feed wave with an amplitude of 40 µm and a
     /// wavelength of 50 mm.
     static constexpr double kDifference_mm = 0.016;

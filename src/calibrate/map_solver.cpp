@@ -176,10 +176,10 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
 }
 
 /// Removes the mean offset, scale and turn of the seen dots from the offsets, because views of the
-/// page do not determine them. To remove them, applies the inverse similarity to the places of the
-/// dots, which include the offsets and the displacements of the code, because these also turn with
-/// the page. For example, a turn by 0.003 rad changes the offsets of a feed wave of 40 µm by 0.13
-/// µm, and the place of a dot that is displaced by 85 µm by 0.26 µm.
+/// page do not determine them. Applies the inverse similarity to the complete places of the dots
+/// and not only to their nominal places, because the offsets and the displacements of the code turn
+/// with the page. For example, a turn by 0.003 rad changes the offsets of a feed wave of 40 µm by
+/// 0.13 µm, and the place of a dot that is displaced by 85 µm by 0.26 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;

@@ -34,7 +34,7 @@ class MapSystem {
     /// Returns the product of the matrix and `at`. With Residuals::add, subtracts the right-hand
     /// side, so the result is the gradient at `at`.
     MapUnknowns product(const MapUnknowns& at, Residuals residuals);
-    /// Sets `offsets_` to the most likely offsets for `at`.
+    /// Sets `offsets_` to the most likely offsets, given the values `at` of the other unknowns.
     void eliminate(const MapUnknowns& at, Residuals residuals);
     void add_frames(const MapUnknowns& at, Residuals residuals, MapUnknowns& result) const;
     void add_field(const MapUnknowns& at, MapUnknowns& result) const;

@@ -21,9 +21,9 @@ constexpr double kFloorShare = 0.15;
 /// Radius for sums over the pixels of a dot, in spacings: half the distance to the nearest possible
 /// dot.
 constexpr double kReach = 1.0 / 3;
-/// Minimum darkness at which the border of a cell is considered other print, such as text or
-/// pictures. The first limit is relative to the darkness of a dot. The second limit is in standard
-/// deviations of blank paper, capped at the darkness of a dot. The larger limit applies.
+/// The border of a cell is considered covered by other print, such as text or pictures, if its
+/// darkness exceeds both of these limits. The first limit is relative to the darkness of a dot. The
+/// second limit is in standard deviations of blank paper, and is capped at the darkness of a dot.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
 /// Displacement that is assumed while levels are measured, in spacings. An approximate value is

@@ -172,8 +172,8 @@ class NoiseModel {
         normalize(centre_);
     }
 
-    /// Estimates the fraction of the print errors by maximum likelihood, and sets the whitening of
-    /// the dots for this fraction.
+    /// Estimates the fraction that is due to print errors by maximum likelihood, and sets the
+    /// whitening of the dots for this fraction.
     void whiten(std::vector<WeightedDot>& dots) const {
         const double fraction = likeliest_fraction();
         for (std::size_t i = 0; i < dots.size(); ++i) {

@@ -65,8 +65,8 @@ class OddsOfOthers {
         for (; i < range.count; i += kSections, rolls.advance()) {
             const std::uint32_t position = range.first + i;
             if (is_same_section && position == other.position) continue;
-            // Stops counting wrong bits once the odds are negligible. Each omitted wrong bit can
-            // only increase the odds, so the sum remains an upper bound.
+            // Stops counting wrong bits once the odds are negligible. Wrong bits that are not
+            // counted can only increase the computed odds, so the sum remains an upper bound.
             const int lost =
                 other.lines.wrong_at(rolls, added, other.wrong + max_lost_) - other.wrong;
             log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);

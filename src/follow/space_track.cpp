@@ -41,13 +41,13 @@ constexpr double kInformationKept = 0.98;
 /// Minimum fraction of independent errors. In the frames of `dotpose_tables space_track`, a minimum
 /// of 0.01 makes positions 0.3 to 0.6 % more accurate, and velocities up to 18 % less accurate.
 constexpr double kMinIndependent = 0.05;
-/// Maximum change of the logarithm of the fraction by one sighting.
+/// Maximum change of the logarithm of the fraction per sighting.
 constexpr double kMaxFractionStep = 0.5;
 /// Minimum innovation, in standard deviations, that is not attributed to noise.
 constexpr double kSurprise = 4;
-/// Minimum of twice the natural logarithm of the likelihood ratio of the two poses of an ambiguous
-/// sighting. The value corresponds to a ratio of 1000. If the ratio is smaller, the track does not
-/// decide between the poses.
+/// Minimum value of 2 ln(r), where r is the likelihood ratio of the two poses of an ambiguous
+/// sighting. The value corresponds to r = 1000. If r is smaller, the track does not decide between
+/// the poses.
 constexpr double kMinContrast = 13.8;
 
 Eigen::Map<const Vector6> vector_of(const std::array<double, 6>& values) {

@@ -48,8 +48,8 @@ struct CalibrateOptions {
     /// `pattern`. `stitch_sheets` ignores this option, because each sheet has its own code variant.
     bool any_code = false;
     /// Sheets that the frames may show, for example the sheets of a sheet file. If the list is not
-    /// empty, the spacing is the printed spacing of the sheet that most frames show.
-    /// `stitch_sheets` ignores this option.
+    /// empty, the spacing is the printed spacing of the sheet that appears in the largest number of
+    /// frames. `stitch_sheets` ignores this option.
     std::vector<SheetEntry> sheets;
     /// Called after each step of the calibration. Returning false aborts it with an Error.
     std::function<bool(int done, int total)> progress;
@@ -79,7 +79,7 @@ struct CalibrationDot {
     int frame = 0;      ///< index of the frame in the series
     PixelPoint pixel;   ///< measured pixel of the dot
     PixelPoint before;  ///< residual before the calibration, for a camera without distortion, skew
-                        ///< and tilt
+                        ///< or tilt
     PixelPoint after;   ///< residual after the calibration
 };
 
@@ -98,7 +98,7 @@ struct LensCalibration {
     int dots = 0;                   ///< number of dots used
     int outliers = 0;               ///< number of dots rejected as outliers
     double residual_before_px = 0;  ///< rms residual per axis before the calibration, for a camera
-                                    ///< without distortion, skew and tilt
+                                    ///< without distortion, skew or tilt
     double residual_px = 0;         ///< rms residual per axis after the calibration
     double px_per_spacing = 0;      ///< mean grid spacing at the image centre over all frames, in
                                     ///< px
