@@ -35,7 +35,7 @@ enum class CodeVariant : std::uint8_t {
     /// Sequence a4 as misprinted in the patent. Used by libdots and other open tools. Windows
     /// smaller than 8 x 8 symbols may be ambiguous.
     libdots,
-    /// Sequence a4 as in py-microdots and its ports, which differs from the patent's a4.
+    /// Sequence a4 of py-microdots and its ports. Differs from the sequence in the patent.
     microdots,
 };
 /// Number of code variants.

@@ -213,8 +213,8 @@ class Locator : public RowLocator {
 
 /// A locator for microcontrollers whose camera looks straight at the paper. Uses only integer
 /// arithmetic, with a short and bounded time per frame. Ignores the options `effort` and `decoder`,
-/// and computes neither a covariance nor a residual. Bounds the probability that a position is
-/// wrong by a simpler method than a Locator. Positions whose bound exceeds
+/// and computes neither a covariance nor a residual. Its bound on the probability of a wrong
+/// position is simpler than that of a Locator. Positions whose bound exceeds
 /// IntegrityOptions::max_p_wrong_log2 are rejected as not_certain. A program that uses only this
 /// class does not link the code of Locator.
 class DeviceLocator : public RowLocator {

@@ -180,8 +180,9 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If the bits contradict the given code variant, checks whether the page has a different variant.
-/// If it has, this fault replaces all other findings, because they are its consequences.
+/// If more than kSuspicious of the bits of a field disagree with the code, checks whether the page
+/// has a different code variant. If so, the wrong variant is reported instead of all other
+/// findings, because it causes them.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;

@@ -30,7 +30,8 @@ Vector2d pixel_of(const PatternView& view, const SpaceState& state, const Vector
                                 pinhole.centre_px.v + pinhole.focal_v_px * seen.y() / seen.z()}));
 }
 
-/// Depth, in mm, beyond which spacings in the image are too small to be measured.
+/// Returns the maximum depth, in mm, at which the spacing in the image is large enough for dots to
+/// be measured.
 double max_depth_mm(const PatternView& view) {
     const double focal_px = std::max(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
     return focal_px * std::max(view.spacing_mm.x, view.spacing_mm.y) / kMinSpacing_px;

@@ -21,7 +21,8 @@ constexpr std::size_t kMaxNodes = 800;
 constexpr int kNodeTerms = 3;
 using NodeBlock = Eigen::Matrix<double, kNodeTerms, kNodeTerms>;
 
-/// Derivatives of the offset of a dot with respect to the terms of a node with weight 1.
+/// Returns the derivatives of the offset of a dot with respect to the terms of a node with weight
+/// 1.
 Eigen::Matrix<double, 2, kNodeTerms> offset_terms(const MapGrid& grid, std::size_t dot) {
     const auto& [dx, dy] = grid.directions[dot];
     Eigen::Matrix<double, 2, kNodeTerms> terms;

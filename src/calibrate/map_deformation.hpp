@@ -34,10 +34,10 @@ class MapDeformation {
     /// Returns the covariance of three linear functions of the deformation. Each row of `functions`
     /// contains the coefficients of all unknowns. The unknowns of a node begin at `first_term`.
     Eigen::Matrix3d covariance_of(const Eigen::Matrix<double, 3, Eigen::Dynamic>& functions) const;
-    /// Coarse nodes.
+    /// Returns the coarse nodes.
     const MapField& nodes() const { return nodes_; }
-    /// Number of unknowns: shift along x, shift along y, and change of the displacement of each
-    /// coarse node.
+    /// Returns the number of unknowns: shift along x, shift along y, and change of the displacement
+    /// of each coarse node.
     Eigen::Index unknowns() const { return first_term(nodes_.nodes()); }
     static Eigen::Index first_term(std::size_t node);
 

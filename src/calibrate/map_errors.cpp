@@ -63,8 +63,8 @@ Vector2d middle_of(const MapGrid& grid) {
     return grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;
 }
 
-/// Returns the similarity fitted to all dots that were seen. This similarity is not part of the
-/// map.
+/// Returns the similarity fitted to all dots that were seen, as a linear function of the shifts of
+/// the nodes. This similarity is not part of the map.
 SimilarityRows page_similarity(const MapGrid& grid, const MapSolution& solution,
                                const MapDeformation& deformation) {
     SimilarityOfShifts fit(deformation, grid, middle_of(grid));
@@ -75,8 +75,8 @@ SimilarityRows page_similarity(const MapGrid& grid, const MapSolution& solution,
     return fit.rows();
 }
 
-/// Returns the similarity fitted to the part of the page in a view. The view is a square whose
-/// diagonal is twice `reach_mm`.
+/// Returns the similarity fitted to the part of the page in a view, as a linear function of the
+/// shifts of the nodes. The view is a square whose diagonal is twice `reach_mm`.
 SimilarityRows view_similarity(const MapGrid& grid, double reach_mm, const Vector2d& centre_mm,
                                const MapDeformation& deformation) {
     constexpr int kSamples = 9;  // along each axis

@@ -7,8 +7,8 @@
 
 namespace dotpose::calibrate {
 
-/// How the mean offset, turn and scale of the seen dots are determined: by an earlier map, or fixed
-/// at 0 by `fix_gauge`.
+/// Source of the mean offset, turn and scale of the dots that were seen: an earlier map, or
+/// `fix_gauge`, which sets them to 0.
 enum class Gauge : bool { earlier, fixed };
 
 /// Returns the covariances of the shift and turn of a view, at the nodes of a grid over the page.

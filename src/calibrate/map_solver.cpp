@@ -22,9 +22,10 @@ using Eigen::Vector2d;
 /// Number of linearisations. After each of them, the variances are estimated and the outliers are
 /// marked again.
 constexpr int kRounds = 3;
-/// Mean square of the preconditioned residual at which conjugate gradients stop, in units of the
-/// variance of an unknown. Smaller values do not change the errors of the map. All rounds but the
-/// last use kFirstConverged, because they only estimate variances and find outliers.
+/// Conjugate gradients stop when the mean square of the preconditioned residual is at most this
+/// value, in units of the variance of an unknown. Smaller values do not change the errors of the
+/// map. All rounds but the last use kFirstConverged, because they only estimate variances and find
+/// outliers.
 constexpr double kConverged = 1e-6;
 constexpr double kFirstConverged = 1e-4;
 /// Maximum squared residual of an observation in the first round, in units of the variance per
@@ -175,10 +176,10 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
 }
 
 /// Removes the mean offset, scale and turn of the seen dots from the offsets, because views of the
-/// page do not determine them. Applies the inverse similarity to the places of the dots, because
-/// the offsets and the displacements of the code turn with the page. For example, a turn by 0.003
-/// rad changes the offsets of a feed wave of 40 µm by 0.13 µm, and the place of a dot that is
-/// displaced by 85 µm by 0.26 µm.
+/// page do not determine them. Applies the inverse similarity to the complete places of the dots
+/// and not only to their nominal places, because the offsets and the displacements of the code turn
+/// with the page. For example, a turn by 0.003 rad changes the offsets of a feed wave of 40 µm by
+/// 0.13 µm, and the place of a dot that is displaced by 85 µm by 0.26 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;

@@ -29,7 +29,8 @@ struct MapObservation {
     std::uint32_t index() const { return dot & ~kOutlier; }
 };
 
-/// Number of view terms, which may differ between frames: scale, two shears, two perspectives.
+/// Number of view terms: scale, two shears and two perspectives. The values of these terms may
+/// differ between frames.
 inline constexpr int kViewTerms = 5;
 /// Number of terms that all frames share: the view terms and the lens distortion.
 inline constexpr int kCameraTerms = kViewTerms + 1;
@@ -39,8 +40,8 @@ using FrameVector = Eigen::Matrix<double, kFrameTerms, 1>;
 using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
 using CameraVector = Eigen::Matrix<double, kCameraTerms, 1>;
 
-/// Pose and view of a frame. The point P in the camera frame is the point place + R(angle) (P +
-/// view terms) on the page.
+/// Pose and view of a frame. The point P in the camera frame corresponds to the point place +
+/// R(angle) (P + view terms) on the page.
 struct MapFrame {
     std::size_t first = 0;  ///< index of its first observation
     std::size_t count = 0;  ///< number of observations

@@ -34,7 +34,7 @@ class MapSystem {
     /// Returns the product of the matrix and `at`. With Residuals::add, subtracts the right-hand
     /// side, so the result is the gradient at `at`.
     MapUnknowns product(const MapUnknowns& at, Residuals residuals);
-    /// Sets `offsets_` to the most likely offsets for `at`.
+    /// Sets `offsets_` to the most likely offsets, given the values `at` of the other unknowns.
     void eliminate(const MapUnknowns& at, Residuals residuals);
     void add_frames(const MapUnknowns& at, Residuals residuals, MapUnknowns& result) const;
     void add_field(const MapUnknowns& at, MapUnknowns& result) const;
@@ -54,7 +54,8 @@ class MapSystem {
     double prior_weight_;  ///< weight of the prior of an offset given the field: 1 / jitter^2
     std::vector<double> information_;  ///< for each offset, sum of the weights of its equations
     std::vector<Eigen::Vector2d> offsets_;
-    std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< for each part of the work, a sum per dot
+    /// Sums of the observed offsets of each dot: one vector of sums for each part of the work.
+    std::vector<std::vector<Eigen::Vector2d>> sums_;
     std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;
     Eigen::LLT<Eigen::Matrix<double, kCameraTerms, kCameraTerms>> camera_block_;
     std::vector<double> field_diagonal_;

@@ -40,7 +40,7 @@ constexpr double kReach_px = 100;  ///< unit of pixels in the terms
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 using TermBlock = Eigen::Matrix<double, kTerms, kTerms>;
 
-/// Derivatives of a place on the paper with respect to the terms.
+/// Returns the derivatives of the place of a dot on the paper with respect to the terms.
 Eigen::Matrix<double, 2, kTerms> derivatives_at(const FixPlane& plane, const MapDot& dot) {
     const Vector2d p = plane.place(dot.pixel) - plane.at;
     const Vector2d q = dot.pixel / kReach_px;
@@ -113,7 +113,7 @@ Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, dou
 }
 
 /// Prior of the two terms of the shear or of the perspective: a mixture of Gaussians with mean 0.
-/// The terms are 0 if the camera axis is perpendicular to the paper.
+/// The terms are 0 if the optical axis is perpendicular to the paper.
 struct ViewPrior {
     struct Kind {
         double probability;

@@ -48,7 +48,7 @@ void set_field(const Optics& o, OpticsReport& r) {
     r.dots_in_view = r.field_width_mm * r.field_height_mm / (o.spacing_mm * o.spacing_mm);
 }
 
-/// Determines whether the field of view contains 8 x 8 dots (paper III-A.3).
+/// Determines whether the field of view contains 8 x 8 dots (paper, section III-A.3).
 void set_block(const Optics& o, OpticsReport& r) {
     const double side_mm = o.spacing_mm * (7 + 2.0 / 6) + o.dot_mm;
     r.block_diagonal_mm = std::numbers::sqrt2 * side_mm;
@@ -60,8 +60,8 @@ void set_block(const Optics& o, OpticsReport& r) {
     r.block_fits_anywhere = shorter_mm >= r.block_anywhere_mm;
 }
 
-/// Computes the limits of motion (paper III-A.2). Blur is measured along the image axes. If the
-/// camera turns about the image centre, the middle of the farthest edge of the image has the
+/// Computes the limits of motion (paper, section III-A.2). Blur is measured along the image axes.
+/// If the camera turns about the image centre, the middle of the farthest edge of the image has the
 /// highest velocity along an image axis.
 void set_motion(const Optics& o, OpticsReport& r) {
     const double blur_mm = o.largest_blur_px * r.mm_per_px;

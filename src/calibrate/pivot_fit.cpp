@@ -71,8 +71,8 @@ Points points_of(const NormalEquations& equations) {
     return {{solved[0], solved[1], solved[2]}, {solved[3], solved[4], solved[5]}};
 }
 
-/// Fits many small subsets of the views. Returns the fit with the smallest median of all residuals
-/// (Rousseeuw 1984), which tolerates almost half of the views being wrong.
+/// Fits many small subsets of the views. Returns the fit with the smallest median of the residuals
+/// of all views (Rousseeuw 1984). This method succeeds even if almost half of the views are wrong.
 Points robust_start(const std::vector<PivotView>& views) {
     Points best;
     double best_mm = std::numeric_limits<double>::infinity();

@@ -31,7 +31,7 @@ struct PivotFit {
     /// therefore computed from the residuals of each dot in all frames. It is larger if the tip
     /// moved by more than the errors of the poses.
     Eigen::Matrix<double, 6, 6> covariance;
-    std::vector<bool> is_used;  ///< by view
+    std::vector<bool> is_used;  ///< indexed by view
     double residual_mm = 0;     ///< rms per axis
     double error_ratio = 1;     ///< rms residual, in standard deviations of the poses
 };

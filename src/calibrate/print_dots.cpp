@@ -21,9 +21,9 @@ constexpr double kFloorShare = 0.15;
 /// Radius for sums over the pixels of a dot, in spacings: half the distance to the nearest possible
 /// dot.
 constexpr double kReach = 1.0 / 3;
-/// Minimum darkness at which the border of a cell is considered other print, such as text or
-/// pictures. The first limit is relative to the darkness of a dot. The second limit is in standard
-/// deviations of blank paper, capped at the darkness of a dot. The larger limit applies.
+/// The border of a cell is considered covered by other print, such as text or pictures, if its
+/// darkness exceeds both of these limits. The first limit is relative to the darkness of a dot. The
+/// second limit is in standard deviations of blank paper, and is capped at the darkness of a dot.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
 /// Displacement that is assumed while levels are measured, in spacings. An approximate value is
@@ -42,8 +42,8 @@ double median(std::vector<double>& values) {
 
 /// Removes the levels of grey areas beside the paper from the sorted levels at the corners of
 /// cells. Assumes that at least a quarter of the levels are paper. Estimates the standard deviation
-/// of paper from the 75 % and 95 % quantiles. Removes levels more than kSigmas standard deviations
-/// below the 75 % quantile.
+/// of the paper levels from the 75 % and 95 % quantiles. Removes levels more than kSigmas standard
+/// deviations below the 75 % quantile.
 void keep_paper(std::vector<double>& levels) {
     constexpr double kSigmas = 3.6;
     constexpr double kSigmasPerRange = 1.6449 - 0.6745;
@@ -232,7 +232,8 @@ class Meter {
     const TileMap& map_;
     double displacement_;
     double reach_px_;
-    /// Squared distances from the point between which pixels have partial weight.
+    /// Pixels have partial weight if their squared distances from the point are between these
+    /// limits.
     double inner_px2_;
     double outer_px2_;
     double sample_px_;

@@ -21,7 +21,8 @@ constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;
-/// Deviation of the scale above which the stated pattern or resolution must be wrong.
+/// If the deviation of the mean scale from 1 exceeds this, the stated pattern or resolution must be
+/// wrong.
 constexpr double kImplausibleScale = 0.25;
 constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
 constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;

@@ -8,13 +8,14 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Minimum relative change of lengths, due to perspective or lens distortion, for an image to be
-/// considered a photo. Scanners change lengths by less than 0.1 %. A hand-held camera that is meant
+/// An image is considered a photo only if perspective or lens distortion changes lengths by more
+/// than this fraction. Scanners change lengths by less than 0.1 %. A hand-held camera that is meant
 /// to be perpendicular to the paper is tilted by about a degree, which changes lengths by 1 %.
 constexpr double kMinSign = 0.003;
-/// Maximum ratio of the residual of the fit of a camera to that of a flat page, for an image to be
-/// considered a photo. Uneven motion of a scanner's carriage displaces dots along one axis only, so
-/// the fit of a camera hardly reduces the residual of a scan.
+/// An image is considered a photo only if the residual of a fit with perspective and lens
+/// distortion is less than this fraction of the residual of a fit without them. Uneven motion of a
+/// scanner's carriage displaces dots along one axis only, so perspective and lens distortion hardly
+/// reduce the residual of a scan.
 constexpr double kMaxResidual = 0.8;
 
 /// Plane of the paper as seen by a camera with a given focal length and principal point.

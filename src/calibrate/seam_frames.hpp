@@ -15,7 +15,7 @@ namespace dotpose::calibrate {
 
 /// Pose of the camera relative to one sheet, in one image. Maps a point q of the camera's
 /// coordinate frame to the point p = place + axes (q - middle) of the sheet, in nominal mm from the
-/// first intersection. If the camera file contains a view of the paper, q is in mm. Otherwise only
+/// first intersection. If the camera file contains a view of the paper, q is in mm. Otherwise, only
 /// the direction of the x axis and the place of the image centre are known, and `middle` is the
 /// image centre.
 struct SheetView {

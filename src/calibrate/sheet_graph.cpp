@@ -15,8 +15,8 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Whitened residual of a view (scaled to a standard deviation of 1) above which the weight of the
-/// view decreases. By chance, one view in 70 exceeds this limit.
+/// If the whitened residual of a view (scaled to a standard deviation of 1) exceeds this limit, the
+/// weight of the view is reduced. One view in 70 exceeds the limit by chance.
 constexpr double kRobust_sigmas = 4;
 /// Standard deviation that is small enough to fix a parameter.
 constexpr double kPinned = 1e-7;

@@ -1,5 +1,5 @@
-// Graph of sheets and frames (images), with an edge for each frame that shows a sheet. It is used
-// to compute the relative poses and the print scales of the sheets.
+// Graph of sheets and frames (images), with an edge from each frame to each sheet that it shows. It
+// is used to compute the relative poses and the print scales of the sheets.
 #pragma once
 
 #include <array>

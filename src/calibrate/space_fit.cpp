@@ -73,7 +73,7 @@ SpaceState moved(const SpaceState& state, const Parameters& step) {
     SpaceState result = state;
     result.position_mm += step.head<3>();
     if (angle > 0) {
-        // Normalizes the quaternion, so that rounding errors do not accumulate.
+        // Normalises the quaternion, so that rounding errors do not accumulate.
         const Eigen::Quaterniond rotation(state.rotation * Eigen::AngleAxisd(angle, turn / angle));
         result.rotation = rotation.normalized().toRotationMatrix();
     }
@@ -81,7 +81,7 @@ SpaceState moved(const SpaceState& state, const Parameters& step) {
     return result;
 }
 
-/// Normal equations of one linearization.
+/// Normal equations of one linearisation.
 struct Sums {
     Information information = Information::Zero();
     Parameters gradient = Parameters::Zero();
@@ -172,8 +172,8 @@ class NoiseModel {
         normalize(centre_);
     }
 
-    /// Estimates the fraction of the print errors by maximum likelihood, and sets the whitening of
-    /// the dots for this fraction.
+    /// Estimates the fraction that is due to print errors by maximum likelihood, and sets the
+    /// whitening of the dots for this fraction.
     void whiten(std::vector<WeightedDot>& dots) const {
         const double fraction = likeliest_fraction();
         for (std::size_t i = 0; i < dots.size(); ++i) {

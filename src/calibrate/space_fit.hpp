@@ -1,5 +1,5 @@
-// Maximum-likelihood pose of a camera over a plane of dots. The pose may be ambiguous, so there may
-// be a second solution.
+// Maximum-likelihood pose of a camera over a plane of dots. If the pose is ambiguous, there is a
+// second solution.
 #pragma once
 
 #include <optional>

@@ -12,7 +12,7 @@ namespace {
 /// spaced in the list of observations.
 constexpr int kSample = 64;
 
-/// Returns a vector of the given length in the direction of each symbol.
+/// Returns, for each symbol, the vector of the given length in the direction of the symbol.
 std::array<FixedVec, 4> displacements(std::int32_t length) {
     std::array<FixedVec, 4> all;
     for (std::size_t s = 0; s < all.size(); ++s) {

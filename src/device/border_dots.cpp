@@ -42,7 +42,7 @@ class AtBorder {
         }
         return true;
     }
-    /// Returns the paper level, as in `find_fine_dots`.
+    /// Returns the paper level around the pixel, estimated as in `find_fine_dots`.
     int paper() const {
         const Range columns(u_, 2, tracking_.width_px);
         const Range rows(v_, 2, tracking_.height_px);
@@ -52,8 +52,8 @@ class AtBorder {
                 std::max(top[columns.last], bottom[columns.first])) >>
                1;
     }
-    /// Returns the sums over the pixel and its neighbours. If some of the neighbours are outside
-    /// the image, corrects the sums for the missing pixels.
+    /// Returns the darkness sums over the pixel and its neighbours, relative to `level`. If some of
+    /// the neighbours are outside the image, corrects the sums for the missing pixels.
     DarkSums sums(int level) const;
 
   private:
@@ -88,7 +88,7 @@ DarkSums AtBorder::sums(int level) const {
     return sums;
 }
 
-/// Adds the dot whose darkest pixel is (u, v), if there is one.
+/// If pixel (u, v) is the darkest pixel of a dot, adds this dot.
 DOTPOSE_NOINLINE void add_if_dot(int u, int v, Tracking& tracking) {
     const AtBorder pixel(tracking, u, v);
     if (!pixel.is_darkest()) return;

@@ -47,20 +47,21 @@ class MeanPhase {
 /// grid changes the phases of the two halves in opposite directions.
 class PhasesOfAxis {
   public:
-    /// Adds a dot. `across_q8` is its distance from the middle on the other axis, in 2^-8 cells.
+    /// Adds a dot. `coordinate_q8` is its coordinate along this axis. `across_q8` is its signed
+    /// distance from the image centre along the other axis. Both are in 2^-8 cells.
     void add(std::int32_t coordinate_q8, std::int32_t across_q8) {
         halves_[across_q8 < 0 ? 0 : 1].add(coordinate_q8);
         across_q8_ += magnitude(across_q8);
     }
     struct Line {
-        int shift_q8;            ///< phase in the middle, in 2^-8 cells
-        std::int32_t slope_q16;  ///< change of the phase per cell across
+        int shift_q8;            ///< phase at the image centre, in 2^-8 cells
+        std::int32_t slope_q16;  ///< change of the phase per cell of the other axis
     };
     Line fit(int dots) const {
         const int first_q8 = halves_[0].q8();
         const int rise_q8 = static_cast<std::int8_t>(halves_[1].q8() - first_q8);
-        // The distance between the centres of the two halves is twice the mean distance of a dot
-        // from the middle.
+        // The distance between the mean dots of the two halves is twice the mean distance of a dot
+        // from the line that separates the halves.
         return {static_cast<std::int8_t>(first_q8 + rise_q8 / 2),
                 (rise_q8 * dots * (1 << 15)) / std::max<std::int32_t>(across_q8_, 1)};
     }
@@ -86,9 +87,9 @@ class FineGrid {
     }
 
     int dots() const { return tracking_.dots_measured; }
-    /// Shifts and rotates the plane to match the phases of the dots near the middle.
+    /// Shifts and rotates the plane to match the phases of the dots near the image centre.
     void fit_phases();
-    /// Improves the plane with a fit to every second dot.
+    /// Improves the plane by fitting it to every second dot.
     void fit_roughly();
     /// Reads the bits of all dots, and fits the plane. Stores the bits in ComparedLine::wrong until
     /// they are compared with the code. Returns the number of dots in the fit, or 0 if the dots do
@@ -133,9 +134,9 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     PhasesOfAxis along_x;
     PhasesOfAxis along_y;
     const FixedVec middle_q8{at_q24_.x >> 16, at_q24_.y >> 16};
-    // Maximum distance along each axis between the middle and the dots that are used: 3.5 cells.
-    // The predicted centres of dots farther out may be wrong by more than half a spacing, because
-    // the predicted rotation is inaccurate.
+    // Only dots within this distance of the image centre, along each axis, are used: 3.5 cells. The
+    // predicted centres of dots farther out may be wrong by more than half a spacing, because the
+    // predicted rotation is inaccurate.
     constexpr std::int32_t kNear_q8 = 7 * 128;
     int count = 0;
     for (const DetectedDot& dot : all()) {
@@ -183,7 +184,7 @@ DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
 }
 
 /// Records the bits of a dot. Ignores the dot if two of its four possible centres are almost
-/// equally close, or if its cell is outside the tracked range.
+/// equally close to its measured centre, or if its cell is outside the tracked range.
 DOTPOSE_NOINLINE void FineGrid::note(const ReadDot& dot) {
     const auto [cell, from_q24, symbol] = dot;
     const int first = tracking_.first_cell;
@@ -250,15 +251,15 @@ bool agrees(const Tracking& tracking, FixedVec shift) {
     return 2 * wrong <= tracking.dots_measured;
 }
 
-/// Moves the corner to the place where the code agrees with the bits, and marks the bits that
-/// disagree with the code there. The new corner is at most one cell from the predicted corner along
-/// each axis. Returns false if there is no such place. `phase_q8` is the shift of the grid relative
-/// to the prediction.
+/// Moves the corner by at most one cell along each axis, to a place where at least three quarters
+/// of the bits agree with the code. Marks the bits that disagree with the code at this place.
+/// Returns false if there is no such place. `phase_q8` is the shift of the grid relative to the
+/// prediction.
 DOTPOSE_NOINLINE bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
-    // The phase determines the shift of the pattern only up to whole cells. If the magnitude of the
-    // phase is at least kLarge_q8, the shift may also differ from the phase by one cell. The
-    // magnitude of this other shift is at most 3/5 of a cell, the maximum accepted error of a
-    // prediction.
+    // The phase determines the shift of the pattern only modulo one cell. A shift that differs from
+    // the phase by one cell is also possible if its magnitude is at most 3/5 of a cell, the maximum
+    // accepted error of a prediction. This is the case if the magnitude of the phase is at least
+    // kLarge_q8.
     constexpr int kLarge_q8 = 256 * 2 / 5;
     const auto other = [](int phase) {
         return magnitude(phase) < kLarge_q8 ? 0 : phase > 0 ? 1 : -1;

@@ -17,8 +17,9 @@ std::uint32_t reversed(std::uint32_t word, int count) {
     return result;
 }
 
-/// Sets `result` to the lines of a block turned by 180 degrees, with `cells` cells per line. The
-/// turn reverses the order of the lines and of their cells, and inverts all bits.
+/// Turns a block by 180 degrees. `lines` are the lines of the block, with `cells` cells per line.
+/// Sets `result` to the lines of the turned block. The turn reverses the order of the lines and of
+/// their cells, and inverts all bits.
 void turn_over(std::span<const HardLine> lines, int cells, std::span<HardLine> result) {
     HardLine* turned = &result[lines.size() - 1];
     for (const HardLine& line : lines)

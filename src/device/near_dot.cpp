@@ -14,7 +14,7 @@ bool lay_dot_pixels(Tracking& tracking) {
     int half_px = kSmallHalf_px;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         // Centre of a quadrant of a pixel, relative to the upper left corner of the pixel. All
-        // intersections in the same quadrant use the same pixels.
+        // intersections in the same quadrant of a pixel use the same pixel offsets.
         const FixedVec in_pixel_q16{quarter % 2 == 0 ? 16384 : 49152, quarter < 2 ? 16384 : 49152};
         for (std::size_t s = 0; s < 4; ++s) {
             const FixedVec displaced_q16 = tracking.displaced_q16[s];

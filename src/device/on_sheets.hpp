@@ -16,8 +16,8 @@ struct SheetFunctions {
     /// certain, sets the place and the orientation in the decoding, and returns true. Otherwise,
     /// returns false.
     bool (*read)(const DeviceOptions& options, DeviceWorkspace& w);
-    /// Returns true if the predicted place of a tracked frame is on the known sheets and its bits
-    /// make it certain (see `is_certain_place`).
+    /// Returns true if the predicted place of a tracked frame is on the known sheets and the bits
+    /// of the frame make it certain (see `is_certain_place`).
     bool (*verify)(const DeviceOptions& options, DeviceWorkspace& w);
     /// Prepares for storing the rows of a small frame (see `begin_small_frame`).
     bool (*begin_small)(int width_px, int height_px, const DeviceOptions& options,

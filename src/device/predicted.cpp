@@ -38,9 +38,9 @@ bool is_sane(const Prediction& prediction) {
 
 constexpr std::int64_t kOne_q24 = 1 << 24;
 
-/// Returns the determinant of a plane in 1/px^2, in units of 2^-24. Returns 0 if the spacing of the
-/// cells cannot be tracked, or if the cells are sheared or stretched too much. `finest_px` is the
-/// minimum spacing.
+/// Returns the determinant of a plane, in 2^-24 px^-2. Returns 0 if the spacing of the cells is
+/// outside the range that can be tracked, or if the cells are sheared or stretched too much.
+/// `finest_px` is the minimum spacing.
 std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_px) {
     const FixedVec du = plane.du_q24;
     const FixedVec dv = plane.dv_q24;

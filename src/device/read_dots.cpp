@@ -13,7 +13,7 @@ namespace {
 
 /// Direction in which a row of cells is read. In this direction, the image coordinate v does not
 /// decrease. `step_q16` is the step from one cell to the next in the image, and `i_step` is the
-/// step of the column, 1 or -1.
+/// corresponding change of the column index, 1 or -1.
 struct RowDirection {
     FixedVec step_q16;
     int i_step;

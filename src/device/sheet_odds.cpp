@@ -65,8 +65,8 @@ class OddsOfOthers {
         for (; i < range.count; i += kSections, rolls.advance()) {
             const std::uint32_t position = range.first + i;
             if (is_same_section && position == other.position) continue;
-            // Stops counting wrong bits once the odds are negligible. Each omitted wrong bit can
-            // only increase the odds, so the sum remains an upper bound.
+            // Stops counting wrong bits once the odds are negligible. Wrong bits that are not
+            // counted can only increase the computed odds, so the sum remains an upper bound.
             const int lost =
                 other.lines.wrong_at(rolls, added, other.wrong + max_lost_) - other.wrong;
             log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);
@@ -79,7 +79,7 @@ class OddsOfOthers {
     static constexpr int kNegligible_q8 = 48 * 256;
     CodeVariant code_;
     int odds_per_bit_q8_;
-    int max_lost_;  ///< odds are negligible if more than this number of additional bits is wrong
+    int max_lost_;  ///< odds are negligible if more than this number of additional bits are wrong
     int log2_q8_ = kNever_q8;
 };
 
@@ -121,9 +121,9 @@ int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const Pla
 
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options) {
-    // Maximum number of wrong bits to test. A place with more wrong bits can be certain only in a
-    // large view. For large views, the function returns the total number of bits, which excludes no
-    // place.
+    // Maximum number of wrong bits to test. If a place with this number of wrong bits can still be
+    // certain, the view is large. The function then returns the total number of bits, which
+    // excludes no place.
     constexpr int kMaxTested = 8;
     const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);
     for (int wrong = 0; wrong <= std::min(kMaxTested, 2 * dots); ++wrong) {

@@ -40,8 +40,8 @@ Status settle(Tracking& tracking) {
     return Status::not_tracked;
 }
 
-/// Reads the dots in the rows that were received, which must be at least `Tracking::first_rows`.
-/// Error: not_tracked.
+/// Reads the dots in the rows received so far. At least `Tracking::first_rows` rows must have been
+/// received. Error: not_tracked.
 Status read_rows(DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.is_fine) {

@@ -49,7 +49,7 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     return {mass, cells, offset_q8, sums};
 }
 
-/// Adds the fitted offsets to the cells.
+/// Returns the cell map corrected by the fitted offsets.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
     // `AffineFitInt32` expects coordinates in 1/8 px, but these coordinates are whole cells. The
     // slopes are therefore divided by 8.

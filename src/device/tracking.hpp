@@ -31,8 +31,8 @@ struct TrackedRow {
     /// Image point of the next intersection, in 2^-16 px. y is kNever_q16 if there is no next cell.
     FixedVec next_q16{0, kNever_q16};
     std::int32_t i = 0;  ///< column of the next cell
-    // Sums over the measured dots of the mass, the mass times i, and the mass times i^2. In all
-    // sums, i is the column of a dot relative to the middle column.
+    // Sums of the mass, of the mass times i, and of the mass times i^2, over the measured dots. In
+    // all sums, i is the column of a dot relative to the middle column.
     std::int32_t mass = 0;
     std::int32_t mass_i = 0;
     std::int32_t mass_ii = 0;
@@ -56,8 +56,8 @@ struct TrackedView {
 };
 
 /// A frame whose dots are measured near their predicted centres while its rows arrive. If the frame
-/// contains too many cells, only its middle part is tracked. All stages then treat this part as the
-/// whole image.
+/// contains more cells than the memory has room for, only its middle part is tracked. All stages
+/// then treat this part as the whole image.
 struct Tracking {
     Status status = Status::not_tracked;
     std::uint8_t min_contrast = 0;  ///< see DeviceOptions

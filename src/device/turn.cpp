@@ -73,7 +73,7 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// Returns the map of the cells after a similarity transform around the cell `middle`.
+/// Returns the map of the cells after a similarity transform about the cell `middle`.
 CellMap changed(const CellMap& cells, FixedVec middle, const Similarity& s) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;

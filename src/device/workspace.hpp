@@ -39,7 +39,8 @@ struct DeviceWorkspace : Workspace {
 /// other elements that the stages can store.
 struct DeviceCapacity {
     int width_px = 0;
-    /// Maximum height of a frame. At most kMaxSideWithLowTiles_px if the width is larger than this.
+    /// Maximum height of a frame. Must be at most kMaxSideWithLowTiles_px if `width_px` exceeds
+    /// kMaxSideWithLowTiles_px.
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
@@ -52,14 +53,14 @@ struct DeviceCapacity {
     // row, so any further runs and blobs are noise or graphics.
     int runs = 0;
     int blobs = 0;
-    // Maximum number of runs of a whole frame, which bounds the time. The dots of a frame of 188 x
-    // 120 px have about 500 runs. Noisy frames of this size were still located with up to 1,900
-    // runs.
+    // Maximum number of runs in a whole frame. This limit bounds the processing time. The dots of a
+    // frame of 188 x 120 px have about 500 runs. Noisy frames of this size were still located with
+    // up to 1,900 runs.
     int max_runs = 0;
 };
 
-/// Capacities for each frame size. They are sufficient for spacings of about 11 px or more, or of 6
-/// px or more for 36 x 36 px. Each size is also listed in dotpose/memory.hpp.
+/// Capacities for each frame size. They are sufficient for spacings of at least about 11 px, or at
+/// least 6 px in frames of 36 x 36 px. Each size is also listed in dotpose/memory.hpp.
 template <int Width, int Height>
 inline constexpr DeviceCapacity kDeviceCapacity{};
 template <>

@@ -15,7 +15,8 @@ namespace {
 using follow::AxisPlace;
 using follow::AxisSample;
 
-/// Smoothed height above which a sample adjacent to a lift belongs to the lift.
+/// A sample adjacent to a lift belongs to the lift if its smoothed height exceeds this by more than
+/// two standard deviations.
 constexpr double kRest_mm = 0.02;
 
 /// Consecutive samples on one page.

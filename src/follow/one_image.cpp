@@ -58,10 +58,10 @@ Follower::Found Follower::read_in(CodeVariant code) {
     return by_camera_file(seen, place, reading);
 }
 
-/// If bits contradict a fix on a known sheet, labels or the table beside the sheet may have been
+/// If bits disagree with a fix on a known sheet, labels or the table beside the sheet may have been
 /// read as dots. In this case, masks everything outside the dots of the sheet and locates the image
-/// again. Returns the new fix if fewer bits contradict it and it uses nearly as many dots.
-/// Otherwise returns `fix`.
+/// again. Returns the new fix if fewer bits disagree with it and it uses nearly as many dots.
+/// Otherwise, returns `fix`.
 Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
     if (fix.bit_errors == 0) return fix;
     const auto cut = cut_to_dots(image_, used_, fix, place.entry->sheet);

@@ -1,5 +1,5 @@
-/// Masks the part of a frame that is outside a page. Otherwise, `locate` might combine the dots of
-/// the page with those of an adjacent sheet.
+/// Masks the part of a frame that is outside a page. Without the mask, `locate` might combine the
+/// dots of the page with those of an adjacent sheet.
 #pragma once
 
 #include <optional>

@@ -38,17 +38,16 @@ constexpr double kMinAgility = 1e-6;
 /// Factor by which each sighting decreases the information about the fraction of independent
 /// errors. The fraction is thus averaged over about 50 sightings.
 constexpr double kInformationKept = 0.98;
-/// Minimum of the fraction of independent errors. In the frames of `dotpose_tables space_track`, a
-/// minimum of 0.01 makes positions 0.3 to 0.6 % more accurate, and velocities up to 18 %
-/// less accurate.
+/// Minimum fraction of independent errors. In the frames of `dotpose_tables space_track`, a minimum
+/// of 0.01 makes positions 0.3 to 0.6 % more accurate, and velocities up to 18 % less accurate.
 constexpr double kMinIndependent = 0.05;
-/// Maximum change of the logarithm of the fraction by one sighting.
+/// Maximum change of the logarithm of the fraction per sighting.
 constexpr double kMaxFractionStep = 0.5;
 /// Minimum innovation, in standard deviations, that is not attributed to noise.
 constexpr double kSurprise = 4;
-/// Minimum of twice the natural logarithm of the likelihood ratio of the two poses of an ambiguous
-/// sighting. The value corresponds to a ratio of 1000. If the ratio is smaller, the track does not
-/// decide between the poses.
+/// Minimum value of 2 ln(r), where r is the likelihood ratio of the two poses of an ambiguous
+/// sighting. The value corresponds to r = 1000. If r is smaller, the track does not decide between
+/// the poses.
 constexpr double kMinContrast = 13.8;
 
 Eigen::Map<const Vector6> vector_of(const std::array<double, 6>& values) {
@@ -111,10 +110,11 @@ Matrix6 matrix_of(const SpaceCovariance& covariance) {
     return matrix;
 }
 
-/// Returns the transformation from the axes of the agility to position and rotation. A view of a
-/// plane measures the point of the plane in front of the camera more accurately than the camera,
-/// whose position error is mostly the rotation error multiplied by a lever. `noise` is the
-/// covariance of a sighting. The lever is the regression of its position on its rotation.
+/// Returns the transformation from the axes of the agility to position and rotation. In a view of a
+/// plane, the point of the plane in front of the camera is measured more accurately than the
+/// position of the camera. The error of the position is mostly the rotation error multiplied by a
+/// lever. `noise` is the covariance of a sighting. The lever is the regression of the position on
+/// the rotation.
 Matrix6 lever_of(const Matrix6& noise) {
     Matrix6 result = Matrix6::Identity();
     const Matrix3d rotation = noise.bottomRightCorner<3, 3>();
@@ -242,7 +242,8 @@ void adapt(Motion& motion, const Motion& guess, const CameraInSpace& camera) {
     adapt_fraction(motion, innovation, covariance, noise);
 }
 
-/// Corrects a prediction by a sighting. `noise` is the independent part of its covariance.
+/// Corrects a prediction with a sighting. `noise` is the independent part of the covariance of the
+/// sighting.
 void correct(Motion& motion, const CameraInSpace& camera, const Matrix6& noise) {
     auto covariance = covariance_of(motion);
     const Matrix6 s = covariance.topLeftCorner<6, 6>() + noise;
@@ -341,8 +342,8 @@ void SpaceTracker::start(const SpaceSighting& sighting) {
     track_.verdict = SpaceVerdict::accepted;
 }
 
-/// Corrects the track by the pose of the sighting that is consistent with the track. Returns false
-/// if neither pose is consistent, or if the track does not decide between the two poses of an
+/// Corrects the track with the pose of the sighting that is consistent with the track. Returns
+/// false if neither pose is consistent, or if the track does not decide between the two poses of an
 /// ambiguous sighting.
 bool SpaceTracker::take(const SpaceSighting& sighting) {
     const double first = squared_innovation(motion_, sighting, sighting.camera, options_);

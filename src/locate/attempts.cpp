@@ -28,8 +28,8 @@ std::span<const CodeVariant> Attempts::codes_for(Step step) const {
     return codes_.in_order();
 }
 
-/// Returns the input of an attempt in one code. Discards the odds of the other codes from the
-/// previous attempt.
+/// Returns the input of an attempt in one code. Discards the odds of the other codes that the
+/// previous attempt stored.
 Frame Attempts::frame_in(CodeVariant code) {
     options_.code = code;
     if (w_.other_codes.are_wanted) w_.other_codes.of = {};

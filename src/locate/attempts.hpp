@@ -17,7 +17,7 @@
 namespace dotpose::core {
 
 /// Attempts without a prediction. `resampled` is a second attempt that samples the bits again if
-/// the position is doubtful. It takes three times as long as `second`.
+/// the position is doubtful, and takes three times as long as `second`.
 enum class Step : std::uint8_t { first, turning, second, resampled, device };
 
 /// Returns true if the status means that the image shows a grid of dots whose bits do not determine

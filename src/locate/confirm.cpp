@@ -266,8 +266,8 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         if (decides && !hypothesis.is_certain) {
             measurement.bits = 2 * bits.read;
             // If the bits are clear but do not make the position certain, the frame has too few
-            // bits. In small views, clean bits count as clear, because the few remaining dots have
-            // little influence and further attempts take long.
+            // bits. In small views, clean bits count as clear, because the few unread or misread
+            // dots have little influence and further attempts take a long time.
             const bool are_clear = hypothesis.is_small_view && !hypothesis.reads_cut_dots
                                        ? is_clean(bits)
                                        : bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;

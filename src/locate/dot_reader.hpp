@@ -15,7 +15,7 @@ bool can_sample_directly(const Hypothesis& hypothesis);
 
 /// Returns true if the pixel bias is significant. This is the case if all dots of a row or column
 /// have nearly the same sub-pixel phase, and other errors are small. `variance_px2` is the variance
-/// of the mean centre along one axis. `side_px` is the longer image side.
+/// of the mean dot centre along one axis. `side_px` is the longer image side.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
 /// Reads and measures the listed dots. If the hypothesis is exact, samples the four possible dot
@@ -42,8 +42,9 @@ class DotReader {
                       BitsRead& bits) const;
     /// Measures the centres again and subtracts the pixel bias if the bias is significant (see
     /// `may_be_biased`). The plane must have been fitted to the current centres, and must be fitted
-    /// again to the corrected centres. Sets `remaining_px2` to the variance of the mean centre due
-    /// to the remaining bias. If the bias is not significant, returns false and changes nothing.
+    /// again to the corrected centres. Sets `remaining_px2` to the variance of the mean dot centre
+    /// due to the remaining bias. If the bias is not significant, returns false and changes
+    /// nothing.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots, which are adjacent dots displaced towards each other (see

@@ -88,7 +88,7 @@ struct Similarity {
 /// have the same predicted point.
 Similarity similarity_of(const DotOffsets& found);
 
-/// Moves, scales and rotates a plane by a similarity.
+/// Returns the plane shifted, scaled and rotated by a similarity transform.
 FloatPlane moved(const FloatPlane& plane, const Similarity& by);
 
 }  // namespace dotpose::core

@@ -61,9 +61,9 @@ inline constexpr float kBetter = 1.0005F;
 inline constexpr float kMinGainIfEven = 0.5F;
 inline constexpr float kMinGain = 3;
 /// A grid is rejected if the variance of the offset between a dot and the nearest of the four
-/// possible dot positions of its cell exceeds this, per axis, in spacings^2. In a false grid, the
-/// offsets are uniformly distributed over discs with a radius of 0.18 spacings, so their variance
-/// is 0.008.
+/// possible dot positions of its cell exceeds this limit. The variance is per axis, in spacings^2.
+/// In a false grid, the offsets are uniformly distributed over discs with a radius of 0.18
+/// spacings, so their variance is 0.008.
 inline constexpr float kMaxVariance = 0.002F;
 /// Maximum number of grids that the search looks up in the code. If none of these grids has a place
 /// in the code, the search ends, because further rotations usually lead to the same grids.
@@ -176,7 +176,7 @@ inline constexpr float kDrift_px = 0.05F;
 /// by less than this distance across the view. The correction is restricted in this way because it
 /// takes several times as long as all other steps of a frame.
 inline constexpr float kDriftInView_px = 0.35F;
-/// The pixel bias is not significant if the variance of the mean centre along one axis exceeds
+/// The pixel bias is not significant if the variance of the mean dot centre along one axis exceeds
 /// this, because other errors are then larger than the bias.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// Minimum and maximum size of image areas that are prefetched. Smaller areas are already in the

@@ -23,7 +23,7 @@ MotionEstimate started_at(const Sighting& sighting, const TrackOptions& options)
 MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us,
                          const TrackOptions& options);
 
-/// Predicts the state at a later time, and corrects the prediction by a measured motion.
+/// Predicts the state at a later time, and corrects the prediction with a measured motion.
 MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measured,
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options);
 
@@ -43,7 +43,7 @@ Innovation innovation(const MotionEstimate& predicted, const Sighting& sighting,
 MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting, float dt_s,
                       const TrackOptions& options);
 
-/// Corrects a prediction by a sighting.
+/// Corrects a prediction with a sighting.
 MotionEstimate corrected(const MotionEstimate& predicted, const Sighting& sighting,
                          const TrackOptions& options);
 

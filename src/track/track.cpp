@@ -16,9 +16,9 @@ constexpr int kHypotheses_log2 = 36;
 static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
               "the number of hypotheses is rounded down to a power of two");
 
-/// Period of the shortest sequence that encodes the position. Two positions closer than this period
-/// have different places in all sequences, so their bits resemble each other only by chance
-/// (docs/tracking.md).
+/// Period of the shortest sequence that encodes the position. Two positions whose distance is less
+/// than this period have different places in all sequences, so their bits resemble each other only
+/// by chance (docs/tracking.md).
 constexpr int kMinSequencePeriod = 31;
 
 float seconds(std::int64_t from_us, std::int64_t to_us) {

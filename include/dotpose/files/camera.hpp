@@ -37,7 +37,7 @@ struct PaperScale {
     double mm_per_px_x = 0;
     double mm_per_px_y = 0;
     double skew = 0;  ///< shift of each image row relative to the row above, in px
-    /// Change of d per px along u. 0 if the camera is perpendicular to the paper.
+    /// Change of d per px along u. 0 if the optical axis is perpendicular to the paper.
     double perspective_u = 0;
     double perspective_v = 0;
 };
@@ -45,9 +45,9 @@ struct PaperScale {
 /// Tilt of the paper relative to the image plane. Angles and signs are defined as in `CameraPose`
 /// (tools/simulate.hpp).
 struct Tilt {
-    /// About the image x axis. If it is positive, the paper recedes towards the bottom.
+    /// Tilt about the image x axis. If positive, the paper recedes towards the bottom of the image.
     double x_rad = 0;
-    /// About the image y axis. If it is positive, the paper comes closer towards the right.
+    /// Tilt about the image y axis. If positive, the paper comes closer towards the right.
     double y_rad = 0;
 };
 
@@ -83,8 +83,8 @@ struct PenTip {
 struct Camera {
     int width_px = 0;
     int height_px = 0;
-    /// Coefficient k of the radial distortion about `centre_px` (paper, equations 1-2, a division
-    /// model). Negative for barrel distortion.
+    /// Coefficient k of the radial distortion about `centre_px` (paper, equations 1 and 2, a
+    /// division model). Negative for barrel distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
     /// View of the paper: the map from the undistorted image to the paper. None if the camera is
@@ -138,16 +138,16 @@ struct Camera {
 /// - The distortion centre is more than 1000 px from the image centre along an axis.
 /// - The reference point is more than 10,000 px from the image centre along an axis.
 /// - The perspective of `paper` is so strong that the horizon is in the image or near it.
-/// - The rows of `flat_field` differ in length, or there are fewer than two rows or columns, or
-///   more than pixels.
+/// - `flat_field` has rows of different lengths, fewer than two rows or columns, or more rows or
+///   columns than the image.
 /// - Another value is not finite or out of its range, for example a length that is not positive.
 void validate(const Camera& camera);
 
-/// Returns the undistorted pixel of `pixel` (paper, equations 1-2).
+/// Returns the undistorted pixel of `pixel` (paper, equations 1 and 2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Inverse of `undistorted`. If k is positive, it has no solution far from the distortion centre.
-/// In this case, returns a pixel in the same direction from the distortion centre as `undistorted`,
-/// at twice the distance.
+/// Inverse of the function `undistorted`. If k is positive, the inverse does not exist far from the
+/// distortion centre. In this case, returns the pixel in the same direction from the distortion
+/// centre as the argument, at twice its distance.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// Returns `pinhole` if there is one. Otherwise, returns a model with square pixels, `focal_px`,
@@ -175,8 +175,8 @@ double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 /// under the image centre. x is along the image x axis at the image centre. Throws
 /// std::bad_optional_access if `camera.paper` is none. This frame is suitable for comparing two
 /// calibrations of the same camera: the coordinates of a point on the paper differ by only microns
-/// between the calibrations, even far outside the image, whereas its undistorted pixels differ by
-/// more.
+/// between the calibrations, even far outside the image. The undistorted pixels of the point differ
+/// by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Inverse of `from_image_centre`: returns the undistorted pixel that shows `point`. Throws
 /// std::bad_optional_access if `camera.paper` is none.

@@ -25,9 +25,8 @@ inline constexpr int kCameraFileVersion = 1;
 /// the key, in these cases:
 /// - The file cannot be read, or has another format or version.
 /// - A key is missing, unknown, of the wrong type or out of range.
-/// - The distortion model is not plumb_bob, or equation 2 of the paper cannot approximate the lens
-/// to
-///   within 0.5 px rms.
+/// - The distortion model is not plumb_bob, or the paper's equation 2 cannot approximate the lens
+///   to within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
 /// Reads a camera from the text of a camera file or of a camera_info file. `name` is the name of

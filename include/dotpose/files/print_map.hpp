@@ -104,7 +104,7 @@ const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& pla
 enum class MapUse : std::uint8_t {
     no_map,  ///< there is no map of the page, or there is no fix
     used,    ///< the fix is corrected by the map
-    /// The frames of the map saw fewer than 20, or less than 75 %, of the dots in view.
+    /// Fewer than 20, or less than 75 %, of the dots in view were seen in the frames of the map.
     not_covered,
     contradicted  ///< the dots in view contradict the map, for example because the print was moved
                   ///< or replaced

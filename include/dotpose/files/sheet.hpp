@@ -13,12 +13,12 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Default grid spacing. With this spacing, dots cover whole printer pixels at 300, 600 and 1200
-/// dpi (paper III-A.1).
+/// dpi (paper, section III-A.1).
 inline constexpr double kDefaultSpacing_mm = 0.508;
 
 /// Maximum width and height of a page, in mm.
 inline constexpr double kMaxPage_mm = 100'000;
-/// Minimum number of columns and rows of a sheet. Smaller regions cannot be read (paper section
+/// Minimum number of columns and rows of a sheet. Smaller regions cannot be read (paper, section
 /// III-A.3).
 inline constexpr int kMinSheetCells = 8;
 

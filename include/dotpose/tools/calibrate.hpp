@@ -48,8 +48,8 @@ struct CalibrateOptions {
     /// `pattern`. `stitch_sheets` ignores this option, because each sheet has its own code variant.
     bool any_code = false;
     /// Sheets that the frames may show, for example the sheets of a sheet file. If the list is not
-    /// empty, the spacing is the printed spacing of the sheet that most frames show.
-    /// `stitch_sheets` ignores this option.
+    /// empty, the spacing is the printed spacing of the sheet that appears in the largest number of
+    /// frames. `stitch_sheets` ignores this option.
     std::vector<SheetEntry> sheets;
     /// Called after each step of the calibration. Returning false aborts it with an Error.
     std::function<bool(int done, int total)> progress;
@@ -79,16 +79,16 @@ struct CalibrationDot {
     int frame = 0;      ///< index of the frame in the series
     PixelPoint pixel;   ///< measured pixel of the dot
     PixelPoint before;  ///< residual before the calibration, for a camera without distortion, skew
-                        ///< and tilt
+                        ///< or tilt
     PixelPoint after;   ///< residual after the calibration
 };
 
 /// The calibrated camera, with measures of its reliability.
 struct LensCalibration {
     Camera camera;
-    /// True if the camera is mounted, with the same height and tilt in all frames. The height and
-    /// tilt of a hand-held camera differ between frames, so `camera.paper` and `camera.tilt` are
-    /// none.
+    /// True if the camera is mounted, with the same height and tilt in all frames. If false, the
+    /// camera is hand-held: its height and tilt differ between frames, so `camera.paper` and
+    /// `camera.tilt` are none.
     bool is_mounted = true;
     CodeVariant code = CodeVariant::anoto;  ///< given or detected code variant
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
@@ -98,7 +98,7 @@ struct LensCalibration {
     int dots = 0;                   ///< number of dots used
     int outliers = 0;               ///< number of dots rejected as outliers
     double residual_before_px = 0;  ///< rms residual per axis before the calibration, for a camera
-                                    ///< without distortion, skew and tilt
+                                    ///< without distortion, skew or tilt
     double residual_px = 0;         ///< rms residual per axis after the calibration
     double px_per_spacing = 0;      ///< mean grid spacing at the image centre over all frames, in
                                     ///< px
@@ -261,7 +261,7 @@ struct ReadoutCalibration {
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
 /// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
-/// - Fewer than 5 frames are located together with the frames before and after them.
+/// - There are fewer than 5 located frames whose previous and next frames are also located.
 /// - The standard deviation of the readout time is 10 % of the readout time or more.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
@@ -328,7 +328,7 @@ struct Stitching {
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
     std::vector<SeamMeasurement> measurements;  ///< measurements of pairs of connected sheets
-    /// Names of the sheets that no chain of frames connects to the fixed sheet.
+    /// Names of the sheets that are not connected to the fixed sheet by any chain of frames.
     std::vector<std::string> unconnected;
     int frames = 0;
     int used = 0;              ///< number of frames that show two sheets

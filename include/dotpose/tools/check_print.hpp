@@ -43,9 +43,9 @@ struct CheckPrintOptions {
     /// `pattern`.
     bool any_code = false;
     /// Sheets that the scan may contain, for example the sheets of a sheet file. A field within the
-    /// region of a sheet is compared with the dimensions of that sheet. A
-    /// sheet is ignored if its code variant rules out an overlap with sheets in the code variant of
-    /// `pattern` (see `overlap` in sheet_file.hpp).
+    /// region of a sheet is compared with the dimensions of that sheet. A sheet is ignored if,
+    /// because of its code variant, it cannot overlap with sheets in the code variant of `pattern`
+    /// (see `overlap` in sheet_file.hpp).
     std::vector<Sheet> sheets;
     /// Resolution of the scan. An image is treated as a photo if it has no resolution, or if it
     /// shows the perspective or lens distortion of a camera. The check of a photo allows for
@@ -112,8 +112,8 @@ struct PrintField {
     double spacing_px = 0;                  ///< spacing in the middle of the field
     /// Rms deviation per axis of the dots from their fitted places, in mm on the paper.
     double residual_mm = 0;
-    /// Standard deviation, per axis, of the displacement of single dots, in mm on the paper. It is
-    /// computed from the differences between neighbouring dots, which the distortion of the page
+    /// Standard deviation, per axis, of the displacement of individual dots, in mm on the paper. It
+    /// is computed from the differences between neighbouring dots, which the distortion of the page
     /// does not affect.
     double scatter_mm = 0;
     std::vector<DistortionBin> distortion;

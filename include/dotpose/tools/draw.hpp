@@ -57,8 +57,8 @@ struct DrawOptions {
 ///
 /// The left panel shows the image with a ring around each dot, the symmetric connections of the
 /// neighbour search, and the origin of the grid (paper, figures 2 and 3). Below the panel, the same
-/// connections are drawn from one origin, with the grid vectors (figure 4). The right panel shows
-/// the decoding (figure 9): the grid, the symbol of each dot, coloured by its likelihood, the
+/// connections are drawn from a common origin, with the grid vectors (figure 4). The right panel
+/// shows the decoding (figure 9): the grid, the symbol of each dot, coloured by its likelihood, the
 /// decoded window and its corner, the reference point and the angle theta. Below the panel is the
 /// pose, or the reason why there is none.
 ///

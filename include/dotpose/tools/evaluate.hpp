@@ -64,11 +64,12 @@ struct FrameRun {
     FrameSource frame_at;
     /// Every frame is located with each of these options.
     std::vector<DeviceOptions> options = {DeviceOptions{}};
-    /// True to detect the code variant of each frame for which `KnownFrame::code` is not set. The
-    /// frames are independent.
+    /// True to detect the code variant of each frame for which `KnownFrame::code` is not set. Each
+    /// frame is judged independently of the other frames.
     bool any_code = false;
-    /// Refines a fix with the trace of the frame, for example by `with_camera`. If empty, fixes are
-    /// not refined. Called from several threads. The time of the refinement is not measured.
+    /// Refines a fix with the trace of the frame, for example by calling `with_camera`. If empty,
+    /// fixes are not refined. Called from several threads. The time of the refinement is not
+    /// measured.
     std::function<Fix(const Fix&, const Trace&)> refine;
     int threads = 0;  ///< number of threads, or 0 for one per core
     Progress progress;

@@ -39,8 +39,8 @@ struct FollowerOptions {
     DeviceOptions locate;
     /// The sheets that may be in view. If empty, poses are in the pattern frame.
     std::vector<SheetEntry> sheets;
-    /// True if only these sheets can be in view. Otherwise, other sheets are also located, if
-    /// enough of their dots are in view. See Locator::set_known.
+    /// True if only these sheets can be in view. If false, other sheets are also located if enough
+    /// of their dots are in view. See Locator::set_known.
     bool has_only_sheets = false;
     /// The code variant, or none to detect it from all images together. Ignored if there are
     /// sheets, because each sheet has its own code variant.

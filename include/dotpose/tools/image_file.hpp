@@ -11,8 +11,8 @@
 /// profiles are ignored. Palettes are expanded, and CMYK is converted without a profile. Samples
 /// with a maximum value other than 255, such as 16-bit samples, are scaled to 0..255 and rounded.
 /// Opaque 16-bit images in which no value exceeds 4095 are interpreted as sensor data with 8 to 12
-/// significant bits. Transparent pixels are composited on white. From a TIFF file with several
-/// pages, the requested page is read, by default the first.
+/// significant bits. Transparent pixels are composited on white. If a TIFF file has several pages,
+/// the requested page is read. The default is the first page.
 ///
 /// The orientation in EXIF data and in HEIC is ignored, because the calibration and mount of a
 /// camera refer to the pixels of the sensor.

@@ -6,9 +6,9 @@
 ///     file.write(poses, time_ns, ros::to_cdr(pose));
 ///     file.finish();
 ///
-/// Messages are collected in chunks. Each chunk is written together with an index and an end of the
-/// file, which the next chunk overwrites. The file is therefore complete at any time. If the
-/// program is killed, only the messages of the chunk in progress are lost.
+/// Messages are collected in chunks. Each chunk is written together with the index and the end
+/// record of the file, which the next chunk overwrites. The file is therefore complete at any time.
+/// If the program is killed, only the messages of the chunk in progress are lost.
 #pragma once
 
 #include <cstdint>
@@ -37,10 +37,10 @@ struct McapQuality {
 
 /// Size of the chunks of a file.
 struct McapOptions {
-    /// A chunk is written when it reaches `chunk_bytes`. It is also written when it reaches
-    /// `chunk_ns`, provided that it is at least as large as the index at the end of the file. With
-    /// longer chunks, more messages are lost if the program is killed. Shorter chunks make the
-    /// index larger.
+    /// A chunk is written when its size reaches `chunk_bytes`. It is also written when its messages
+    /// span `chunk_ns`, provided that the chunk is at least as large as the index at the end of the
+    /// file. With longer chunks, more messages are lost if the program is killed. Shorter chunks
+    /// make the index larger.
     std::int64_t chunk_ns = 1'000'000'000;
     std::size_t chunk_bytes = 4 << 20;
 };

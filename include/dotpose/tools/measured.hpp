@@ -108,7 +108,7 @@ std::vector<std::pair<std::string, std::string>> described(const Measurement& me
 /// Writes one line per frame: true place, found place and error.
 void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
-/// Writes positions.csv, figure-13 and figure-14. If there are different true angles, also writes
+/// Writes positions.csv, figure-13 and figure-14. If the true angles are not all equal, also writes
 /// angles.csv and figure-15. They correspond to the figures with the same numbers in the paper.
 /// Each figure is written as .svg and .png. Frames with the same true place are samples of one
 /// position. Throws Error if no frame has a true place, or if a file cannot be written.

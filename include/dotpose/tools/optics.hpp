@@ -1,5 +1,5 @@
 /// Optics: predicts the image of the pattern in a camera with given components, for the design of a
-/// device (paper III-A). The model is a thin lens focused on the paper.
+/// device (paper, section III-A). The model is a thin lens focused on the paper.
 ///
 ///     const OpticsReport report = design_optics(paper_optics());
 ///     for (const OpticsAdvice& advice : report.advice) puts(advice.text.c_str());
@@ -26,7 +26,7 @@ struct Optics {
     int height_px = 120;
     double pixel_um = 24;     ///< pixel pitch on the sensor, after binning
     double focal_mm = 5.5;    ///< focal length of the lens
-    double distance_mm = 16;  ///< distance from the lens to the paper, above the focal length
+    double distance_mm = 16;  ///< distance from the lens to the paper, greater than `focal_mm`
     double spacing_mm = kDefaultSpacing_mm;
     double dot_mm = kDefaultSpacing_mm / 6;
     double f_number = 2.8;  ///< focal length divided by the diameter of the aperture
@@ -68,7 +68,8 @@ struct OpticsReport {
     /// Maximum diagonal of a block of 8 x 8 dots that are displaced by a sixth of the spacing:
     /// sqrt(2) (spacing (7 + 2/6) + diameter of a dot).
     double block_diagonal_mm = 0;
-    /// True if the shorter side of the field is at least `block_diagonal_mm` (paper III-A.3).
+    /// True if the shorter side of the field is at least `block_diagonal_mm` (paper, section
+    /// III-A.3).
     bool block_fits = false;
     /// Minimum side of a square field of view that contains 8 x 8 dots for any position and angle
     /// of the grid. The worst case is an angle of 45 degrees: block_diagonal_mm + sqrt(2) spacing.

@@ -99,8 +99,8 @@ using Progress = std::function<bool(int rows_done, int rows)>;
 enum class DotDrawing {
     automatic,  ///< `glyphs` where they are exact, otherwise `strokes`
     /// Text in a font of four glyphs: small and fast. Renderers round the position of every glyph
-    /// to whole pixels. Spacing, displacement and dot diameter must therefore be whole numbers of
-    /// pixels.
+    /// to whole pixels. Spacing, displacement and dot diameter must therefore be integer multiples
+    /// of the pixel size.
     glyphs,
     strokes,  ///< lines of length 0 with round caps: exact at any spacing
 };
@@ -121,8 +121,9 @@ struct PrintOptions {
     /// PDF only: separate commands for each page, in the order of the sheets. If not empty, they
     /// replace `command`.
     std::vector<std::string> page_commands;
-    int first_page = 1;  ///< PDF only: page number of the first sheet in the labels
-    /// PDF only: total number of pages in the labels. 0 means the number of sheets.
+    int first_page = 1;  ///< PDF only: page number of the first sheet, as shown in the labels
+    /// PDF only: total number of pages, as shown in the labels. If 0, the labels show the number of
+    /// sheets.
     int page_count = 0;
     /// Called often, so it must be fast. Default: none.
     Progress progress;
@@ -138,8 +139,9 @@ struct PrintOptions {
 /// file is unchanged and no temporary file remains.
 ///
 /// Throws BadArgument in the same cases as `print_format`, `validate` and `validate_resolution`,
-/// and for DotDrawing::glyphs if lengths are not whole numbers of pixels. Throws Error if the file
-/// cannot be created or written (with the system's reason), or if `progress` returned false.
+/// and for DotDrawing::glyphs if a length is not an integer multiple of the pixel size. Throws
+/// Error if the file cannot be created or written (with the system's reason), or if `progress`
+/// returned false.
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
 

@@ -106,10 +106,10 @@ struct MappedFix {
 /// Corrects a fix with a map of the print, given the trace of the frame. Fits the place, angle and
 /// scale to the dots at their mapped places. Also fits perspective and shear if they are
 /// significant. The covariance is that of the absolute position on the page. It is computed from
-/// the residuals and from the error of the map (`MapPage::error_covariance`), so it no longer
-/// contains the errors of the print. Fixes at the same place share the same map error. To obtain
-/// the covariance of the difference between such fixes, first subtract the covariance of the map
-/// error from both.
+/// the residuals and from the error of the map (`MapPage::error_covariance`), so it does not
+/// include the errors of the print. Fixes at the same place share the same map error. To obtain the
+/// covariance of the difference between such fixes, first subtract the covariance of the map error
+/// from both.
 ///
 /// A map that contains the dots in view is used only if the variance of the residuals with the map
 /// is at most 0.8 times the variance without the map, or at most twice the square of

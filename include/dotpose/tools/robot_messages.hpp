@@ -108,7 +108,7 @@ struct RobotFrames {
 /// slash or contains a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
-/// Messages of one frame. `pose` is none if there is no fix. `odometry` is empty while the robot is
+/// Messages of one frame. `pose` is none if there is no fix. `odometry` is none while the robot is
 /// lost.
 struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< pose of the fix, in `map`

@@ -50,9 +50,9 @@ struct CameraModel {
     int height_px = 120;  ///< 1 to 16384
     /// Size on the paper of the pixel at the image centre, without tilt. Above 0.
     double mm_per_px = 0.046;
-    /// Radial distortion k of equations 1-2, p_u = m + r_d / (1 + k |r_d|^2), in 1 / px^2, where m
-    /// is the image centre. Negative for barrel distortion. |k| |r|^2 must be at most 0.9 in the
-    /// corners of the image.
+    /// Radial distortion k, in px^-2: p_u = m + r_d / (1 + k |r_d|^2), where m is the image centre
+    /// (paper, equations 1 and 2). Negative for barrel distortion. |k| |r|^2 must be at most
+    /// 0.9 in the corners of the image.
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;

@@ -125,8 +125,9 @@ struct Motion {
     std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
     std::array<double, kStates * kStates> covariance{};
     /// Process noise along each axis: the ratio of the variance of the acceleration noise to the
-    /// variance in the options. The axes are those of the rotation, and of the position from which
-    /// the part that a sighting cannot distinguish from the rotation is subtracted.
+    /// variance in the options. The first three axes are those of the position after subtraction of
+    /// the part that a sighting cannot distinguish from a rotation. The last three axes are those
+    /// of the rotation.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
     /// Innovation of the latest accepted sighting, along these axes.
     std::array<double, 6> innovation{};
@@ -169,8 +170,9 @@ class SpaceTracker {
     SpaceTrack track_;
     space_track::Motion motion_;
     std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
-    // The newest unambiguous sighting that was rejected since then, and the number of consecutive
-    // rejected sightings, up to and including it, that are each consistent with the previous one.
+    // The newest unambiguous sighting that was rejected after `accepted_us_`, and the number of
+    // consecutive rejected sightings that end with this sighting and are each consistent with the
+    // previous one.
     std::optional<SpaceSighting> rejected_;
     int rejections_ = 0;
 };
