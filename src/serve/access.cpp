@@ -100,9 +100,9 @@ Access::Access(const Address& address, std::string token, std::string hostname)
       hostname_(in_lower_case(hostname)),
       cookie_name_(fmt::format("dotpose-{}", address.port)) {}
 
-/// An IP address in Host is safe, because only names can be rebound to another address. A loopback
-/// server accepts only the names of the loopback interface, with any port, because the port of an
-/// ssh tunnel differs.
+/// Returns true if the Host header names this server. An IP address is safe, because only names can
+/// be rebound to another address. A server at a loopback address accepts only the names of the
+/// loopback interface. Any port is accepted, because the port of an ssh tunnel differs.
 bool Access::is_own_host(std::string_view host) const {
     const std::string name = in_lower_case(without_port(host));
     if (name == "localhost" || name == "127.0.0.1" || name == "[::1]") return true;
