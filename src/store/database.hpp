@@ -80,9 +80,9 @@ class Database {
     /// Opens the database, and creates missing tables. Throws Error if this fails.
     virtual void prepare() = 0;
 
-    /// Writes all states in one transaction. Skips states that are already stored. If the
-    /// transaction fails, throws Error. In this case, either all states or none are stored, so the
-    /// call can safely be repeated.
+    /// Writes all states in one transaction. Skips states that are already stored. Throws Error if
+    /// the transaction fails. Either all states or none are then stored, so the call can safely be
+    /// repeated.
     virtual void write(std::span<const State> states) = 0;
 
     /// Removes the states of all days before the day of `time_us`. Throws Error if this fails.
