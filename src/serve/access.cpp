@@ -40,7 +40,7 @@ bool is_ip(const std::string& host) {
     return inet_pton(AF_INET, host.c_str(), bytes.data()) == 1;
 }
 
-/// Returns the value of a cookie, or an empty text if there is no such cookie.
+/// Returns the value of a cookie, or an empty string if there is no such cookie.
 std::string_view cookie_of(std::string_view cookies, std::string_view name) {
     while (!cookies.empty()) {
         const std::size_t end = std::min(cookies.find(';'), cookies.size());
