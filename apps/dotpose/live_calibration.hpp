@@ -1,5 +1,5 @@
-/// `dotpose calibrate --live`. `dotpose` and dotpose-live define this function differently, because
-/// only dotpose-live can open a window.
+/// Live calibration (`dotpose calibrate --live`). `dotpose` and dotpose-live define this function
+/// differently, because only dotpose-live can open a window.
 #pragma once
 
 #include <string>
