@@ -30,10 +30,10 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 
 }  // namespace
 
-/// Counts the failed frames of each status and keeps a copy of one of them for the report at the
-/// end of the run. Of each status, copies the failed frames 1, 2, 4, 8 and so on, each replacing
-/// the previous copy. Only a few frames are therefore copied, and the copy is always from the more
-/// recent half of the failed frames.
+/// Counts the failed frames of each status, and keeps a copy of one frame per status for the report
+/// at the end of the run. The 1st, 2nd, 4th, 8th and so on of these frames replaces the previous
+/// copy. Only a few frames are therefore copied, and the copy is always from the more recent half
+/// of the failed frames.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;
