@@ -1,6 +1,9 @@
-/// Calibrates the camera of a running `dotpose watch` in five steps: the lens; the mount of the
-/// camera, from a turn on the spot; the forward direction, from a straight drive; the readout time,
-/// from a fast drive; and the tip of a pen, from pivoting.
+/// Calibrates the camera of a running `dotpose watch` in five steps:
+/// - the lens,
+/// - the mount of the camera, from a turn on the spot,
+/// - the forward direction, from a straight drive,
+/// - the readout time, from a fast drive, and
+/// - the tip of a pen, from pivoting.
 ///
 /// The main thread passes frames and commands to the guide. These calls return immediately and copy
 /// only the frames that are needed. A low-priority thread selects the frames for the lens, computes
@@ -52,8 +55,8 @@ struct GuideOptions {
     SpacingSource spacing = SpacingSource::assumed;
     /// Camera of the run. Each step changes only the values that it calibrates.
     std::optional<Camera> camera;
-    bool needs_focal_length = false;  ///< whether the run fits poses in space
-    bool flip = false;  ///< whether the source flips the frames, which is saved in the camera file
+    bool needs_focal_length = false;  ///< true if the run fits poses in space
+    bool flip = false;  ///< true if the source flips the frames, which the camera file records
 };
 
 struct GuideResult {
@@ -72,8 +75,8 @@ struct GuideState {
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what the user should do now
     std::optional<CalibrationStatus> lens;  ///< coverage, for the step `lens` only
-    /// Whether there are enough frames with each direction of a turning robot, or with each
-    /// direction in which a pen is tilted.
+    /// For each direction of a turning robot, or for each direction in which a pen is tilted: true
+    /// if there are enough frames.
     std::vector<bool> directions;
     std::vector<PenLean> leans;      ///< tilts of the pen
     std::vector<std::string> needs;  ///< unmet requirements of a step in which the robot moves
@@ -141,7 +144,7 @@ class CalibrationGuide {
     mutable std::mutex mutex_;  ///< protects the following members
     std::condition_variable changed_;
     std::deque<std::function<void()>> jobs_;
-    bool is_busy_ = false;  ///< whether a job is running
+    bool is_busy_ = false;  ///< true if a job is running
     bool stops_ = false;
     GuideState state_;
     std::uint64_t version_ = 0;

@@ -29,7 +29,7 @@ struct CalibrationStatus {
     std::vector<FrameTilt> tilts;     ///< tilts of the collected frames
     std::string now;                  ///< text about the newest frame
     std::string remark;               ///< advice after the last calibration, or empty
-    bool is_taken = false;            ///< whether the newest frame was accepted for calibration
+    bool is_taken = false;            ///< true if the newest frame was accepted for calibration
 };
 
 /// Returns the progress towards each goal of the calibration.

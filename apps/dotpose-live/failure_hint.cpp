@@ -13,8 +13,8 @@ namespace dotpose::cli {
 namespace {
 
 constexpr std::int64_t kWindow_us = 1'000'000;
-/// Minimum number of failed frames within a second for a hint. It is small because slow cameras
-/// deliver only a few frames per second.
+/// Minimum number of failed frames within a second that triggers a hint. The number is small,
+/// because slow cameras deliver only a few frames per second.
 constexpr std::size_t kMinFrames = 3;
 /// Maximum number of stored frames. Without this limit, memory use would grow if the time stamps of
 /// a source did not advance.
@@ -30,10 +30,10 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 
 }  // namespace
 
-/// Counts the failed frames of each status and keeps a copy of one of them for the report at the
-/// end of the run. Copies frames 1, 2, 4, 8 and so on of each status, each replacing the previous
-/// copy. Few frames are therefore copied, and the copy is always from the more recent half of the
-/// frames with its status.
+/// Counts the failed frames of each status, and keeps a copy of one frame per status for the report
+/// at the end of the run. The 1st, 2nd, 4th, 8th and so on of these frames replaces the previous
+/// copy. Only a few frames are therefore copied, and the copy is always from the more recent half
+/// of the failed frames.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

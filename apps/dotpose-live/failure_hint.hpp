@@ -31,7 +31,7 @@ class FailureHint {
         std::int64_t time_us = 0;
         bool has_failed = false;
     };
-    /// The frames that failed with a certain status: their number, and a copy of one of them.
+    /// Frames that failed with one status: their number, and a copy of one of them.
     struct Failures {
         std::int64_t count = 0;
         Record record;

@@ -37,8 +37,8 @@ std::string check_level(const std::string& name) {
                   : std::string();
 }
 
-/// Returns those of the robots whose connection messages the broker retains. Waits up to kPatience.
-/// Throws Error if no connection to the broker was established.
+/// Returns the subset of `robots` whose connection messages the broker retains. Waits up to
+/// kPatience for these messages. Throws Error if no connection to the broker was established.
 std::set<std::string, std::less<>> retained_robots(const publish::MqttOptions& options,
                                                    const std::vector<std::string>& robots) {
     constexpr auto kPatience = std::chrono::seconds(3);

@@ -12,9 +12,10 @@
 
 namespace dotpose::cli {
 
-/// Whether this instance of `dotpose fleet` receives all states of its robots, or shares the states
-/// with other instances. If the states are shared, states that appear to be missing may have been
-/// delivered to another instance, so missing states are not reported.
+/// How the broker delivers states. With `all`, this instance of `dotpose fleet` receives all states
+/// of its robots. With `shared`, each state is delivered to only one of several instances. States
+/// that appear to be missing may then have been delivered to another instance, so missing states
+/// are not reported.
 enum class Delivery { all, shared };
 
 /// The contents of the sheet file of a fleet.

@@ -38,7 +38,7 @@ struct FleetRobot {
     std::uint32_t id = 0;
     /// Newest state. If the robot is lost, the place and the sheet are the last known ones.
     RobotState newest;
-    bool has_place = false;  ///< whether `newest` contains a place, current or earlier
+    bool has_place = false;  ///< true if `newest` contains a place, current or earlier
     publish::Presence presence = publish::Presence::online;
     /// Time at which the robot sent its newest message, on the clock of Now::watched_us. It is
     /// based on the time stamp of the message, because the message may have waited in a queue.
@@ -62,7 +62,7 @@ struct Latency {
 
 /// Histogram of the latencies of messages.
 struct LatencyHistogram {
-    /// Upper limits of the classes in seconds. The last class has no upper limit.
+    /// Upper limits of the buckets in seconds. The last bucket has no upper limit.
     static constexpr std::array kLimits_s = {0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,
                                              0.25,  0.5,    1.0,   2.5,  5.0,   10.0};
 

@@ -30,8 +30,8 @@ std::string stored_name(std::string_view name);
 /// Converts received states to states of the database. Equal names share memory.
 class StoredStates {
   public:
-    /// Converts a state. The time of the result is the time stamp of the robot, unless it differs
-    /// from the arrival time by more than half an hour. In this case, the time is the arrival time.
+    /// Converts a state. The result contains the time stamp of the robot or, if that differs from
+    /// the arrival time by more than half an hour, the arrival time.
     store::State of(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
   private:

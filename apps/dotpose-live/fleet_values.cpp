@@ -21,7 +21,7 @@ double rounded(double value, double steps_per_unit) {
     return std::round(value * steps_per_unit) / steps_per_unit;
 }
 
-/// Returns a text argument of a request, or an empty string if it is missing.
+/// Returns a string argument of a request, or an empty string if it is missing.
 std::string text_in(const serve::Command& request, std::string_view key) {
     const auto* text = request.argument<std::string>(key);
     return text == nullptr ? std::string() : *text;

@@ -14,7 +14,7 @@
 
 namespace dotpose::cli {
 
-/// The robots at a certain time, shared by the values for all clients.
+/// The robots at one point in time, shared by the values for all clients.
 struct FleetSnapshot {
     FleetRobots robots;  ///< in natural order
     Now now;
@@ -38,9 +38,11 @@ std::string summary_value(const FleetSnapshot& snapshot, const FleetState& fleet
                           const FleetMap& map, const FleetServices& services, double states_per_s,
                           const std::deque<RobotAlert>& alerts);
 
-/// Returns the requested rows of the table. The request has the arguments `filter`, which is a part
-/// of the name, state, reason, map or sheet; `show`, which is "all", "attention", "unknown" or the
-/// name of a condition; `order`, which is "attention", "name" or "place"; `first`; and `rows`.
+/// Returns the requested rows of the table. The request has these arguments:
+/// - `filter`: part of the name, state, reason, map or sheet,
+/// - `show`: "all", "attention", "unknown" or the name of a condition,
+/// - `order`: "attention", "name" or "place",
+/// - `first` and `rows`: index of the first row, and number of rows.
 std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Delivery delivery,
                         const serve::Command& request);
 

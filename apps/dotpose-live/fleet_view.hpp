@@ -28,8 +28,9 @@ class FleetView {
     /// user wants to quit.
     bool take_keys(const FleetState& fleet, const Now& now);
 
-    /// Updates the table if standard output is a terminal. Also draws the map, limited to a tenth
-    /// of the time: after a drawing that took time t, the next drawing starts at least 9 t later.
+    /// Updates the table if standard output is a terminal. Also draws the map, but spends at most a
+    /// tenth of the time on drawing: if a drawing took time t, the next one starts at least 9 t
+    /// later.
     void refresh(const FleetState& fleet, const Now& now);
 
     /// Displays the final table and draws the final map. On a terminal, only the first page of the
@@ -57,7 +58,7 @@ class FleetView {
     std::optional<TerminalScreen> screen_;
     std::mutex mutex_;                  ///< protects `messages_` and the destruction of `screen_`
     std::deque<std::string> messages_;  ///< newest messages, printed after `screen_` is closed
-    bool is_failing_ = false;           ///< whether the last attempt to write the map failed
+    bool is_failing_ = false;           ///< true if the last attempt to write the map failed
     Clock::time_point next_map_;
 };
 

@@ -25,18 +25,18 @@ constexpr std::size_t kMinRun = 15;
 /// Minimum motion between two consecutive frames of a fast drive, in spacings.
 constexpr double kMinMotion = 0.5;
 
-/// Number of frames of a pivoting pen after which the step ends if all requirements are met, and
-/// number after which it ends in any case.
+/// The step with a pivoting pen ends after kWantedPivots frames if all requirements are met, and
+/// after kMaxPivots frames in any case.
 constexpr std::size_t kWantedPivots = 30;
 constexpr std::size_t kMaxPivots = 80;
-/// Minimum distance between the tilt of a frame and the tilts of all collected frames, as a
-/// tangent.
+/// A frame is collected only if its tilt differs from the tilts of all collected frames by at least
+/// this, as a tangent.
 constexpr double kMinLeanStep = 0.08;
 /// A direction is covered if at least kMinLeans frames are tilted towards it by kMinLean_deg or
 /// more.
 constexpr double kMinLean_deg = 10;
 constexpr int kMinLeans = 2;
-/// Required value of the largest tilt over all frames.
+/// At least one frame must be tilted by this angle.
 constexpr double kWantedLean_deg = 20;
 constexpr std::array<const char*, PivotFrames::kDirections> kSides = {
     "right edge", "lower right corner", "bottom edge", "lower left corner",

@@ -97,7 +97,7 @@ class ReadoutFrames : public GuidedFrames {
     std::vector<video::Gauge> gauges() const override;
     std::string advice() const override { return advice_; }
 
-    /// Returns the mean interval between consecutive frames, of which there must be at least two.
+    /// Returns the mean interval between consecutive frames. Requires at least two frames.
     double interval_ms() const;
 
   private:
@@ -142,7 +142,7 @@ class PivotFrames : public GuidedFrames {
 
     /// Returns the tilts of the collected frames.
     const std::vector<PenLean>& leans() const { return leans_; }
-    /// Returns for each direction whether there are enough frames tilted towards it.
+    /// Returns, for each direction, true if enough frames are tilted towards it.
     std::array<bool, kDirections> directions() const;
 
   private:

@@ -17,14 +17,14 @@ namespace {
 /// Maximum number of collected frames. More frames would only take longer, without improving the
 /// result.
 constexpr std::size_t kMaxFrames = 50;
-/// Maximum image speed at which a camera is considered steady, in px/s. At this speed, the image
-/// moves by at most one pixel during an exposure or readout of up to 1/30 s.
+/// A camera is steady if the image moves more slowly than this, in px/s. During an exposure or
+/// readout of up to 1/30 s, the image then moves by less than one pixel.
 constexpr double kSteady_px_s = 30;
 /// Time without a steady frame after which frames of a moving camera are also accepted, in case the
 /// robot never stops.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// Minimum number of newly covered image blocks that makes a frame useful even though it shows a
-/// place that was already seen. A block is newly covered if no collected frame covers it.
+/// A frame of a place that was already seen is accepted if it covers at least this number of image
+/// blocks that no collected frame covers.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {

@@ -31,8 +31,8 @@ struct NaturalOrder {
     }
 
   private:
-    /// Removes the digits at the start of a text and returns them without leading zeros. The result
-    /// has at least one digit.
+    /// Removes the digits at the start of a string and returns them without leading zeros. The
+    /// result has at least one digit.
     static std::string_view take_number(std::string_view& text) {
         const std::size_t size = std::min(text.find_first_not_of("0123456789"), text.size());
         std::string_view number = text.substr(0, size);

@@ -16,14 +16,13 @@ namespace dotpose::cli {
 
 struct RobotOutputOptions {
     std::string mcap;         ///< path of the MCAP file, or empty for none
-    bool has_images = false;  ///< whether to record images as well
+    bool has_images = false;  ///< true to record images as well
     ImageEncoding image_format = ImageEncoding::png;
     std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published over DDS
     std::string robot;
     std::string frame_prefix;      ///< prefix for the names of the robot's coordinate frames
     std::optional<Camera> camera;  ///< provides the mount and the exposure time
-    /// Whether the run fits poses of the camera in space. If so, the mount of the camera is not
-    /// sent.
+    /// True if the run fits poses of the camera in space. The mount of the camera is then not sent.
     bool has_space_pose = false;
 
     bool is_wanted() const { return !mcap.empty() || dds; }
@@ -61,7 +60,7 @@ class RobotOutput {
     RobotOutputOptions options_;
     Stamps stamps_;
     ros::RobotMessenger messenger_;
-    bool sends_mount_;  ///< whether to send the mount with the next frame
+    bool sends_mount_;  ///< true to send the mount with the next frame
     std::optional<RobotRecording> recording_;
     std::optional<dds::Publisher> publisher_;
 };

@@ -53,7 +53,7 @@ std::optional<MessageTopic> parse_topic(std::string_view topic);
 /// Value of RobotState::reason if the frame was located but its sheet has no world pose.
 inline constexpr std::string_view kNoPlace = "no_place";
 
-/// Number of refused frames, indexed by Status. The last element is for Status::other.
+/// Numbers of refused frames, indexed by Status. The last element is for Status::other.
 using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
 
 /// Counts of the camera frames of a robot since its program was started.
@@ -77,7 +77,7 @@ struct RobotState {
     std::string reason;
     std::string sheet;                   ///< name of the sheet in view, or empty if unknown
     std::optional<CameraReport> camera;  ///< included about once per second
-    bool is_localized = false;           ///< whether the members below are valid
+    bool is_localized = false;           ///< true if the members below are valid
     std::string map_id;                  ///< name of the map, which is the plane of x and y
     double x_m = 0;
     double y_m = 0;

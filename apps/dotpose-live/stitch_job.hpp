@@ -27,7 +27,7 @@ class StitchJob {
     struct Progress {
         int tried = 0;             ///< number of frames that were examined
         std::size_t used = 0;      ///< number of frames with two sheets in view
-        bool is_complete = false;  ///< whether the maximum number of frames has been used
+        bool is_complete = false;  ///< true if the maximum number of frames has been used
         std::string problem;       ///< reason why there is no result yet, or empty
         std::optional<Stitching> result;
     };

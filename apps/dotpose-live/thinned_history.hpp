@@ -50,7 +50,7 @@ class ThinnedHistory {
     void thin_out();
 
     std::int64_t states_ = 0;
-    std::array<std::int64_t, 3> counts_{};  ///< number of states for each motion
+    std::array<std::int64_t, 3> counts_{};  ///< numbers of states, indexed by motion
     std::int64_t first_us_ = 0;
     std::int64_t last_us_ = 0;
     std::int64_t span_us_ = 100'000;  ///< length of a time span

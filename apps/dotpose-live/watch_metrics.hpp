@@ -23,7 +23,7 @@ class WatchMetrics {
 
   private:
     mutable std::mutex mutex_;
-    RefusedFrames frames_{};  ///< number of frames by status, including Status::ok
+    RefusedFrames frames_{};  ///< numbers of frames by status, including Status::ok
     WatchTally tally_;
     std::int64_t dropped_ = 0;
     double rate_hz_ = 0;

@@ -1,5 +1,5 @@
-/// Recordings that are started and stopped on the page of `dotpose watch --web`. Each consists of a
-/// CSV log and an MCAP file.
+/// Recordings that are started and stopped on the page of `dotpose watch --web`. Each recording
+/// consists of a CSV log and an MCAP file.
 #pragma once
 
 #include <chrono>

@@ -1,7 +1,7 @@
 /// The sheets on the page of `dotpose watch --web`. docs/web.md describes the topics and commands.
 ///
-/// A separate thread reads and changes the sheet file and creates PDFs. This may take seconds,
-/// because another program may hold the lock of the file, and because pages may be large.
+/// A separate thread reads and changes the sheet file and creates PDFs. These tasks may take
+/// seconds, because another program may hold the lock of the file and pages may be large.
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,7 @@ namespace dotpose::cli {
 
 struct WebSheetsOptions {
     std::string path;       ///< path of the sheet file
-    bool may_edit = false;  ///< whether pages may change the sheet file and print sheets
+    bool may_edit = false;  ///< true if pages may change the sheet file and print sheets
     std::optional<Camera> camera;
 };
 

@@ -130,7 +130,7 @@ class Command {
     Command* group(const std::string& name);
     Command* require_subcommand(int number);
     Command* require_subcommand(int min, int max);
-    Command* prefix_command();  ///< makes the command accept arbitrary words after its name
+    Command* prefix_command();  ///< makes the command accept any words after its name
     Command* set_help_flag();   ///< removes --help
     Command* set_version_flag(const std::string& name, const std::string& version);
 

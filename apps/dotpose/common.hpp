@@ -84,7 +84,7 @@ Option* add_named(Command& command, const std::string& flag, const Values& value
 /// The options --code, --section, --spacing, --displacement and --dot.
 class PatternArguments {
   public:
-    /// Whether the command makes the pattern or expects it in an image. The option --section is
+    /// Role of the pattern: made by the command, or expected in an image. The option --section is
     /// omitted for an expected pattern, because the section is read from the image.
     enum class Use { made, expected };
     void add_to(Command& command, Use use = Use::made);

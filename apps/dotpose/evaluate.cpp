@@ -70,7 +70,7 @@ struct EvaluateArguments {
     std::optional<Preset> preset;
     std::optional<SweepKind> sweep;
     bool protocol = false;
-    ReportArguments report;  ///< `out` is a folder with --sweep and --protocol
+    ReportArguments report;  ///< `out` is a folder with --sweep or --protocol
     std::optional<int> frames;
     Setup setup;
     DeviceOptions options;
@@ -80,7 +80,7 @@ struct EvaluateArguments {
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
     std::optional<CodeVariant> code;   ///< code of all frames, or none if not specified
-    bool ignores_truth_codes = false;  ///< ignore the codes in truth.csv
+    bool ignores_truth_codes = false;  ///< true to ignore the codes in truth.csv
     int threads = 0;
 };
 
@@ -133,8 +133,8 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
     return exit_code;
 }
 
-/// Evaluates the frames in batches. After Ctrl-C, returns the outcomes of the completed batches, up
-/// to the index `readable_frames()`.
+/// Evaluates the frames in batches. After Ctrl-C, returns the outcomes of the completed batches,
+/// but only of the first `readable_frames()` frames.
 std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line,
                                        const std::function<std::size_t()>& readable_frames) {
     const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -300,7 +300,7 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // With --sweep and --protocol, --preset sets the conditions. Without them, it is a job of its
+    // With --sweep or --protocol, --preset sets the conditions. Otherwise, --preset is a job of its
     // own.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +

@@ -17,7 +17,7 @@ namespace dotpose::cli {
 /// Options for the evaluation with a sheet file.
 struct MeasuredArguments {
     std::string sheets;      ///< path of the sheet file, or empty for poses in the pattern frame
-    bool is_aligned = true;  ///< whether to align the located places with the true places
+    bool is_aligned = true;  ///< true to align the located places with the true places
     bool alignment_given = false;
     std::string residuals;  ///< path of the CSV file with the error of each frame, or empty
     std::string draw;       ///< folder for the figures, or empty for no figures

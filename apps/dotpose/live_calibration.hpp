@@ -1,5 +1,5 @@
-/// `dotpose calibrate --live`. `dotpose` and dotpose-live define this function differently, because
-/// only dotpose-live can open a window.
+/// Live calibration (`dotpose calibrate --live`). `dotpose` and dotpose-live define this function
+/// differently, because only dotpose-live can open a window.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace dotpose::cli {
 
 struct LiveCalibrationOptions {
-    bool has_no_window = false;  ///< use the terminal even if a display is available
+    bool has_no_window = false;  ///< true to use the terminal even if a display is available
     /// Folder in which to save the captured frames, or empty to save none.
     std::string save;
 };

@@ -17,19 +17,19 @@ struct Record {
     std::string file;
     Fix fix;
     CodeReading reading;         ///< code and alternative places, relative to the image centre
-    bool code_is_given = false;  ///< whether the user or the sheet file specifies the code
+    bool code_is_given = false;  ///< true if the user or the sheet file specifies the code
     double spacing_mm = 0;       ///< NaN if unknown; fields in mm are then empty
     /// Spacing computed from the fix and the camera file, see Located.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     /// Velocity of the camera during the readout of a rolling shutter, see Located.
     std::optional<ReadoutVelocity> velocity;
-    bool has_space = false;          ///< whether the record has the fields of a pose in space
+    bool has_space = false;          ///< true if the record has the fields of a pose in space
     std::optional<SpacePose> space;  ///< pose of the camera in space, see Located
-    bool has_tip = false;            ///< whether the record has the fields of a pen tip
+    bool has_tip = false;            ///< true if the record has the fields of a pen tip
     std::optional<TipPose> tip;      ///< pen tip, see Located
     bool is_pen_down = false;
     MapUse map_use = MapUse::no_map;  ///< how the print map was used, see Located
-    bool has_sheets = false;          ///< whether the record has the fields of a sheet file
+    bool has_sheets = false;          ///< true if the record has the fields of a sheet file
     std::optional<SheetPlace> place;  ///< place of the fix on its sheet, if it is on one
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
     double elapsed_us = 0;  ///< time to locate the image in µs, or NaN if not measured

@@ -87,7 +87,7 @@ class OrderedThreads {
         bool has_ended = false;
         /// Exception that terminated the thread, or null. Set before `has_ended`.
         std::exception_ptr failure;
-        /// Declared last, to be joined before the members that the thread uses are destroyed.
+        /// Declared last, so it is joined before the members that the thread uses are destroyed.
         std::jthread thread;
     };
 

@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the 90 % quantile of the grey levels. It approximates the grey level of the paper if the
-/// paper covers more than a tenth of the image and is the brightest object in it.
+/// Returns the 90th percentile of the grey levels. It approximates the grey level of the paper if
+/// the paper covers more than a tenth of the image and is the brightest object in it.
 int paper_level(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {

@@ -14,7 +14,7 @@ namespace dotpose::cli {
 struct PictureFacts {
     Status status = Status::ok;  ///< result of `locate` with `options`
     DeviceOptions options;
-    bool code_is_given = true;  ///< whether only one code was tried
+    bool code_is_given = true;  ///< true if only one code was tried
     /// Bits per pixel of a compressed video (capture/frame_source.hpp), or 0 if unknown.
     double bits_per_px = 0;
 };

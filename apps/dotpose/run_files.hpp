@@ -47,9 +47,9 @@ class RunFiles {
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
     /// Registers an output. Rejects the file extension of an image or video if it does not match
-    /// `content`. This prevents an accident: in `-o frames/*.png`, the user forgot the output name,
-    /// and the shell expands the glob to the names of the frames, so the first frame would be
-    /// overwritten. The path "-" means standard output for `-o`, and is rejected for other options.
+    /// `content`. Without this check, `-o frames/*.png` with a forgotten output name would
+    /// overwrite a frame, because the shell expands the glob to the names of the frames. The path
+    /// "-" means standard output for `-o`, and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
     /// Registers the output of lines: the file of `-o`, or standard output if `-o` is not given.

@@ -117,13 +117,13 @@ struct RunStatistics {
     double mean_speed_mm_s = 0;  ///< mean speed over the time in which the robot is moving
     double largest_speed_mm_s = 0;
     double largest_p_wrong = 0;
-    std::set<std::string> planes;  ///< frames of reference of the poses: pattern or world, or both
+    std::set<std::string> planes;  ///< frames of reference of the poses: pattern, world, or both
 };
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);
 
 /// Draws an SVG with the path, and with plots of speed, dots and certainty over time. The plots
-/// show gaps.
+/// mark periods without a fix.
 std::string draw_run(const std::vector<LogRow>& rows, const std::string& title);
 
 }  // namespace dotpose::cli

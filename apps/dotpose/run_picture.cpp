@@ -36,10 +36,10 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     return path;
 }
 
-/// Returns the offset, in mm, that is subtracted from the coordinates of an axis for its labels.
-/// The offset is 0 unless the centre of the axis exceeds 1000 times the reach of the axis, as in
-/// the pattern frame. The labels would then differ only in their last digits, so the offset is the
-/// centre in whole mm.
+/// Returns the offset, in mm, that is subtracted from the coordinates on an axis to get its labels.
+/// If the centre of the axis exceeds 1000 times its reach, as in the pattern frame, labels without
+/// an offset would differ only in their last digits. The offset is then the centre, rounded to
+/// whole mm. Otherwise, the offset is 0.
 double offset_mm(double middle_mm, double reach_mm) {
     constexpr double kMaxReaches = 1000;
     return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;

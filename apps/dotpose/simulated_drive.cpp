@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMm_per_m = 1000;
 constexpr double kExposure_s = 1e-4;
-/// Number of steps in a full cycle of the phase along the path.
+/// Number of steps into which one lap of the path is divided.
 constexpr int kSteps = 4096;
 
 /// Converts a point in the world to page coordinates, which are in mm from the top left corner of

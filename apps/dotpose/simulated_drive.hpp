@@ -58,7 +58,7 @@ class SimulatedDrive {
     std::uint64_t seed_;
     Vec2 centre_mm_;
     Vec2 amplitude_mm_;
-    bool is_upright_ = false;         ///< true if the path is higher than it is wide
+    bool is_upright_ = false;         ///< true if the path is taller than it is wide
     std::vector<double> lengths_mm_;  ///< path length from the start to each step
 };
 

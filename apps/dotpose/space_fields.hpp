@@ -13,7 +13,7 @@
 
 namespace dotpose::cli {
 
-/// Returns the fields of a pose in space and of its second solution, all of whose names begin with
+/// Returns the fields of a pose in space and of its second solution. All field names begin with
 /// `camera_`. If `has_sheets` is true, also returns the fields of the pose on the sheet and in the
 /// world. If there is no pose, the values are empty.
 std::vector<Field> space_fields(const std::optional<SpacePose>& space,

@@ -23,8 +23,8 @@ constexpr double kMaxFocal_px = 1e6;
 constexpr double kMinStretch = 0.5;
 constexpr double kMaxStretch = 2;
 
-/// Position along an axis, as the index of an equidistant point and the fraction of the distance to
-/// the next point.
+/// Position along an axis with equidistant points: the index of a point, and the fraction of the
+/// distance to the next point.
 struct Between {
     std::size_t first;  ///< index of the point at or before the position, in [0, `count` - 2]
     double part;        ///< fraction of the distance from this point to the next one, in [0, 1]

@@ -1,4 +1,4 @@
-// Double-precision version of the map from the image to the code plane that a fix contains.
+// Double-precision version of PlaneFromImage, which maps the image to the code plane.
 #pragma once
 
 #include <array>

@@ -12,12 +12,12 @@ constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
 struct Character {
     std::uint32_t code = 0;
-    /// Length of the UTF-8 encoding in bytes, or 0 if the text does not start with a valid UTF-8
+    /// Length of the UTF-8 encoding in bytes, or 0 if the string does not start with a valid UTF-8
     /// sequence.
     std::size_t bytes = 0;
 };
 
-/// Decodes the first character of a text, which must not be empty. According to table 3-7 of the
+/// Decodes the first character of a string, which must not be empty. According to table 3-7 of the
 /// Unicode standard, overlong sequences, surrogates and code points above U+10FFFF are invalid.
 Character first_of(std::string_view text) {
     const auto byte = [&text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
@@ -47,7 +47,7 @@ bool acts_on_terminals(std::uint32_t code) {
     return code < 0x20 || is_del_or_c1(code) || breaks_line || turns_direction;
 }
 
-/// Replaces every character of the text. `shown` appends the replacement of one character to the
+/// Replaces every character of a string. `shown` appends the replacement of one character to the
 /// result. Invalid bytes are passed to `shown` one at a time.
 template <typename Shown>
 std::string rewritten(std::string_view text, Shown shown) {

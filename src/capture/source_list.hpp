@@ -47,7 +47,7 @@ class SourceList : public FrameSource {
 
     std::function<std::optional<std::string>()> next_name_;
     SourceOptions options_;
-    /// Name of the source after the images, if it was already taken from the list.
+    /// Name of the source that follows the images, if the name was already taken from the list.
     std::optional<std::string> pending_name_;
     std::vector<std::string> images_;  ///< images of the current folder or glob, or a single image
     std::size_t next_image_ = 0;

@@ -41,8 +41,8 @@ class Publisher {
 
     /// Returns the number of messages that were passed to DDS.
     std::int64_t sent() const;
-    /// Returns the number of messages that were lost, because DDS had no space for them or a
-    /// subscriber did not receive them within 10 s.
+    /// Returns the number of messages lost because DDS had no space for them or a subscriber did
+    /// not receive them within 10 s.
     std::int64_t dropped() const;
 
   private:

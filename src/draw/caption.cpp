@@ -157,8 +157,8 @@ void draw_pose(const Fix& fix, const DrawOptions& options, double width, Svg& sv
              R"(class="place" fill="#17202a")");
 }
 
-/// Breaks a text between words into lines of at most `max_bytes` bytes. A longer word is placed on
-/// its own line without being split.
+/// Breaks a string between words into lines of at most `max_bytes` bytes. A longer word is placed
+/// on its own line without being split.
 std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes) {
     std::vector<std::string> lines(1);
     std::istringstream words(text);

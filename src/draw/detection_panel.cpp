@@ -15,8 +15,8 @@ const DetectedDot& dot_of_seed(const Trace& trace, int seed) {
 }
 
 /// Returns the radius of a dot in the drawing. For dots that were measured at their predicted
-/// places, the number of pixels is unknown. They are drawn with a diameter of a third of the
-/// spacing, like blurred dots.
+/// positions, the number of pixels is unknown. Such dots are drawn with a diameter of a third of
+/// the spacing, which is typical of blurred dots.
 double radius_of(const DetectedDot& dot, const FrameView& view) {
     return dot.area_px == 0 ? view.spacing() / 6
                             : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();

@@ -20,7 +20,8 @@ constexpr double kMaxMapSide = 1000;
 /// kMaxStep of the distance between arrows.
 constexpr double kMaxArrow = 45;
 constexpr double kMaxStep = 0.95;
-/// Minimum full scale of the arrows, in mm. It keeps the arrows short for pure noise.
+/// Minimum full scale of the arrows, in mm. It keeps the arrows short if the distortions are only
+/// noise.
 constexpr double kMinMapScale_mm = 0.01;
 
 /// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.
@@ -80,7 +81,7 @@ class DistortionMap {
                        kMapMargin + kMapHead + (bin.v_px + 0.5) * scale_};
         const Point tip = at + per_mm_ * Point{bin.du_mm, bin.dv_mm};
         const double share = std::min(std::hypot(bin.du_mm, bin.dv_mm) / full_mm_, 1.0);
-        // The colour ranges from blue for small to red for large distortions.
+        // The colour ranges from blue for small distortions to red for large ones.
         const auto strength = [](double part) { return static_cast<int>(std::lround(210 * part)); };
         const std::string colour =
             fmt::format("#{:02x}40{:02x}", strength(share), strength(1 - share));

@@ -20,7 +20,7 @@ constexpr double kFrameHead = 64;
 constexpr double kStripHeight = 360;
 constexpr double kWidth = 2 * kPanelWidth + 3 * kFrameMargin;
 
-/// Estimates the width of a text in the widest font that an SVG viewer may use.
+/// Estimates the width of a string in the widest font that an SVG viewer may use.
 double text_width(std::string_view text, double size) {
     return 0.64 * size * static_cast<double>(std::max<std::size_t>(text.size(), 1));
 }

@@ -14,7 +14,7 @@ struct Reached {
     bool axes = false;         ///< grid vectors
     bool cells = false;        ///< likelihoods of the bits of each cell
     bool window = false;       ///< window of the 8 x 8 clearest cells
-    bool place = false;        ///< position and orientation, certain or not
+    bool place = false;        ///< position and orientation, which need not be certain
     bool pose = false;         ///< a fix
 };
 Reached reached(const Trace& trace);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-/// Returns the number of bytes of the first character of a UTF-8 text, or 0 if this character is
+/// Returns the number of bytes of the first character of a UTF-8 string, or 0 if this character is
 /// invalid or not permitted in XML.
 std::size_t character_bytes(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };

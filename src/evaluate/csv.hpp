@@ -11,7 +11,7 @@ namespace dotpose::csv {
 /// least one cell, which may be empty.
 std::vector<std::string> cells_of(const std::string& line);
 
-/// Formats a text as a cell. If the text contains a comma or a quote, encloses it in quotes and
+/// Formats a string as a cell. If the string contains a comma or a quote, encloses it in quotes and
 /// doubles the quotes in it.
 std::string quoted(const std::string& text);
 

@@ -90,10 +90,11 @@ class Axes {
 /// Draws a title in bold at the top of a drawing, and a line of text below it.
 void draw_title(Svg& svg, double left, std::string_view title, std::string_view below = "");
 
-/// Draws an entry of a legend: a short line and a text. Returns the x coordinate of the next entry.
+/// Draws an entry of a legend: a short line and a label. Returns the x coordinate of the next
+/// entry.
 double legend_entry(Svg& svg, Point at, const Axes::Line& line, std::string_view text);
 
-/// Estimates the width of a text from its number of characters.
+/// Estimates the width of a string from its number of characters.
 double text_width(std::string_view text, double font);
 
 }  // namespace dotpose::plot

@@ -20,7 +20,7 @@ constexpr double kHeight = 690;
 constexpr double kLeft = 80;
 constexpr double kPlotWidth = kWidth - kLeft - 40;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Minimum number of fixes at a value of the condition for its errors to be drawn.
+/// Errors are drawn only at values of the condition with at least this number of fixes.
 constexpr int kMinFixes = 5;
 
 struct Words {
@@ -87,7 +87,7 @@ void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder)
     }
 }
 
-/// Returns a logarithmic scale that contains the medians and the 95 % quantiles of the position
+/// Returns a logarithmic scale that contains the medians and the 95th percentiles of the position
 /// errors, for values of the condition with at least kMinFixes fixes. If there are none, the scale
 /// is from 1 to 10 um.
 Scale error_scale(const Sweep& sweep) {

@@ -27,8 +27,8 @@ struct Pair {
     PixelPoint wanted;
 };
 
-/// Residual of a pair, and its derivatives. The residual is the distorted point, undistorted by eq.
-/// 2 and transformed by the affine map, minus the undistorted point of the pair.
+/// Residual of a pair, and its derivatives. The residual is the distorted point, undistorted
+/// (paper, equation 2) and transformed by the affine map, minus the undistorted point of the pair.
 struct Misfit {
     double u = 0;
     double v = 0;

@@ -78,7 +78,7 @@ class Bytes {
     std::string_view text_;
 };
 
-/// Returns the reason why the header of a page is invalid, or an empty text if it is valid.
+/// Returns the reason why the header of a page is invalid, or an empty string if it is valid.
 std::string fault_of(const MapPage& page) {
     if (static_cast<int>(page.code) >= kCodeVariantCount) return "unknown code variant";
     if (page.section.u >= kSections || page.section.v >= kSections) return "unknown section";

@@ -12,8 +12,8 @@
 namespace dotpose::files {
 namespace {
 
-/// Maximum rms difference over the image, in px, between the lens model of equation 2 and the
-/// plumb_bob model that it replaces.
+/// Maximum rms difference over the image, in px, between the division model (paper, equation 2) and
+/// the plumb_bob model that it replaces.
 constexpr double kMaxMisfit_px = 0.5;
 
 /// Maximum focal length and centre in px, and maximum distortion coefficients. The limits are far

@@ -16,7 +16,7 @@ class YamlMap {
   public:
     /// Reads a file. Throws Error if it cannot be read, is not YAML, or is not a mapping.
     explicit YamlMap(const std::filesystem::path& path);
-    /// Parses a text. Error messages contain `name` in place of the file name.
+    /// Parses a string. Error messages contain `name` in place of the file name.
     YamlMap(const std::string& text, std::string name);
 
     bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }

@@ -45,8 +45,8 @@ class Reader {
         return character;
     }
 
-    /// Reads a decimal number and the white space after it. The white space is required, because
-    /// the number may otherwise be truncated.
+    /// Reads a decimal number and the white space after it. The white space is required, because a
+    /// number at the end of a truncated file may lack digits.
     std::uint32_t number() {
         std::uint32_t value = 0;
         char character = symbol();

@@ -11,8 +11,8 @@
 namespace dotpose::link {
 
 inline constexpr std::size_t kPlainBytes = 27;
-/// Number of bytes after COBS encoding (Cheshire and Baker, 1999), which adds one byte to at most
-/// 254 plain bytes.
+/// Number of bytes after COBS encoding (Cheshire and Baker, 1999). COBS adds a single byte if there
+/// are at most 254 plain bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
 /// Number of bytes of the CRC. Each of them contains at most 7 bits of the CRC. The top bit is set,
 /// so the byte is never zero.

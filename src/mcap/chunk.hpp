@@ -16,8 +16,8 @@ struct ChunkEntry {
     std::uint64_t start = 0;                              ///< offset of the chunk in the file
     std::uint64_t length = 0;                             ///< length of the record in bytes
     std::map<std::uint16_t, std::uint64_t> index_starts;  ///< offset of the index of each channel
-    std::uint64_t index_length = 0;                       ///< length of all indexes in bytes
-    /// Length of the records in the chunk in bytes.
+    std::uint64_t index_length = 0;                       ///< total length of all indexes, in bytes
+    /// Total length of the records in the chunk, in bytes.
     std::uint64_t size = 0;
 };
 

@@ -15,12 +15,12 @@ struct Contents {
     std::vector<ChunkEntry> chunks;
 };
 
-/// Appends the end of the data, the summary and the footer to `out`. The first appended byte will
-/// be at offset `place` in the file. `data` is the checksum of all bytes of the file before
-/// `place`.
+/// Appends the data end record, the summary, the footer and the magic bytes to `out`. The first
+/// appended byte will be at offset `place` in the file. `data` is the checksum of all bytes of the
+/// file before `place`.
 void append_end(Bytes& out, std::uint64_t place, const Contents& contents, const Crc32& data);
 
-/// Appends the eight bytes that are both the first and the last bytes of a file.
+/// Appends the eight magic bytes, which are at the beginning and at the end of a file.
 void append_magic(Bytes& out);
 
 }  // namespace dotpose::mcap

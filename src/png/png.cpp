@@ -103,8 +103,8 @@ void write(const Header& header, const RowSource& rows, base::ByteSink& file) {
 
 std::vector<std::uint8_t> encode(ImageView image) {
     Memory file;
-    // `Memory::write` must not throw, so the memory is reserved in advance. It is sufficient for
-    // pixels that cannot be compressed and for the filter byte of each row.
+    // `Memory::write` must not throw, so the memory is reserved in advance. The reserved size
+    // suffices for incompressible pixels and for the filter byte of each row.
     const std::size_t size_bytes =
         static_cast<std::size_t>(image.height_px) * (static_cast<std::size_t>(image.width_px) + 1);
     file.bytes.reserve(size_bytes + size_bytes / 256 + 1024);

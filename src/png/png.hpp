@@ -29,8 +29,8 @@ using RowSource = std::function<void(const RowSink&)>;
 /// Writes an image. Throws Error if libpng fails or the file cannot be written.
 void write(const Header& header, const RowSource& rows, base::ByteSink& file);
 
-/// Encodes an image as PNG. The image must not be empty. Equal images are encoded as equal bytes.
-/// Throws Error if libpng fails.
+/// Encodes an image as PNG. The image must not be empty. Identical images are encoded as identical
+/// bytes. Throws Error if libpng fails.
 std::vector<std::uint8_t> encode(ImageView image);
 
 }  // namespace dotpose::png

@@ -13,7 +13,7 @@ namespace dotpose::print {
 /// Grid of cards in the middle of a page. Adjacent cards touch. The margin around the grid has
 /// space for cut marks.
 struct CardGrid {
-    Paper paper;  ///< turned by 90 degrees if this gives more cards
+    Paper paper;  ///< turned by 90 degrees if more cards then fit
     Paper card;
     int columns = 0;
     int rows = 0;

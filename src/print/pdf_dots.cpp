@@ -50,9 +50,9 @@ std::string glyph(const Pattern& pattern, Symbol symbol) {
            circle(x, y, r);
 }
 
-/// Returns the smallest shift in px, to the right or down, at which all renderers round the origin
-/// of a glyph to the same pixel. Tries shifts of up to 0.3 px. If none of them is sufficient,
-/// returns the shift that is farthest from all rounding limits.
+/// Returns the smallest shift in px, to the right or down, with which all renderers round the
+/// origin of a glyph to the same pixel. Tries shifts of up to 0.3 px. If none of them is
+/// sufficient, returns the shift that is farthest from all rounding limits.
 ///
 /// Renderers count pixels from the top left or from the bottom left corner of the page, and either
 /// truncate or round to the nearest pixel. `near_px` and `far_px` are the distances of the origin
@@ -111,8 +111,8 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
 
 // --- strokes ------------------------------------------------------------------------------------
 
-/// Unit of length in which spacing and displacement are whole numbers. Whole numbers are short, and
-/// renderers do not round them.
+/// Unit of length that makes spacing and displacement integers. Integers are short, and renderers
+/// do not round them.
 struct WholeUnits {
     int spacing = 0;
     int displacement = 0;

@@ -33,8 +33,8 @@ struct RowCount {
     std::exception_ptr stopped;
 };
 
-/// Returns true if spacing, displacement and dot diameter are whole numbers of pixels, so that
-/// glyphs draw the pattern exactly.
+/// Returns true if spacing, displacement and dot diameter are integer multiples of a pixel. Only
+/// then do glyphs draw the pattern exactly.
 bool is_whole_pixels(const Pattern& pattern, double dpi);
 
 /// Replaces `DotDrawing::automatic` with the best choice for this pattern. Throws BadArgument if

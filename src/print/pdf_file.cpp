@@ -25,8 +25,8 @@ void write_document(QPDF& pdf, const RowCount& rows, base::OutputFile& file) {
         QPDFWriter writer(pdf);
         writer.setOutputPipeline(&out);
         writer.setObjectStreamMode(qpdf_o_generate);
-        // With a deterministic identifier, equal input gives equal files. This is not possible for
-        // encrypted files, whose key depends on a random identifier.
+        // With a deterministic identifier, identical input produces identical files. This is not
+        // possible for encrypted files, whose key depends on a random identifier.
         if (!pdf.isEncrypted()) writer.setDeterministicID(true);
         writer.write();
     } catch (const std::exception& error) {

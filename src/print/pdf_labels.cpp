@@ -63,7 +63,7 @@ std::size_t length_of(char first) {
     return byte < 0xC0 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
 }
 
-/// Returns the first `max_characters` characters of a UTF-8 text.
+/// Returns the first `max_characters` characters of a UTF-8 string.
 std::string beginning(const std::string& utf8, std::size_t max_characters) {
     std::size_t end = 0;
     for (std::size_t i = 0; i < max_characters && end < utf8.size(); ++i)

@@ -12,8 +12,8 @@
 
 namespace dotpose::print {
 
-/// Maximum nesting depth of objects. Useful documents need less, and at this depth recursive
-/// functions do not overflow the stack.
+/// Maximum nesting depth of objects. Real documents are nested less deeply, and recursive functions
+/// do not overflow the stack at this depth.
 inline constexpr int kMaxPdfLevels = 100;
 
 /// Throws Error if `level`, counted from 1, exceeds kMaxPdfLevels. `what` names the nested objects

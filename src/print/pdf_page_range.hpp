@@ -8,7 +8,7 @@
 namespace dotpose::print {
 
 /// Parses a list of page numbers such as "1-3,7". "z" is the last of `count` pages, and an empty
-/// text means all pages. Throws BadArgument if the text is invalid.
+/// string means all pages. Throws BadArgument if the list is invalid.
 std::set<int> page_numbers(const std::string& range, int count);
 
 /// Formats page numbers, for example as "pages 1, 2, 5". Long lists are shortened.

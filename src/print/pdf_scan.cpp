@@ -18,7 +18,7 @@
 namespace dotpose::print {
 namespace {
 
-// Maximum amount of black ink in content, 0 to 1, on which black dots still have enough contrast.
+// Content with more black ink than this, from 0 to 1, hides black dots.
 constexpr double kHidingBlack = 0.1;
 
 /// The current colour. Content starts with black, device grey 0.

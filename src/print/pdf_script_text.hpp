@@ -13,7 +13,7 @@
 
 namespace dotpose::print {
 
-/// Lines of text as form XObjects with embedded fonts. Equal lines on several pages share one
+/// Lines of text as form XObjects with embedded fonts. Identical lines on several pages share one
 /// object.
 class ScriptText {
   public:

@@ -274,8 +274,8 @@ void MqttSubscriber::on_message(std::string_view topic, std::string_view payload
     handle_(topic, payload);
 }
 
-// Processes all available messages together. mosquitto_loop needs eight system calls to process one
-// message. Processing several messages needs fewer system calls and combines the acknowledgements.
+// Processes all available messages together. mosquitto_loop needs eight system calls per message.
+// Processing messages together needs fewer system calls and combines the acknowledgements.
 int MqttSubscriber::work() {
     const int socket = mosquitto_socket(handle());
     const bool has_answers = mosquitto_want_write(handle());

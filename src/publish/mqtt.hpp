@@ -96,8 +96,8 @@ class MqttClient {
     mosquitto* handle() const { return mosquitto_; }
     std::string place() const;
 
-    /// Maximum number of messages in flight, which libmosquitto has not sent yet (QoS 0) or the
-    /// broker has not acknowledged yet (QoS 1). It is small, because libmosquitto sends its
+    /// Maximum number of messages in flight: not yet sent by libmosquitto (QoS 0), or not yet
+    /// acknowledged by the broker (QoS 1). The limit is small, because libmosquitto sends its
     /// messages in order, but the publisher sends the newest messages first.
     static constexpr std::size_t kMaxUnderWay = 20;
     /// Quality of service of presence messages: at least once.

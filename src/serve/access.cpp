@@ -40,7 +40,7 @@ bool is_ip(const std::string& host) {
     return inet_pton(AF_INET, host.c_str(), bytes.data()) == 1;
 }
 
-/// Returns the value of a cookie, or an empty text if there is no such cookie.
+/// Returns the value of a cookie, or an empty string if there is no such cookie.
 std::string_view cookie_of(std::string_view cookies, std::string_view name) {
     while (!cookies.empty()) {
         const std::size_t end = std::min(cookies.find(';'), cookies.size());
@@ -100,9 +100,9 @@ Access::Access(const Address& address, std::string token, std::string hostname)
       hostname_(in_lower_case(hostname)),
       cookie_name_(fmt::format("dotpose-{}", address.port)) {}
 
-/// An IP address in Host is safe, because only names can be rebound to another address. A loopback
-/// server accepts only the names of the loopback interface, with any port, because the port of an
-/// ssh tunnel differs.
+/// Returns true if the Host header names this server. An IP address is safe, because only names can
+/// be rebound to another address. A server at a loopback address accepts only the names of the
+/// loopback interface. Any port is accepted, because the port of an ssh tunnel differs.
 bool Access::is_own_host(std::string_view host) const {
     const std::string name = in_lower_case(without_port(host));
     if (name == "localhost" || name == "127.0.0.1" || name == "[::1]") return true;

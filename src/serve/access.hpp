@@ -23,7 +23,7 @@ std::string make_token();
 /// token does not consist of 16 to 256 letters, digits and the characters '-', '_', '.', '~'.
 std::string read_token(const std::string& path);
 
-/// Compares two texts. The running time depends only on their lengths.
+/// Compares two strings. The running time depends only on their lengths.
 bool equals_in_constant_time(std::string_view a, std::string_view b);
 
 /// The properties of a request that determine whether it is answered. The member for a missing

@@ -29,7 +29,7 @@ struct Command {
 };
 
 /// Parses a command. Returns none if the text is too long, is not a JSON object of booleans,
-/// numbers and texts, or has no name.
+/// numbers and strings, or has no name.
 std::optional<Command> parse_command(std::string_view text);
 
 }  // namespace dotpose::serve

@@ -68,7 +68,7 @@ json json_of(const FrameOverlay& overlay) {
                    {"spacing_px", tenth(overlay.spacing_px)},
                    {"axes", nullptr}};
     if (const auto& axes = overlay.axes) {
-        // The axes are not rounded, because directions need more digits than places.
+        // The axes are not rounded, because directions need more digits than positions.
         result["axes"] = {axes->at.x, axes->at.y, axes->x.x, axes->x.y, axes->y.x, axes->y.y};
     }
     return result;

@@ -75,15 +75,15 @@ class Sensor {
         return paper_.data() + (static_cast<std::size_t>(row) * (width_ + 2 * border_));
     }
 
-    // Computes the light that the ink of a sub-row absorbs, and the ranges of row_ that are
-    // affected.
+    // Computes the light that the ink of a sub-row absorbs, and the ranges of row_ that this light
+    // affects.
     void gather(std::span<const Raster::Spot> spots, const float* paper) {
         losses_.assign(spots.begin(), spots.end());
         reaches_.clear();
         for (Raster::Spot& loss : losses_) {
             for (float& light : loss.darkness)
                 light *= paper[loss.pixel];
-            // Adjacent pixels are in the same range.
+            // Pixels whose ranges overlap or touch share one range.
             if (reaches_.empty() || loss.pixel < reaches_.back().from ||
                 loss.pixel > reaches_.back().to) {
                 reaches_.push_back({loss.pixel, loss.pixel});

@@ -104,7 +104,7 @@ std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections);
 
-/// Adds noise to the grey levels, clamps them to 0 to 255 and rounds them.
+/// Adds noise to the grey levels, clamps them to [0, 255] and rounds them.
 GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
                    const Imperfections& imperfections, Rng& rng);
 

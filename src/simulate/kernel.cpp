@@ -41,9 +41,8 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     }
     Kernel::Weights result(per_pixel, std::vector<float>(kernel.taps));
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        // The weights are indexed by the position of the pixel relative to the sub-pixel, which is
-        // the negative of the position of the sub-pixel relative to the pixel. The order is
-        // therefore reversed.
+        // The weights are indexed by the offset from the sub-pixel to the pixel, which is the
+        // negative of the offset from the pixel to the sub-pixel. The order is therefore reversed.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
             static_cast<float>(exact[i] * share / sum);
     }

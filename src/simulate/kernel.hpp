@@ -21,7 +21,7 @@ struct Kernel {
     /// Weights for the scene at one moment of the exposure.
     struct Moment {
         Weights x;
-        Weights y;  ///< scaled by the fraction of the exposure that this time sample represents
+        Weights y;  ///< scaled by the fraction of the exposure that this moment represents
     };
     std::vector<Moment> moments;
 };

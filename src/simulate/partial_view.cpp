@@ -10,7 +10,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the places on the page, in spacings, of evenly spaced pixels of the image.
+/// Returns the positions on the page, in spacings, that an even grid of image points shows.
 std::vector<Vec2> sample_points(const Shot& shot) {
     constexpr int kColumns = 64;
     constexpr int kRows = 48;

@@ -32,7 +32,7 @@ Vector on_pattern(const PenPose& pose, const Vector& in_camera) {
     return about_z(pose.azimuth_rad, about_y(-pose.tilt_rad, turned));
 }
 
-/// Sets cell and fraction of a pose to a place in spacings.
+/// Sets the cell and the fraction of a pose to a position, given in spacings.
 void move_to(double x_grid, double y_grid, CameraPose& pose) {
     pose.cell = {static_cast<std::uint32_t>(std::floor(x_grid)),
                  static_cast<std::uint32_t>(std::floor(y_grid))};
@@ -157,7 +157,7 @@ Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose) {
     const Vector normal{component({1, 0, 0}), component({0, 1, 0}), axis[2]};
     result.pose.tilt_y_rad = std::asin(normal[0]);
     result.pose.tilt_x_rad = std::atan2(-normal[1], normal[2]);
-    // Direction on the paper of the image x axis, measured at the image centre.
+    // Direction of the image x axis on the paper, measured at the image centre.
     const Vector right = on_pattern(pose, {1, 0, -normal[0] / normal[2]});
     result.pose.theta_rad = std::atan2(right[1], right[0]);
     return result;

@@ -40,8 +40,8 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
             "the rotation during the readout is too fast for this image: the scene would overtake "
             "the rows");
     const double corner_square = half_u * half_u + half_v * half_v;
-    // At |k| r^2 = 1, a positive k makes equation 2 of the paper fold the image over itself, and
-    // with a negative k the undistorted position is infinite.
+    // If |k| r^2 reaches 1, a positive k makes equation 2 of the paper fold the image over itself,
+    // and a negative k makes the undistorted position infinite.
     require(within(camera.k * corner_square, -0.9, 0.9),
             "the distortion k is too strong for this image: |k| r^2 must stay below 0.9 in the "
             "corners");

@@ -27,8 +27,8 @@ struct Place {
     auto operator<=>(const Place&) const = default;
 };
 
-/// A state of a robot. Texts must be valid UTF-8 without null characters. States of the same robot
-/// and place share the objects that contain the names.
+/// A state of a robot. Strings must be valid UTF-8 without null characters. States of the same
+/// robot and place share the objects that contain the names.
 struct State {
     std::shared_ptr<const std::string> robot;
     std::shared_ptr<const Place> place;
@@ -80,21 +80,20 @@ class Database {
     /// Opens the database, and creates missing tables. Throws Error if this fails.
     virtual void prepare() = 0;
 
-    /// Writes all states in one transaction. Skips states that are already stored. If the
-    /// transaction fails, throws Error. In this case, either all states or none are stored, so the
-    /// call can safely be repeated.
+    /// Writes all states in one transaction. Skips states that are already stored. Throws Error if
+    /// the transaction fails. Either all states or none are then stored, so the call can safely be
+    /// repeated.
     virtual void write(std::span<const State> states) = 0;
 
     /// Removes the states of all days before the day of `time_us`. Throws Error if this fails.
     virtual void remove_days_before(std::int64_t time_us) = 0;
 
-    /// Calls `take` with each state that the query selects, in the order of their times. An
-    /// exception thrown by `take` ends the reading and is propagated. Throws Error if reading
-    /// fails.
+    /// Calls `take` with each state that the query selects, in chronological order. An exception
+    /// thrown by `take` ends the reading and is propagated. Throws Error if reading fails.
     virtual void read(const Query& query, const std::function<void(const State&)>& take) = 0;
 
-    /// Returns all robots that have states, with the times of their first and last states, in the
-    /// order of their names. Throws Error if this fails.
+    /// Returns all robots that have states, sorted by name, with the times of their first and last
+    /// states. Throws Error if this fails.
     virtual std::vector<RobotSpan> robots() = 0;
 };
 

@@ -7,7 +7,7 @@
 
 namespace dotpose::system {
 
-/// Returns the path for a text in UTF-8. On Windows, the constructor of std::filesystem::path would
+/// Returns the path for a UTF-8 string. On Windows, the constructor of std::filesystem::path would
 /// expect another encoding.
 inline std::filesystem::path path_of(std::string_view utf8) {
     return std::u8string(utf8.begin(), utf8.end());

@@ -55,8 +55,8 @@ int Server::Service::receive(lws* socket, std::string_view part) {
     return 0;
 }
 
-/// Returns false if the command is for a topic that does not exist, or if the queue of commands is
-/// full.
+/// Updates a subscription, or queues any other command for the program. Returns false if the topic
+/// does not exist or the queue is full.
 bool Server::Service::obey(Client& client, const Command& command) {
     const bool begins = command.name == "subscribe";
     const bool ends = command.name == "unsubscribe";

@@ -62,7 +62,7 @@ class Statement {
         statement_.reset(statement);
     }
 
-    /// Binds the next parameter. Texts must remain valid until the statement has run.
+    /// Binds the next parameter. Strings must remain valid until the statement has run.
     Statement& bind(std::int64_t value) {
         connection_.require(sqlite3_bind_int64(statement_.get(), ++bound_, value));
         return *this;

@@ -157,7 +157,7 @@ class VideoFile : public capture::FrameSource {
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
     /// Returns the number of frames that the file reports, or an estimate from the duration if the
-    /// file does not report it.
+    /// file reports no number.
     std::int64_t expected_frames() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
