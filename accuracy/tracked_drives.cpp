@@ -21,7 +21,7 @@ constexpr std::array kDrives{DriveRate{0, 1},   DriveRate{30, 1},  DriveRate{100
 
 struct DriveTally {
     TrackedTally seen;
-    TrackedTally settled;  ///< frames from the third one after the robot was put down
+    TrackedTally settled;  ///< results from the third frame after the robot was put down
 };
 
 struct DriveTallies {
