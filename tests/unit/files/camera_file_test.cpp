@@ -337,8 +337,8 @@ TEST_F(CameraFile, AMissingFileIsToldWithTheReason) {
     EXPECT_EQ(error, "cannot read nothere.yaml: No such file or directory");
 }
 
-// Some drivers write rational_polynomial for every camera. If the terms that only this model has
-// are zero, it equals plumb_bob.
+// Some drivers write rational_polynomial for every camera. If the terms that plumb_bob lacks are
+// zero, the two models are equal.
 TEST_F(CameraFile, ARationalPolynomialWithoutItsOwnTermsIsPlumbBob) {
     const auto rational = [](const std::string& coefficients) {
         std::string text = kRos;

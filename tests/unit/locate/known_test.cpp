@@ -104,9 +104,10 @@ TEST_F(Known, SmallFramesAreLocatedOnKnownSheetsOnly) {
     EXPECT_EQ(locator_.locate(image.view()).status, Status::image_too_small);
 }
 
-/// Frame 1285 of 640 x 480 px in `dotpose_tables known --seed 1`, in which graphics hide 60 % of
-/// the dots. A plane that less than half of the dots agree with had the right place, but an angle
-/// that was wrong by 2 degrees, with a standard deviation of 0.25 degrees.
+/// Regression: in frame 1285 of 640 x 480 px of `dotpose_tables known --seed 1`, graphics hide 60 %
+/// of the dots. The fix had the plane with which less than half of the dots agree. Its place was
+/// correct, but its angle was wrong by 2 degrees, with a reported standard deviation of 0.25
+/// degrees.
 TEST_F(Known, PlaneOfFewDotsAmongGraphicsIsNotReported) {
     constexpr KnownRegion kPage{CodeVariant::anoto, {}, {1024, 1024}, 393, 564};
     ASSERT_EQ(locator_.set_known({&kPage, 1}, OtherSheets::impossible), Status::ok);

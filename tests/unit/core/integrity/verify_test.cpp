@@ -59,7 +59,7 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ++flipped;
             const Verdict now = judge(reading);
             ASSERT_EQ(now.fix.bit_errors, flipped);
-            // Additional contradictions must not reduce the quick estimate of p_wrong.
+            // Additional wrong bits must not reduce the quick estimate of p_wrong.
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
             // If the odds on an axis are below 2^-36, `quick_alternatives` does not compute them
@@ -163,7 +163,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         Reading reading(random_view(rng), QuarterTurn{i % 4});
-        // Half of the bits contradict the code, as if the frame showed another pattern.
+        // Half of the bits disagree with the code, as if the frame showed another pattern.
         for (GridCell& cell : reading.owned.cells) {
             if (rng.below(2) == 0) cell.x = static_cast<std::int8_t>(-cell.x);
             if (rng.below(2) == 0) cell.y = static_cast<std::int8_t>(-cell.y);
