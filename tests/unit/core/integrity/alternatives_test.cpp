@@ -19,7 +19,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 42;
 
-/// Returns log2 of the odds of the alternatives for an error-free window of 12 rows.
+/// Returns log2 of the sum of the odds of all alternatives for an error-free window of 12 rows.
 int alternatives_of_window(CodeVariant code, const Place& place, int columns, int odds_q8) {
     constexpr int kRows = 12;
     OwnedGrid owned(std::max(columns, kRows));
@@ -82,7 +82,7 @@ TEST(Alternatives, FewLinesExcludeNone) {
 using Odds = std::array<float, kSections>;
 
 /// Returns the expected sum of the odds of all alternatives that differ from the reading in two or
-/// more sequences. The reading consists of two adjacent lines, the first of which is at `position`.
+/// more sequences. The reading consists of two adjacent lines. The first line is at `position`.
 /// `first` and `second` are the odds of the two lines at each roll offset. `factor` is the safety
 /// factor for the step between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
