@@ -146,8 +146,8 @@ dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, in
                                     int32_t* dy);
 
 /* Writes the symbols (DOTPOSE_SYMBOL_) of columns x rows dots, row by row from `top_left`, for
- * example to print a sheet. `bytes` is the size of `symbols`, and must be at least columns x rows,
- * otherwise the function returns TOO_LITTLE_MEMORY. `columns` and `rows` must be from 1 to 65535.
+ * example to print a sheet. `bytes` is the size of `symbols`. If it is less than columns x rows,
+ * returns TOO_LITTLE_MEMORY. `columns` and `rows` must be from 1 to 65535.
  * The pattern wraps around at the end of an axis, as in locators. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);

@@ -144,7 +144,8 @@ dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpos
 /* Detects with hysteresis whether the pen touches the paper. `is_down` must contain the result for
  * the previous pose, or 1 before the first pose. It receives the new result: 1 if the pen is on the
  * paper, and otherwise 0. A pen on the paper is reported as lifted at a height of at least 0.05 mm
- * plus three standard deviations. A lifted pen is reported as touching the paper below 0.05 mm. */
+ * plus three standard deviations. A lifted pen is reported as touching the paper at a height below
+ * 0.05 mm. */
 dotpose_status dotpose_space_update_contact(const dotpose_space_tip* tip, int32_t* is_down);
 
 #ifdef __cplusplus
