@@ -115,7 +115,7 @@ inline Section random_section(Rng& rng) {
             static_cast<std::uint8_t>(rng.below(kSections))};
 }
 
-/// Returns half of the width of the view, in cells.
+/// Returns half the width of the view, in cells.
 inline int reach_cells(const Shot& shot) {
     const double cells =
         shot.camera.width_px * shot.camera.mm_per_px / shot.page.pattern.spacing_mm;

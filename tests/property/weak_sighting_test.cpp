@@ -90,8 +90,8 @@ int claim(View& view) {
                : 1;
 }
 
-/// For each line from `first` - kReach to `first` + kReach + kMaxSide - 1, returns the index in the
-/// main sequence of the line's first cell in view.
+/// Returns, for each line from `first` - kReach to `first` + kReach + kMaxSide - 1, the index in
+/// the main sequence of the first cell of the line that is in view.
 std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std::uint32_t cross) {
     std::vector<int> result;
     for (int i = -kReach; i < kReach + kMaxSide; ++i) {

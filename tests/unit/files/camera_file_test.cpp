@@ -387,8 +387,8 @@ TEST(UseCamera, SetsLensAndReferenceForItsOwnSizeOnly) {
     EXPECT_THROW(use_camera(camera, 189, 120, options), BadArgument);
 }
 
-// If only part of the image is read, the point of the paper at a pixel, the reference point and the
-// heading remain the same.
+// If only part of the image is read, each pixel still shows the same point of the paper, and the
+// reference point and the heading remain the same.
 TEST(PartOf, SeesTheSamePaper) {
     Camera camera;
     camera.width_px = 640;

@@ -252,8 +252,8 @@ TEST(SpaceTrack, HasTheVelocityOfTheCamera) {
     EXPECT_FALSE(tracker.predict(2'000'000));
 }
 
-/// Returns the second possible pose of a plane that is seen with weak perspective. It is tilted in
-/// the opposite direction.
+/// Returns the second possible pose of a camera that sees a plane with weak perspective. The second
+/// pose is tilted in the opposite direction.
 CameraInSpace mirrored(const CameraInSpace& camera) {
     const Quaterniond half(0, 0, 0, 1);
     const Quaterniond q = rotation_of(camera);

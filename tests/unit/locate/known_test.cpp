@@ -105,9 +105,8 @@ TEST_F(Known, SmallFramesAreLocatedOnKnownSheetsOnly) {
 }
 
 /// Regression: in frame 1285 of 640 x 480 px of `dotpose_tables known --seed 1`, graphics hide 60 %
-/// of the dots. The fix had the plane with which less than half of the dots agree. Its place was
-/// correct, but its angle was wrong by 2 degrees, with a reported standard deviation of 0.25
-/// degrees.
+/// of the dots. Less than half of the dots agreed with the plane of the fix. The place was correct,
+/// but the angle was wrong by 2 degrees, with a reported standard deviation of 0.25 degrees.
 TEST_F(Known, PlaneOfFewDotsAmongGraphicsIsNotReported) {
     constexpr KnownRegion kPage{CodeVariant::anoto, {}, {1024, 1024}, 393, 564};
     ASSERT_EQ(locator_.set_known({&kPage, 1}, OtherSheets::impossible), Status::ok);

@@ -199,8 +199,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns log2 of the sum, over both axes, of the probability of a match by chance and the odds of
-/// all alternatives. Uses the exact sums.
+/// Returns log2 of a sum over both axes. The term of an axis is the probability of a match by
+/// chance, plus the odds of all alternatives. Uses the exact sums.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;
