@@ -68,9 +68,8 @@ TEST(UnsharedLines, AreAsCounted) {
 
 using Counts = std::array<int, kMaxCounted>;
 
-/// Counts the combinations of another place of the sequence and a shift that share at least one
-/// line with `place`. Element n - 1 of the result is the number of combinations for which exactly n
-/// lines are not shared.
+/// Counts the pairs of another place in the sequence and a shift that share at least one line with
+/// `place`. Element n - 1 of the result is the number of pairs with exactly n unshared lines.
 Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t lines) {
     Counts counts{};
     for (std::uint32_t other = 0; other < a.length; ++other) {

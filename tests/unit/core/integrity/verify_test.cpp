@@ -178,7 +178,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns a difficult view, which is small and in which dots are missing, displaced, or have a
+/// Returns a difficult view: a small view in which some dots are missing, displaced, or have a
 /// wrong symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
