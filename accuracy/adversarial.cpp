@@ -70,7 +70,7 @@ struct AdversaryTally {
     }
 };
 
-/// Whether the code variant is taken from the options of the frame or detected by the locator.
+/// Source of the code variant: the options of the frame, or detection by the locator.
 enum class Code : std::uint8_t { given, automatic };
 
 /// Locates a frame. If the code variant is detected, stores it in the options of the frame.

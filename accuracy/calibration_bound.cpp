@@ -17,7 +17,7 @@ Vec2 displacement_mm(const Page& page, Cell cell) {
     return {dx(symbol) * page.pattern.displacement_mm, dy(symbol) * page.pattern.displacement_mm};
 }
 
-/// Returns the printed dot nearest to the pose point plus `offset_mm`.
+/// Returns the printed dot nearest to the point at `offset_mm` from the pose point.
 TrueDot nearest_dot(const Shot& shot, Vec2 offset_mm) {
     const double mm = shot.page.pattern.spacing_mm;
     const CameraPose& pose = shot.pose;

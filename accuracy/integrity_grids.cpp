@@ -50,13 +50,14 @@ struct Noise {
         const bool is_wrong = rng.uniform() < chance_of_error(weight);
         return (bit == 1) != is_wrong ? weight : -weight;
     }
-    /// Returns the information in a bit of this weight: 1 - H(probability of an error), in bits.
+    /// Returns the information in a bit of this weight: 1 - H(probability of an error), in bits,
+    /// where H is the binary entropy function.
     double information(int weight) const {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// Returns the expected information in a cell's bit, in bits, averaged over all weights.
-    /// Missing cells count as cells without information.
+    /// Returns the expected information in one of the two bits of a cell, in bits, averaged over
+    /// all weights. A missing cell contains no information.
     double information() const {
         double sum = 0;
         for (int weight = min_weight; weight <= 127; ++weight)

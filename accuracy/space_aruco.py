@@ -44,7 +44,7 @@ def turn_z(angle):
 
 
 def true_pose(x_mm, y_mm, theta_rad, tilt_rad):
-    """Returns the rotation from camera to paper, and the position, of a camera aimed at a place."""
+    """Returns the rotation from camera to paper, and the position of a camera aimed at a point."""
     rotation = turn_z(theta_rad) @ turn_x(tilt_rad).T
     return rotation, numpy.array([x_mm, y_mm, 0]) - DISTANCE_MM * rotation[:, 2]
 

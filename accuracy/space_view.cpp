@@ -110,7 +110,7 @@ TrueSpacePose true_space_pose(const Shot& shot) {
     const CameraPose& pose = shot.pose;
     const double spacing_mm = shot.page.pattern.spacing_mm;
     // The paper is tilted about the image y axis and then about the image x axis. Theta is the
-    // angle on the paper of the image x axis, measured at the image centre. The tilts change this
+    // angle of the image x axis on the paper, measured at the image centre. The tilts change this
     // angle, so the rotation about the normal of the paper is theta minus that change.
     const Matrix3d tilt = (Eigen::AngleAxisd(pose.tilt_x_rad, Vector3d::UnitX()) *
                            Eigen::AngleAxisd(pose.tilt_y_rad, Vector3d::UnitY()))

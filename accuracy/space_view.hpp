@@ -75,8 +75,8 @@ class SpaceReading {
     std::optional<SpacePose> pose_;
 };
 
-/// Minimum spacing at which the images of adjacent dots are separate, in px, in the direction in
-/// which the spacing is shortest.
+/// Minimum spacing in the image, in px, at which the images of adjacent dots do not overlap. The
+/// spacing is measured in the direction in which it is shortest.
 inline constexpr double kResolvedSpacing_px = 4;
 
 /// Returns the Cramer-Rao bound of the covariance of a pose. Uses all dots that are completely in

@@ -134,10 +134,11 @@ TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
 /// equally often.
 TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
 
-/// Returns a wrong position for the worst case. Considers `lines` consecutive lines that begin at
-/// `place`: columns if `is_along_x` is true, and rows otherwise. Of the wrong positions that differ
-/// from `place` in one secondary sequence of this axis and in the section, returns the one that
-/// shares the most of these lines with `place`. The lines of the other axis are those of `place`.
+/// Returns the wrong position that is hardest to distinguish from `place` in a view of `lines`
+/// consecutive lines. The lines begin at `place`. They are columns if `is_along_x` is true, and
+/// rows otherwise. The wrong position differs from `place` in one secondary sequence of this axis
+/// and in the section, and shares as many of these lines as possible with `place`. The lines of the
+/// other axis are the same as at `place`.
 Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose::tables

@@ -9,8 +9,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// A drive at a constant speed with 200 frames per second, of which every `every`-th frame is
-/// processed.
+/// A drive at a constant speed with 200 frames per second. Every `every`-th frame is processed.
 struct DriveRate {
     double speed_mm_s;
     int every;
@@ -21,7 +20,7 @@ constexpr std::array kDrives{DriveRate{0, 1},   DriveRate{30, 1},  DriveRate{100
 
 struct DriveTally {
     TrackedTally seen;
-    TrackedTally settled;  ///< frames from the third one after the robot was put down
+    TrackedTally settled;  ///< results from the third frame after the robot was put down
 };
 
 struct DriveTallies {

@@ -151,7 +151,7 @@ struct ViewCounts {
     int alone = 0;        ///< number of views located without evidence from other views
     int ambiguous = 0;    ///< number of views refused as `ambiguous_code` when read alone
     int later_given = 0;  ///< number of views after the first kFirstViews
-    int later = 0;        ///< number of `later_given` located using earlier views
+    int later = 0;        ///< number of `later_given` views located using earlier views
     int wrong = 0;
     double max_against_log2 = 0;  ///< maximum log2 evidence of a view against the given code
 };

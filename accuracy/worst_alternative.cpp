@@ -12,8 +12,8 @@
 namespace dotpose::tables {
 namespace {
 
-/// Position and section along one axis, and `cross` and `cross_section` along the perpendicular
-/// axis.
+/// A place as seen from one axis: `position` and `section` along this axis, and `cross` and
+/// `cross_section` along the perpendicular axis.
 struct Along {
     std::uint32_t position;
     std::uint8_t section;
@@ -23,8 +23,9 @@ struct Along {
 
 using Places = std::array<std::uint32_t, 4>;
 
-/// Returns the number of lines whose rolls are equal at two places of a secondary sequence, up to a
-/// constant difference. A constant difference between the rolls is equivalent to another section.
+/// Returns the maximum number of lines in which the rolls at two places of a secondary sequence
+/// differ by the same amount. A constant difference between the rolls is equivalent to another
+/// section.
 int shared_lines(const code::Secondary& sequence, std::uint32_t place, std::uint32_t other,
                  int lines) {
     std::array<int, kSections> counts{};
@@ -56,7 +57,7 @@ std::uint8_t section_of(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
-/// Returns the section for which the lines starting at `position` match the largest number of the
+/// Returns the section in which the largest number of the lines starting at `position` have the
 /// given rolls.
 std::uint8_t likest_section(CodeVariant code, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {

@@ -116,7 +116,8 @@ std::string small_table(const std::vector<SmallTimes>& times);
 
 // ---- Hard frames: hard.cpp ----
 
-/// Results for hard frames of 188 x 120 px. The time of a frame is the shorter of its two times.
+/// Results for hard frames of 188 x 120 px. Each frame is measured twice, and its time is the
+/// shorter of the two.
 struct HardTimes {
     int frames = 0;
     int located = 0;

@@ -14,8 +14,8 @@ TrackOptions PoseSender::device_tracking() {
 }
 
 /// Begins a frame with the prediction of the tracker. After a frame without a pose, begins without
-/// a prediction, because a frame that does not confirm its prediction is lost, since its rows are
-/// not stored.
+/// a prediction. The rows of a frame are not stored, so a frame that does not confirm its
+/// prediction cannot be located again without it.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =

@@ -62,8 +62,8 @@ struct Answer {
 struct AdversarialFrame {
     GreyImage image;
     DeviceOptions options;
-    /// Acceptable poses. The first is the pose of the pattern at the image centre. If there are
-    /// none, every fix is wrong.
+    /// Acceptable poses. The first is the pose of the pattern at the image centre. If the list is
+    /// empty, every fix is wrong.
     std::vector<Answer> answers;
     Pattern printed;
 };
@@ -86,9 +86,9 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
            std::abs(theta) < 0.1 && fix.section == answer.section;
 }
 
-/// Returns true if the pattern was printed in a code other than that of the options, but the print
-/// also agrees with the fix: around the fix, at least three quarters of the bits in the code of the
-/// options equal the printed bits around the first answer.
+/// Returns true if the pattern was printed in a code other than `frame.options.code`, but the print
+/// also agrees with the fix. It agrees if, around the fix, at least three quarters of the bits of
+/// `frame.options.code` equal the printed bits around the first answer.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();
@@ -115,7 +115,7 @@ inline Section random_section(Rng& rng) {
             static_cast<std::uint8_t>(rng.below(kSections))};
 }
 
-/// Returns half of the width of the view, in cells.
+/// Returns half the width of the view, in cells.
 inline int reach_cells(const Shot& shot) {
     const double cells =
         shot.camera.width_px * shot.camera.mm_per_px / shot.page.pattern.spacing_mm;

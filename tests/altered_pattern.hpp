@@ -19,7 +19,7 @@ inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }
 
-/// Returns the symbol of the code in a cell, each of whose two bits is flipped with probability
+/// Returns the symbol of the code in a cell. Each of its two bits is flipped with probability
 /// `probability`.
 inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::uint64_t seed,
                              Cell cell) {

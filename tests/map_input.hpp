@@ -26,7 +26,8 @@ struct SolverInput {
 SolverInput simulated_input(const MappedPrint& print, std::uint64_t frames, std::uint64_t seed);
 
 /// Returns the errors of a solution's offsets, in mm, for all dots. The mean shift, turn and scale
-/// of the dots in view of any frame are subtracted, because the frames do not determine them.
+/// of all dots that are in view of at least one frame are subtracted, because the frames do not
+/// determine them.
 std::vector<Eigen::Vector2d> offset_errors_mm(const SolverInput& input,
                                               const calibrate::MapSolution& solution);
 

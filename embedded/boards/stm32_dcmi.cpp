@@ -1,6 +1,6 @@
 // Port for STM32F4 with DCMI and the STM32Cube HAL, and a monochrome 8-bit camera such as the
 // MT9V034 or OV9281. The port was reviewed, but neither compiled nor run. The camera must already
-// have been configured by I2C.
+// have been configured over I2C.
 //
 // DCMI crops the frame to its central part and writes it by DMA to two row buffers in turn.
 // Settings in CubeMX: DCMI with 8 bits and its interrupt enabled; circular DMA of DCMI with

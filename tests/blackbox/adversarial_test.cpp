@@ -53,7 +53,7 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
 
 // Each of these frames shows a seam between two sections. The digits computed from lines on
 // opposite sides of the seam belong to neither section, but occur elsewhere in the code.
-// Regression: `locate` reported that other position.
+// Regression: `locate` reported the position where they occur.
 TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Seam {

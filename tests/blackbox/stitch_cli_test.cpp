@@ -35,7 +35,8 @@ SheetEntry sheet(const std::string& name, std::uint32_t origin_x) {
     return entry;
 }
 
-/// Returns a frame centred on (x_mm, y_mm) of one sheet, measured from the corner of the sheet.
+/// Returns a frame of one sheet. Its centre is at (x_mm, y_mm), measured from the corner of the
+/// sheet.
 GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, double y_mm,
                       double theta_rad) {
     Shot shot = like;

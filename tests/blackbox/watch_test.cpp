@@ -55,8 +55,8 @@ int frame_at(double seconds) {
     return static_cast<int>(std::lround(seconds * kDriveFps));
 }
 
-/// Returns the first frame after `from` (before `from` if step is -1) at which x or y differs by
-/// more than 0.1 mm from the position at frame `place`.
+/// Returns the first frame in which x or y differs by more than 0.1 mm from the position at frame
+/// `place`. Searches from frame `from` in steps of `step`, which is 1 or -1.
 int first_away(const Drive& drive, int from, int step, int place) {
     const DriveState rest = drive.at(place);
     int frame = from;

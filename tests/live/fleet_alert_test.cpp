@@ -1,5 +1,5 @@
-// Tests that `dotpose fleet` shows and reports robots that are killed, silent, lost or removed.
-// Uses a mosquitto broker and a terminal.
+// Tests that `dotpose fleet` shows and reports robots that are silent, lost or removed, and robots
+// whose process was killed. Uses a mosquitto broker and a terminal.
 #include <atomic>
 #include <mutex>
 #include <string>

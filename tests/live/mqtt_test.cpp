@@ -221,7 +221,7 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Returns the options, extended to make the publisher publish its presence as a word on the topic
+/// Returns options with which the publisher also publishes its presence, as a word on the topic
 /// `presence`.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";

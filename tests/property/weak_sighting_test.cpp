@@ -90,8 +90,8 @@ int claim(View& view) {
                : 1;
 }
 
-/// For each line from `first` - kReach to `first` + kReach + kMaxSide - 1, returns the index in the
-/// main sequence of the line's first cell in view.
+/// Returns, for each line from `first` - kReach to `first` + kReach + kMaxSide - 1, the index in
+/// the main sequence of the first cell of the line that is in view.
 std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std::uint32_t cross) {
     std::vector<int> result;
     for (int i = -kReach; i < kReach + kMaxSide; ++i) {
@@ -101,9 +101,9 @@ std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std:
     return result;
 }
 
-/// Returns, at index k, the sum of the odds of all other places that are at most k cells away along
-/// both axes. The odds of a place are relative to the true place, and are the product of the odds
-/// of all bits.
+/// Returns an array whose element k is the sum of the odds of all other places that are at most k
+/// cells away along both axes. The odds of a place are relative to the true place, and are the
+/// product of the odds of all bits.
 std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto& [cell, section] = view.place;
     const auto columns = starts(view.code, cell.x, section.u, cell.y);
@@ -112,8 +112,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
         return main_bit(static_cast<std::uint32_t>(index + kSections));
     };
     // Returns the score of a line whose first cell is at index `start` of the main sequence. The
-    // score is the sum of the weights of the bits that agree with the sequence, minus the weights
-    // of the bits that contradict it.
+    // score is the sum of the weights of the bits that agree with the sequence, minus the sum of
+    // the weights of the bits that disagree.
     const core::Grid grid = view.grid();
     const auto score = [&](bool is_x, int line, int start) {
         int sum = 0;

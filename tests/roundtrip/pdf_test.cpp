@@ -105,8 +105,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 class OddResolution : public testing::TestWithParam<const char*> {};
 
-// A renderer may move a glyph to whole pixels or to certain fractions of a pixel, so glyphs are
-// used only for dots of whole pixels. Strokes are drawn at their exact positions.
+// A renderer may move a glyph to a whole pixel or to certain fractions of a pixel, so glyphs are
+// used only for dots whose size is a whole number of pixels. Strokes are drawn at their exact
+// positions.
 TEST_P(OddResolution, moves_letters_and_leaves_strokes) {
     constexpr int kOdd_dpi = 310;  // a spacing of 6.2 pixels
     SheetOptions options;

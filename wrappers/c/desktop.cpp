@@ -15,9 +15,10 @@ namespace {
 using namespace dotpose;
 
 /// Layout of CodeEvidence in the core. `log2_q8` contains the log2 odds of each code from the
-/// frames at earlier places. For each code, `factors` contains the sum of the factors by which the
-/// frames at the current place reduce the odds of the code. `x` and `y` are the cell of the first
-/// frame at the current place, and `frames` is the number of frames at this place.
+/// frames at earlier places. For each code, `factors` contains the sum, over the frames at the
+/// current place, of the factor by which a frame reduces the odds of the code. `x` and `y` are the
+/// cell of the first frame at the current place, and `frames` is the number of frames at this
+/// place.
 struct State {
     std::int32_t log2_q8[kCodeVariantCount];
     float factors[kCodeVariantCount];

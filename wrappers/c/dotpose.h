@@ -15,7 +15,7 @@
  * (`dotpose_device_init`) and push the rows as the camera delivers them (`dotpose_begin`,
  * `dotpose_push_row`, `dotpose_finish`).
  *
- * Every function that can fail returns a dotpose_status. This is 0 (DOTPOSE_OK), the reason why a
+ * Every function that can fail returns a dotpose_status, which is 0 (DOTPOSE_OK), the reason why a
  * frame has no pose, or the kind of misuse. No function throws or prints. Only
  * dotpose_locator_create allocates memory. There are no globals, so different objects may be used
  * concurrently.
@@ -146,8 +146,8 @@ dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, in
                                     int32_t* dy);
 
 /* Writes the symbols (DOTPOSE_SYMBOL_) of columns x rows dots, row by row from `top_left`, for
- * example to print a sheet. `bytes` is the size of `symbols`, and must be at least columns x rows,
- * otherwise the function returns TOO_LITTLE_MEMORY. `columns` and `rows` must be from 1 to 65535.
+ * example to print a sheet. `bytes` is the size of `symbols`. If it is less than columns x rows,
+ * returns TOO_LITTLE_MEMORY. `columns` and `rows` must be from 1 to 65535.
  * The pattern wraps around at the end of an axis, as in locators. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
@@ -319,7 +319,7 @@ enum {
     DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 4.4 MB */
     DOTPOSE_KIND_DEVICE_160X120 = 3, /* like DEVICE, for images up to 160 px wide, 11 KB */
     DOTPOSE_KIND_DEVICE_320X240 = 4, /* like DEVICE, for images up to 320 x 240 px, 23 KB */
-    /* Like DEVICE, for images up to 36 px wide, of optical mice, on known sheets only, 5 KB. */
+    /* Like DEVICE, for images of optical mice up to 36 px wide, only on known sheets, 5 KB. */
     DOTPOSE_KIND_DEVICE_36X36 = 5
 };
 
@@ -597,7 +597,7 @@ enum {
 /* Bits of `events`: changes in a frame. */
 enum {
     DOTPOSE_EVENT_FIX = 1,        /* the robot was found, for the first time or again */
-    DOTPOSE_EVENT_LOST = 2,       /* no accepted sighting for too long, or a too uncertain pose */
+    DOTPOSE_EVENT_LOST = 2,       /* no accepted sighting for too long, or pose too uncertain */
     DOTPOSE_EVENT_KIDNAPPED = 4,  /* the robot cannot have driven to its new place */
     DOTPOSE_EVENT_STATIONARY = 8, /* the robot came to rest */
     DOTPOSE_EVENT_MOVING = 16     /* the robot moves again */

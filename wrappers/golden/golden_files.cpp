@@ -11,7 +11,7 @@
 //   SET.csv     a line for each frame and method of locating; wrappers/golden/README.md
 //               describes the columns
 //
-// The frames are the frames of accuracy/golden.cpp.
+// The frames are the same as in accuracy/golden.cpp.
 #include <bit>
 #include <concepts>
 #include <cstdint>

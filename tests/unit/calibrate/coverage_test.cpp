@@ -34,7 +34,7 @@ std::vector<Kind> kinds(const std::vector<CalibrationNeed>& needs) {
     return all;
 }
 
-/// Returns a frame at the place (`x_grid`, `y_grid`), in spacings of 10 px. The frame has a dot in
+/// Returns a frame at the place (`x_grid`, `y_grid`). One spacing is 10 px. The frame has a dot in
 /// the middle of each part of the image that is not in `empty`.
 CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
                         const std::vector<std::pair<int, int>>& empty = {}) {

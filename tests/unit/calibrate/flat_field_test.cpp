@@ -64,8 +64,8 @@ TEST(CalibrateFlatField, FindsTheLight) {
         }
     }
     // A tenth of the pixels are dots, whose level is 23 % of the paper level. The standard
-    // deviation of a pixel is therefore 25 % of its mean in one frame. In the mean of 400 frames it
-    // is a 20th of this value, 1.26 %.
+    // deviation of a pixel is therefore 25 % of its mean in one frame. In the mean of 400 frames,
+    // it is one twentieth of that, 1.26 %.
     EXPECT_NEAR(found.residual, 0.0127, 0.004);
     validate(found.camera);
 }

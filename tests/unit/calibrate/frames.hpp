@@ -165,7 +165,7 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// Returns the camera's frame at a position on the table. It renders each sheet alone and takes the
+/// Returns the camera's frame at a position on the table. Renders each sheet alone and takes the
 /// darkest value of each pixel.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {

@@ -19,8 +19,8 @@ using namespace dotpose::calibrate_test;
 using testing::HasSubstr;
 
 constexpr int kFrames = 20;
-/// Expected residual of nominal frames, in px. It is the root of the sum of the squares of the
-/// printing error (0.010 mm, which is 0.217 px) and of the measurement noise (about 0.05 px).
+/// Expected residual of nominal frames, in px. It is the root sum of squares of the printing error
+/// (0.010 mm, which is 0.217 px) and the measurement noise (about 0.05 px).
 constexpr double kNominalResidual_px = 0.222;
 
 /// Maximum error, in reported standard deviations. A normally distributed error exceeds it with a

@@ -24,8 +24,8 @@ void solve(SolverInput& input) {
                          [](double) {});
 }
 
-/// Returns the rms error of the offsets of the dots that were seen, per axis, in µm. `min_views` is
-/// the minimum number of views of a dot.
+/// Returns the rms error of the offsets, per axis, in µm, over all dots that are in at least
+/// `min_views` views.
 double offset_error_um(const SolverInput& input, std::uint32_t min_views) {
     const std::vector<Vector2d> errors = offset_errors_mm(input, input.start);
     double squares = 0;

@@ -79,8 +79,8 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
         ASSERT_EQ(fix.status, Status::ok);
         EXPECT_NEAR(fix.x_mm(), kPivot_x_mm, 0.03);
         EXPECT_NEAR(fix.y_mm(), kPivot_y_mm, 0.03);
-        // At a distance of 16 mm from the camera, most of the error is due to the error of the
-        // angle, so the variance must include the variance of the angle.
+        // At a distance of 16 mm from the camera, most of the position error is caused by the angle
+        // error, so the variance must include the variance of the angle.
         const auto variance = static_cast<double>(fix.covariance[0][0]);
         EXPECT_LT(std::abs(fix.x_mm() - kPivot_x_mm), 5 * kDefaultSpacing_mm * std::sqrt(variance));
     }
@@ -91,10 +91,11 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// The variance of the reference is the sum of the variances due to the turn, to the image centre
-// and to the image axis. In the camera file, the standard deviation of the centre is 4 µm per axis
-// and that of the direction of the axis is 3e-4 rad. At a distance of 15.8 mm from the camera,
-// these two together contribute sqrt(4^2 + (15.8e3 * 3e-4)^2 / 2) = 5.2 µm per axis.
+// The variance of the reference point is the sum of three contributions: of the turn, of the image
+// centre and of the image axis. In the camera file, the standard deviation of the centre is 4 µm
+// per axis and that of the direction of the axis is 3e-4 rad. At a distance of 15.8 mm from the
+// camera, the centre and the axis together contribute sqrt(4^2 + (15.8e3 * 3e-4)^2 / 2) = 5.2 µm
+// per axis.
 TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
     const CameraModel model = paper_camera();
     const auto frame_at = [&](int i) {

@@ -146,8 +146,8 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     };
     for (const CodeVariant code : kCodeVariants) {
         for (const Size size : {Size{6, 32}, Size{32, 6}, Size{7, 9}, Size{32, 32}, Size{6, 6}}) {
-            // The 5 digits from index 100 and the 5 digits from index 59 of the a4 of libdots are
-            // unique, so no window is ambiguous.
+            // In the sequence a4 of libdots, the 5 digits from index 100 and the 5 digits from
+            // index 59 are unique, so no window is ambiguous.
             const Place truth{{241 * 1000 + 100, 241 * 77 + 59}, {5, 60}};
             const Grid grid = reference_window(code, truth, size.columns, size.rows);
             Place place;
@@ -158,8 +158,8 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     }
 }
 
-/// Returns the indices of the a4 of libdots at which a window is refused as ambiguous. Expects that
-/// the windows at all other indices are decoded.
+/// Returns the indices in the sequence a4 of libdots at which a window is refused as ambiguous.
+/// Expects that the windows at all other indices are decoded.
 std::set<std::uint32_t> ambiguous_places(int columns, int rows, bool along_x) {
     std::set<std::uint32_t> result;
     for (std::uint32_t p = 0; p < 241; ++p) {

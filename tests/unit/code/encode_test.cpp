@@ -143,10 +143,10 @@ TEST(Encode, RollStepsByDeltaAcrossTheWrap) {
 }
 
 // Over one period of L positions, the roll increases by 5 L plus the sum of w_i (L / length_i)
-// (digit sum of a_i), where w_i is the weight of the sequence a_i. Modulo 63, this is 52 for the
-// sequences of the patent, and 25 for the a4 of py-microdots. The a4 of `libdots` has the same
-// digit sum as the a4 of the patent: it lacks a 1 because of the misprint, but has an additional 1
-// at its end.
+// (digit sum of a_i), where w_i is the weight of the sequence a_i. Modulo 63, the increase is 52
+// for the sequences of the patent, and 25 for `microdots`, which has another a4. It is also 52 for
+// `libdots`. There, a4 lacks a 1 because of the misprint, but has an additional 1 at its end, so
+// its digit sum is the same.
 TEST(Encode, ThePatternContinuesPastTheLastPosition) {
     EXPECT_EQ(kPositionsPerAxis, kL);
     EXPECT_EQ(kL, 410'815'348U);

@@ -19,8 +19,8 @@ constexpr std::size_t kMaxLines = 16;
 using Lines = std::array<std::size_t, kMaxLines + 1>;
 using Unshared = std::pair<std::size_t, std::size_t>;
 
-/// Returns, at index n, the maximum number of equal offsets among the first n lines, or among the
-/// last n lines if `from_last` is set.
+/// Returns an array whose element n is the maximum number of equal offsets among the first n lines,
+/// or among the last n lines if `from_last` is true.
 Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bool from_last) {
     std::array<std::size_t, kSections> counts{};
     Lines most{};
@@ -31,9 +31,9 @@ Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bo
     return most;
 }
 
-/// Returns the minimum number of lines that `place` does not share with another place of the
-/// sequence. The first number is for a single shift of all lines. The second number is for two
-/// shifts, one on each side of a border between lines.
+/// Returns two minimum numbers of lines that `place` does not share with any other place of the
+/// sequence. For the first number, all lines are compared at the same shift. For the second number,
+/// the shift may change once, at a border between two lines.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
     std::size_t max_at_one = 0;
     std::size_t max_on_both = 0;
@@ -68,9 +68,8 @@ TEST(UnsharedLines, AreAsCounted) {
 
 using Counts = std::array<int, kMaxCounted>;
 
-/// Counts the combinations of another place of the sequence and a shift that share at least one
-/// line with `place`. Element n - 1 of the result is the number of combinations for which exactly n
-/// lines are not shared.
+/// Counts the pairs of another place in the sequence and a shift that share at least one line with
+/// `place`. Element n - 1 of the result is the number of pairs with exactly n unshared lines.
 Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t lines) {
     Counts counts{};
     for (std::uint32_t other = 0; other < a.length; ++other) {

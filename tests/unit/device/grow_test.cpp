@@ -41,8 +41,8 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
 }
 
 /// `grow_grid` remembers the cells of a limited number of dots between fits. If there are more
-/// dots, each fit sums up all dots instead of only those whose cell has changed. The result must be
-/// the same.
+/// dots, each fit sums up all dots instead of only the dots whose cell has changed. The result must
+/// be the same.
 TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
     Rng rng(kSeed);
     for (int i = 0; i < 50; ++i) {

@@ -84,7 +84,7 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
             term *= (2.0 * block.dots() - k) / (k + 1);
         }
         const double expected_log2 = std::log2(std::exp2(sum_log2) + 4 * 145 * 135 * chance);
-        // Rounding up adds at most 1. Chernoff's bound exceeds the binomial sum by at most 3.
+        // Rounding up adds at most 1. The Chernoff bound exceeds the binomial sum by at most 3.
         EXPECT_LE(fix.p_wrong_log2, expected_log2 + 4) << trial;
     }
 }
@@ -100,8 +100,8 @@ TEST(SheetOdds, MoreDotsAreNeededIfOtherSheetsArePossible) {
     const int only_log2 = fix.p_wrong_log2;
     const core::KnownSheets possible{{&kSheet, 1}, OtherSheets::possible};
     is_certain(block, corner, possible, fix);
-    // An unknown sheet may have the same columns. The rows of the view can then be at 3 positions,
-    // and the bits agree by chance with a probability of 2^-36 at each of them.
+    // An unknown sheet may have the same columns. The rows of the view can then be at 3 positions.
+    // At each position, the bits agree by chance with a probability of 2^-36.
     EXPECT_GE(fix.p_wrong_log2, -36);
     EXPECT_GT(fix.p_wrong_log2, only_log2);
 }

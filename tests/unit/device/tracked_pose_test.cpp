@@ -72,7 +72,7 @@ TEST(TrackedPose, GoesThroughTheDots) {
         const double yi = rng.uniform(-0.03, 0.03);
         const double yj = rng.uniform(-0.03, 0.03);
         // Uneven light makes the dots on one side up to twice as dark as those on the other side.
-        // It must not change the fit.
+        // The fit must not change.
         const std::int32_t mass = round % 2 == 0 ? 1000 : 60;
         for (int j = 10; j <= 21; ++j) {
             for (int i = 9; i <= 24; ++i) {

@@ -337,8 +337,8 @@ TEST_F(CameraFile, AMissingFileIsToldWithTheReason) {
     EXPECT_EQ(error, "cannot read nothere.yaml: No such file or directory");
 }
 
-// Some drivers write rational_polynomial for every camera. If the terms that only this model has
-// are zero, it equals plumb_bob.
+// Some drivers write rational_polynomial for every camera. If the terms that plumb_bob lacks are
+// zero, the two models are equal.
 TEST_F(CameraFile, ARationalPolynomialWithoutItsOwnTermsIsPlumbBob) {
     const auto rational = [](const std::string& coefficients) {
         std::string text = kRos;
@@ -387,8 +387,8 @@ TEST(UseCamera, SetsLensAndReferenceForItsOwnSizeOnly) {
     EXPECT_THROW(use_camera(camera, 189, 120, options), BadArgument);
 }
 
-// If only part of the image is read, the point of the paper at a pixel, the reference point and the
-// heading remain the same.
+// If only part of the image is read, each pixel still shows the same point of the paper, and the
+// reference point and the heading remain the same.
 TEST(PartOf, SeesTheSamePaper) {
     Camera camera;
     camera.width_px = 640;

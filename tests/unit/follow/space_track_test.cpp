@@ -162,8 +162,8 @@ TEST_P(SpaceTrackRates, SmoothsWithTrueCovariances) {
 }
 INSTANTIATE_TEST_SUITE_P(FramesPerSecond, SpaceTrackRates, testing::Values(30, 60, 200));
 
-/// Errors that change slowly, as those of the print while the camera moves, cannot be smoothed. The
-/// best pose is then about that of the newest sighting.
+/// Errors that change slowly, such as printing errors while the camera moves, cannot be smoothed.
+/// The best estimate of the pose is then close to the newest sighting.
 TEST_P(SpaceTrackRates, FollowsSightingsWithCommonErrors) {
     constexpr double kCorrelationTime_s = 0.25;
     SpaceTracker tracker;
@@ -183,7 +183,7 @@ TEST_P(SpaceTrackRates, FollowsSightingsWithCommonErrors) {
         tracked.add(error_of(track.camera, truth), matrix_of(track.covariance));
         predicted.add(error_of(before->camera, truth), matrix_of(before->covariance));
     }
-    // 240 correlation times are few: the mean normalised square of one axis has a standard
+    // 240 correlation times are few. The mean normalised square of one axis has a standard
     // deviation of 0.09, so the axes are compared with those of the sightings.
     for (const Tally& tally : {tracked, predicted}) {
         EXPECT_GT(tally.all / tally.count, 0.8);
@@ -193,8 +193,8 @@ TEST_P(SpaceTrackRates, FollowsSightingsWithCommonErrors) {
     EXPECT_LT(tracked.squares.cwiseQuotient(raw.squares).maxCoeff(), 1.04);
 }
 
-/// While the camera rests, all views contain the same dots, and the tracker cannot reduce the error
-/// of the print. The covariance of the track must contain it.
+/// While the camera rests, all views contain the same dots, and the tracker cannot reduce the
+/// printing errors. The covariance of the track must include them.
 TEST(SpaceTrack, HasTheTrueCovarianceWhileTheCameraRests) {
     Tally tracked;
     const CameraInSpace truth = hand_at(0.7);
@@ -252,8 +252,8 @@ TEST(SpaceTrack, HasTheVelocityOfTheCamera) {
     EXPECT_FALSE(tracker.predict(2'000'000));
 }
 
-/// Returns the second possible pose of a plane that is seen with weak perspective. It is tilted in
-/// the opposite direction.
+/// Returns the second possible pose of a camera that sees a plane with weak perspective. The second
+/// pose is tilted in the opposite direction.
 CameraInSpace mirrored(const CameraInSpace& camera) {
     const Quaterniond half(0, 0, 0, 1);
     const Quaterniond q = rotation_of(camera);

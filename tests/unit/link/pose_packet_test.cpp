@@ -107,9 +107,9 @@ TEST(PosePacket, CrcIsThatOfTheCatalogue) {
 }
 
 TEST(PosePacket, NoFourBitsCancelInTheCrc) {
-    // The CRC is linear, so the change by an error of several bits is the XOR of the changes by
-    // each bit. If no two pairs of bits have the same XOR, an error of up to four bits always
-    // changes the CRC.
+    // The CRC is linear, so an error of several bits changes the CRC by the XOR of the changes that
+    // the single bits cause. If no two pairs of bits have the same XOR, an error of up to four bits
+    // always changes the CRC.
     Bytes coded(link::kCodedBytes, 0);
     const unsigned none = link::crc16(coded);
     std::vector<unsigned> changes;

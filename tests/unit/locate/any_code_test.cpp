@@ -1,5 +1,5 @@
-// Tests fixes without a given code variant. They must equal the fixes of the same frames with the
-// code variant given.
+// Tests fixes of frames whose code variant is not given. The fixes must equal those of the same
+// frames with the code variant given.
 #include <memory>
 
 #include <gtest/gtest.h>

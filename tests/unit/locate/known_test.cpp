@@ -135,8 +135,8 @@ class KnownUnderGraphics : public Known {
     }
 };
 
-/// A plane that less than half of the dots agree with had the right place, but an angle that was
-/// wrong by 2 degrees, with a standard deviation of 0.25 degrees.
+/// Regression: less than half of the dots agreed with the plane of the fix. The place was correct,
+/// but the angle was wrong by 2 degrees, with a reported standard deviation of 0.25 degrees.
 TEST_F(KnownUnderGraphics, PlaneOfFewDotsIsNotReported) {
     const Shot shot = hidden_shot({1285, 1586661300511374774U, {1311, 1375}, 22}, 20, 640, 480);
     const Fix fix = locator_.locate(render(shot).view());

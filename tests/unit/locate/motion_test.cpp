@@ -1,5 +1,5 @@
-// Tests locators that receive the motion between frames. They combine the bits of several frames,
-// and predict the next frame from the motion.
+// Tests locators that receive the motion between frames. The locators combine the bits of several
+// frames, and predict the next frame from the motion.
 #include <array>
 #include <cmath>
 #include <memory>

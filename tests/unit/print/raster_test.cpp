@@ -39,10 +39,10 @@ Sheet small_sheet() {
     return make_sheet(options);
 }
 
-// With a spacing of 0.508 mm, the spacing and the displacement are whole numbers of pixels of 1/300
-// inch. The margin of 2 mm, plus the 0.127 mm by which ink extends beyond an intersection, is 25.12
-// pixels. The first intersection is therefore at the centre of pixel 25. The next intersections
-// follow every 6 pixels.
+// With a spacing of 0.508 mm, the spacing and the displacement are integer multiples of a pixel of
+// 1/300 inch. The margin of 2 mm, plus the 0.127 mm by which ink extends beyond an intersection, is
+// 25.12 pixels. The first intersection is therefore at the centre of pixel 25. The next
+// intersections follow every 6 pixels.
 constexpr int kFirst_px = 25;
 constexpr int kSpacing_px = 6;
 

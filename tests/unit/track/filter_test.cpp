@@ -172,9 +172,9 @@ struct Errors {
     double gain() const { return filtered_mm / raw_mm; }
 };
 
-/// Tracks a robot that drives a figure eight at up to `speed_mm_s` and is not lifted. Each sighting
-/// has an independent error and the same constant error. Errors in the first second are not
-/// counted.
+/// Tracks a robot that drives a figure eight at up to `speed_mm_s` and is not lifted. The error of
+/// each sighting is the sum of an independent error and a constant error. Errors in the first
+/// second are not counted.
 Errors track_eight(double speed_mm_s, double sigma_mm, double constant_mm = 0) {
     Drive drive(
         {.put_down = 1e9, .second_put_down = 1e9, .stop = 9, .end = 10, .speed_mm_s = speed_mm_s});

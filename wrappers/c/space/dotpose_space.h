@@ -63,8 +63,8 @@ dotpose_status dotpose_space_use_camera(const dotpose_space_camera* camera,
 typedef struct dotpose_space_pose {
     uint32_t size; /*  0: set by dotpose_space_pose_init */
     int32_t dots;  /*  4: number of dots used */
-    /* 1 if there is a second pose whose second_odds exceed 2^-30, so either pose may be the true
-     * one. Otherwise 0. */
+    /* 1 if there is a second pose and its second_odds exceed 2^-30, so either pose may be true.
+     * Otherwise 0. */
     int32_t is_ambiguous; /* 8 */
     int32_t has_second;   /* 12: 1 if the members `second_` are valid, else 0 */
     /* Position of the projection centre in the pattern. */
@@ -100,7 +100,7 @@ dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes);
  * - TOO_FEW_DOTS if the dots do not determine a pose,
  * - BAD_VALUE if a member of the camera is out of its range, or if the image has another size,
  * - WRONG_KIND for device locators, and for locators without `show_stages`,
- * - OUT_OF_MEMORY, or another misuse. The pose is only written if the status is OK. */
+ * - OUT_OF_MEMORY, or another misuse. The pose is written only if the status is OK. */
 dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_space_camera* camera,
                                  const uint8_t* pixels, int32_t width_px, int32_t height_px,
                                  ptrdiff_t stride_bytes, dotpose_space_pose* pose);
@@ -137,14 +137,15 @@ dotpose_status dotpose_space_tip_init(dotpose_space_tip* tip, size_t bytes);
 
 /* Computes the position of the tip from a pose of dotpose_space_fit. The pose should not be
  * ambiguous. Returns OK, NO_FIX if the pose was not fitted, BAD_VALUE if a member of the pen is not
- * finite, or another misuse. The tip is only written if the status is OK. */
+ * finite, or another misuse. The tip is written only if the status is OK. */
 dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpose_space_pen* pen,
                                     dotpose_space_tip* tip);
 
 /* Detects with hysteresis whether the pen touches the paper. `is_down` must contain the result for
  * the previous pose, or 1 before the first pose. It receives the new result: 1 if the pen is on the
  * paper, and otherwise 0. A pen on the paper is reported as lifted at a height of at least 0.05 mm
- * plus three standard deviations. A lifted pen is reported as touching the paper below 0.05 mm. */
+ * plus three standard deviations. A lifted pen is reported as touching the paper at a height below
+ * 0.05 mm. */
 dotpose_status dotpose_space_update_contact(const dotpose_space_tip* tip, int32_t* is_down);
 
 #ifdef __cplusplus

@@ -18,8 +18,9 @@ namespace dotpose::python {
 namespace py = pybind11;
 using namespace py::literals;
 
-/// Each function defines the classes and functions of one subject in the module _dotpose. They are
-/// called in this order, because signatures refer to classes that must already be defined.
+/// Each function defines the classes and functions of one subject in the module _dotpose. The
+/// functions are called in this order, because signatures refer to classes that must already be
+/// defined.
 void define_errors(py::module_& module);
 void define_options(py::module_& module);
 void define_fix(py::module_& module);
@@ -29,8 +30,8 @@ void define_locator(py::module_& module);
 void define_tracker(py::module_& module);
 void define_simulate(py::module_& module);
 
-/// Each function defines the classes and functions of one subject in the module _tools. They are
-/// called in this order, for the same reason.
+/// Each function defines the classes and functions of one subject in the module _tools. The
+/// functions are called in this order, for the same reason.
 void define_sheets(py::module_& module);
 void define_space(py::module_& module);
 void define_space_tracker(py::module_& module);

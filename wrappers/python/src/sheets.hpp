@@ -32,7 +32,7 @@ struct SeenPlace {
 /// Returns the place with a copy of its entry, or none if there is no place.
 std::optional<SeenPlace> seen_place(const std::optional<SheetPlace>& place);
 
-/// Returns a 3 x 3 array.
+/// Returns the covariance as a 3 x 3 array.
 py::array_t<double> array_of(const PoseCovariance& covariance);
 
 }  // namespace dotpose::python

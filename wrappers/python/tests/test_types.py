@@ -51,8 +51,8 @@ def test_programs_are_checked_by_the_stubs(tmp_path):
 
 
 def test_the_stubs_say_what_there_is(tmp_path):
-    """stubtest compares the stubs with the module. Exceptions are classes and constructors of
-    pybind11, and names of types that do not exist at run time."""
+    """stubtest compares the stubs with the module. The permitted differences are classes and
+    constructors of pybind11, and names of types that do not exist at run time."""
     lines = [r"dotpose\.[A-Z]\w+", r"dotpose\.\w+\.__init__", r"dotpose\._dotpose.*"]
     (tmp_path / "allow").write_text("\n".join(lines) + "\n")
     result = mypy("mypy.stubtest", "dotpose", "--allowlist", "allow", "--ignore-missing-stub",

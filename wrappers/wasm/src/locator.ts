@@ -205,8 +205,8 @@ export class Locator {
         const needed = height === 0 ? 0 : (height - 1) * stride + width;
         if (data.length < needed)
             throw new RangeError(`the image needs ${needed} bytes, its data has ${data.length}`);
-        // Does not copy the pixels if the core will refuse the image size, because it then does not
-        // read them.
+        // Does not copy an image that is too large, because the core refuses it without reading the
+        // pixels.
         const is_refused = Math.max(width, height) > kMaxFrameSide_px;
         const pixels = this.#room(is_refused ? 1 : width * height);
         if (is_refused) return stride;

@@ -14,7 +14,7 @@ export interface MeasuredMotion {
     turn_rad?: number;
     /**
      * Standard deviation of the displacement along each axis. The errors are assumed to be normally
-     * distributed and independent. Too small values lead to wrong fixes.
+     * distributed and independent. Values that are too small lead to wrong fixes.
      */
     sigma_mm: number;
     /** Standard deviation of the rotation. */

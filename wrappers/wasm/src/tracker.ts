@@ -138,8 +138,7 @@ export class Tracker {
     readonly #track: number;
     readonly #prediction: number;
     /**
-     * Locators by code. They are not used to locate frames. The library requires a locator for a
-     * prediction, because it needs the options of the locator.
+     * Locators by code, from which predictions take their options. They do not locate frames.
      */
     readonly #locators = new Map<Code, number>();
     /** Code of the newest fix. */

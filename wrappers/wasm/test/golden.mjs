@@ -46,7 +46,7 @@ const kColumns = [
     ["float", 1, 248], // readout_turn_rad
 ];
 
-/** Returns the numbers of a fix in the format of the lines of the golden files. */
+/** Returns the numbers of a fix in the format of a line of a golden file. */
 function lineOf(fix) {
     const view = new DataView(fix.bytes.buffer);
     const hex = (value, digits) => value.toString(16).padStart(digits, "0");

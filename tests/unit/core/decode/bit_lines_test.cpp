@@ -224,7 +224,7 @@ TEST(BitLines, LinesOfTwoPlacesAreNotOnePlace) {
         const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         BitBlock block = seen_block(code, some_place(i, rng), 0, {-8, -8}, {8, 8}, {}, rng);
         const BitBlock other = seen_block(code, random_place(rng), 0, {-8, -8}, {8, 8}, {}, rng);
-        // The first four columns belong to another place, so the lines contradict each other.
+        // The first four columns belong to another place, so the lines do not agree on one place.
         for (std::size_t line = 24; line < 28; ++line)
             block.columns.bits[line] = other.columns.bits[line];
         Place place;

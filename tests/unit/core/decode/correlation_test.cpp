@@ -60,7 +60,8 @@ TEST(Correlation, LinesOfTheSequenceAgreeWithItWholly) {
 }
 
 TEST(Correlation, ContradictionIsMeasuredLikeAgreement) {
-    // The sums are largest if all 256 cells contradict the sequence, each with the maximum weight.
+    // The magnitude of a sum is largest if all 256 cells disagree with the sequence, each with the
+    // maximum weight.
     LineScores scores;
     for (std::size_t roll = 0; roll < 63; ++roll) {
         std::vector<std::int8_t> line;

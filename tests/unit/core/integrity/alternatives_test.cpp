@@ -19,7 +19,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 42;
 
-/// Returns log2 of the odds of the alternatives for an error-free window of 12 rows.
+/// Returns log2 of the sum of the odds of all alternatives for an error-free window of 12 rows.
 int alternatives_of_window(CodeVariant code, const Place& place, int columns, int odds_q8) {
     constexpr int kRows = 12;
     OwnedGrid owned(std::max(columns, kRows));
@@ -82,7 +82,7 @@ TEST(Alternatives, FewLinesExcludeNone) {
 using Odds = std::array<float, kSections>;
 
 /// Returns the expected sum of the odds of all alternatives that differ from the reading in two or
-/// more sequences. The reading consists of two adjacent lines, the first of which is at `position`.
+/// more sequences. The reading consists of two adjacent lines. The first line is at `position`.
 /// `first` and `second` are the odds of the two lines at each roll offset. `factor` is the safety
 /// factor for the step between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
@@ -155,8 +155,8 @@ TEST(ExpectedAlternatives, OfOneLineAreAllInProportion) {
     odds[0] = 1;
     odds[17] = 0.25F;
     // Expected number of alternatives that differ in two or more sequences: the product of 1 +
-    // length over all sequences, minus 1 for the reading itself, minus the alternatives that differ
-    // in one sequence.
+    // length over all sequences, minus 1 for the reading itself, minus the number of alternatives
+    // that differ in one sequence.
     const double alternatives = 237.0 * 234 * 32 * 242 - 1 - (236 + 233 + 31 + 241);
     EXPECT_NEAR(static_cast<double>(sum_of(7, 4, {odds})) / (1.25 * alternatives), 1, 1e-5);
 }

@@ -56,7 +56,8 @@ struct Verdict {
     Fix fix;
 };
 
-/// Returns the number of bits of an axis that contradict the code if its lines have these rolls.
+/// Returns the number of bits of an axis that disagree with the code if the lines of the axis have
+/// these rolls.
 inline int contradictions(const Block& block, bool is_x, const std::vector<int>& rolls) {
     int wrong = 0;
     for (int row = 0; row < block.rows; ++row) {
@@ -97,9 +98,9 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     return rolls;
 }
 
-/// Returns log2 of the sum, over both axes, of the probability of a match by chance and the odds of
-/// two kinds of alternatives: those that differ in one sequence and share a line, and other
-/// sections. The odds per bit are those of the verdict.
+/// Returns log2 of a sum over both axes. The term of an axis is the probability of a match by
+/// chance, plus the odds of two kinds of alternatives: positions that differ in one sequence and
+/// share a line, and other sections. The odds per bit are those of the verdict.
 inline double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;

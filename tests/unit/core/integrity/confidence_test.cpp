@@ -65,8 +65,8 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
 }
 
 TEST(OddsPerBit, GrowWithTheWeightOfWhatIsRight) {
-    // The odds are those of a bit with full weight. If bits with half the weight have the same
-    // fraction of errors, log2 of the odds per full weight is about twice as large.
+    // The odds refer to a bit of full weight. If bits of half the weight have the same fraction of
+    // errors, log2 of these odds is about twice as large.
     const double full = odds_per_bit_q8(confidence(1000, 124, 50));
     const double half = odds_per_bit_q8(confidence(1000, 60, 50));
     EXPECT_GT(half, 1.7 * full);
@@ -111,7 +111,7 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
             const int bound = chance_log2(bits, odds);
             ASSERT_GE(bound, std::min(exact[static_cast<std::size_t>(e)], 37.0L) - 1e-9L);
             if (2 * e > n) continue;
-            // The tolerance has three parts. Chernoff's bound exceeds the exact probability by a
+            // The tolerance has three parts. The Chernoff bound exceeds the exact probability by a
             // factor of up to sqrt(8 n p q). The odds allow for two additional errors, which
             // changes the result by up to about (e + 2) log2((e + 2) / e). Rounding adds 2 and n /
             // 2^6.
@@ -162,7 +162,7 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
 }
 
 TEST(Chance, EachBitThatContradictsHasItsFactor) {
-    // The factor of a contradicting bit is 2^y times the factor of an agreeing bit.
+    // The factor of a bit that disagrees is 2^y times the factor of a bit that agrees.
     constexpr int kBits = 1 << 12;
     for (const int weight : {12, 60, 124}) {
         const Confidence agree = confidence(kBits, weight, 0);
@@ -180,8 +180,8 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
 }
 
 TEST(Chance, WeakBitsThatContradictSayLittle) {
-    // 200 bits of full weight agree with the position. Of the 50 weak bits, half contradict the
-    // position, so they contain no information.
+    // 200 bits of full weight agree with the position. Half of the 50 weak bits disagree with it,
+    // so the weak bits contain no information.
     const auto chance_with_weak = [](int weight) {
         Confidence bits;
         for (int i = 0; i < 200; ++i)
@@ -206,9 +206,9 @@ TEST(Chance, ChanceHoldsForRandomBits) {
         Confidence bits;
         for (int i = 0; i < 20; ++i)
             bits.add(static_cast<int>(rng.below(128)), rng.below(2) == 0);
-        // The result is the bound for one hypothesis multiplied by 2^37, the number of hypotheses.
-        // A result of 37 - 8 is therefore a bound of 2^-8. On average, at most 200,000 / 2^8 = 781
-        // trials may have such a bound.
+        // The result is log2 of the bound for one hypothesis times 2^37, the number of hypotheses.
+        // A result of 37 - 8 therefore corresponds to a bound of 2^-8. On average, at most 200,000
+        // / 2^8 = 781 trials may have such a bound.
         beyond += chance_log2(bits, odds_per_bit_q8(bits)) <= 37 - 8;
     }
     EXPECT_LE(beyond, kTrials / 256 + 100);

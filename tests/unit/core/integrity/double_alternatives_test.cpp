@@ -97,7 +97,7 @@ double exact_sum(const Case& c) {
 TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
     Rng rng(kSeed);
     // In each line, the roll of the position has the score 1000. The scores of the other rolls are
-    // at most `least` + 599, so only at 420 can they exceed 1000.
+    // at most `least` + 599, so they can exceed 1000 only if `least` is 420.
     for (const int least : {-600, -200, 420}) {
         const Case c(rng, least);
         const LikelihoodRatios ratios(CodeVariant::anoto, c.lines, c.reading, kOdds_q8);

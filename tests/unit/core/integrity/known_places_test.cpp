@@ -62,8 +62,8 @@ core::BitBlock block_of(const Cells& cells) {
     return block;
 }
 
-/// Returns, for each axis, the number of bits that contradict the code if cell (0, 0) of the block
-/// is at `place`.
+/// Returns, for each axis, the number of bits that disagree with the code if cell (0, 0) of the
+/// block is at `place`.
 std::array<int, 2> wrong_bits(const core::BitBlock& block, CodeVariant code, const Place& place) {
     std::array<int, 2> wrong{};
     for (int column = -kMiddle; column < kMiddle; ++column) {

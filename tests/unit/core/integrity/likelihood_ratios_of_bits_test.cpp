@@ -211,8 +211,8 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     EXPECT_GT(doubtful, 100);
 }
 
-/// If the table states a minimum loss for a place, every alternative at this place must lose at
-/// least as much.
+/// If the table states a minimum loss for the alternatives in a sequence, each of these
+/// alternatives must lose at least as much.
 TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
     Rng rng(10);
     int known = 0;

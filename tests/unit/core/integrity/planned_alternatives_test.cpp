@@ -1,5 +1,5 @@
 // Tests sum_of_planned_alternatives with lines that agree with the reading and, almost as well,
-// with one alternative. Also tests its work in views with few lines.
+// with one alternative. Also tests that the work limit ends the search in views with few lines.
 #include "core/integrity/planned_alternatives.hpp"
 
 #include <bit>

@@ -54,7 +54,7 @@ double sum_of_singles(const RatiosCase& c) {
                     lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
                             c.storage[line].scores[static_cast<std::size_t>(other)];
                 }
-                // Each bit that contradicts only the alternative reduces the score by twice its
+                // Each bit that disagrees only with the alternative reduces the score by twice its
                 // weight.
                 if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
             }
@@ -135,8 +135,8 @@ TEST(QuickAlternatives, AreNoFewerThanACloseLookShows) {
         ++told;
         const int counted = alternatives_log2(kernels(), c.ratios());
         // The exact sum may be up to four times too large, because it counts some alternatives
-        // twice and is rounded up to a power of two. Small sums are not compared, because up to
-        // 2^-32 of a sum may consist of expectations multiplied by 32.
+        // twice and is rounded up to a power of two. Small sums are not compared. They may consist
+        // largely of expectations multiplied by 32, which contribute up to 2^-32.
         if (counted <= -31) continue;
         EXPECT_GE(quick, counted - 2) << "case " << i << ", seed " << kSeed;
         ++compared;

@@ -81,7 +81,8 @@ Sum sum_of_all(const RatiosCase& c) {
         for (std::size_t border = 1; border < c.rolls.size(); ++border) {
             const double lost = min_loss(c, alternative, 0, border) +
                                 min_loss(c, alternative, border, c.rolls.size());
-            // Each bit that contradicts only the alternative reduces the score by twice its weight.
+            // Each bit that disagrees only with the alternative reduces the score by twice its
+            // weight.
             const double odds = -lost / 2 / 127 * c.odds_q8 / 256;
             if (odds <= kMinLog2) continue;
             sum.odds += std::exp2(odds + kSeamLog2);
@@ -115,7 +116,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
             c.storage.push_back(scored_line(shown, bits, wrong, 127, rng));
         }
         c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
-        // Odds at the limit may be counted or not, because of rounding.
+        // Because of rounding, odds at the limit may or may not be counted.
         const double limit = std::exp2(kSeamLog2 + kMinLog2);
         const LikelihoodRatios ratios = c.ratios();
         const int counted_q8 = seam_alternatives_log2_q8(ratios);

@@ -59,7 +59,7 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ++flipped;
             const Verdict now = judge(reading);
             ASSERT_EQ(now.fix.bit_errors, flipped);
-            // Additional contradictions must not reduce the quick estimate of p_wrong.
+            // Additional wrong bits must not reduce the quick estimate of p_wrong.
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
             // If the odds on an axis are below 2^-36, `quick_alternatives` does not compute them
@@ -163,7 +163,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         Reading reading(random_view(rng), QuarterTurn{i % 4});
-        // Half of the bits contradict the code, as if the frame showed another pattern.
+        // Half of the bits disagree with the code, as if the frame showed another pattern.
         for (GridCell& cell : reading.owned.cells) {
             if (rng.below(2) == 0) cell.x = static_cast<std::int8_t>(-cell.x);
             if (rng.below(2) == 0) cell.y = static_cast<std::int8_t>(-cell.y);
@@ -178,7 +178,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns a difficult view, which is small and in which dots are missing, displaced, or have a
+/// Returns a difficult view: a small view in which some dots are missing, displaced, or have a
 /// wrong symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
@@ -199,8 +199,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns log2 of the sum, over both axes, of the probability of a match by chance and the odds of
-/// all alternatives. Uses the exact sums.
+/// Returns log2 of a sum over both axes. The term of an axis is the probability of a match by
+/// chance, plus the odds of all alternatives. Uses the exact sums.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;

@@ -32,8 +32,8 @@ std::vector<int> rolls_here(const RatiosCase& c, CodeVariant other) {
     return rolls;
 }
 
-/// Returns the sum of the odds of all places in the other code, at all shifts, in double precision.
-/// Excludes the place of the reading.
+/// Returns the sum, in double precision, of the odds of all places in the other code that differ
+/// from the reading only in a4, at all shifts. Excludes the place of the reading.
 double exact_elsewhere(const RatiosCase& c, CodeVariant other) {
     const RatiosCase theirs = as_in(other, c);
     const std::vector<int> same = rolls_here(c, other);

@@ -197,10 +197,10 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 /// and the digits of the reading. It ends with the newest line.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
-/// Calls `use` for every choice of digits at one step, in the sequences of the bit set `different`
-/// from sequence `k` on. The first argument of `use` is the change of the roll modulo 63. The
-/// second argument is true if all digits equal those of the reading. `shift` and `are_equal` are
-/// the values of the two arguments for the sequences below `k`.
+/// Calls `use` for every choice of digits at one step. Digits are chosen in the sequences from
+/// index `k` on whose bits in `different` are set. The first argument of `use` is the change of the
+/// roll modulo 63. The second argument is true if all digits equal those of the reading. `shift`
+/// and `are_equal` are the values of the two arguments for the sequences below `k`.
 void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line, std::size_t k,
                   int shift, bool are_equal, const auto& use) {
     if (k == 4) return use((shift + 63 * 63) % 63, are_equal);
@@ -247,8 +247,9 @@ double expected_in_double(const OwnPlaces& places, unsigned different,
     return alternatives * sum;
 }
 
-/// In a view of two patterns, 12 adjacent lines contradict the alternatives and the other 9 lines
-/// confirm them. The product of the odds of the 12 lines is far outside the range of a float.
+/// In a view of two patterns, 12 adjacent lines make the alternatives less probable, and the other
+/// 9 lines make them more probable. The product of the odds of the 12 lines is far outside the
+/// range of a float.
 TEST(KernelsAlternatives, ExpectationsOfTwoPatternsAreThoseInDoublePrecision) {
     repeat_with_each_form(3, [&](const Kernels& kernels, Rng& rng) {
         const OwnPlaces places(rng);

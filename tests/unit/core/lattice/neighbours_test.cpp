@@ -90,7 +90,7 @@ TEST(Neighbours, AreTheFourNearestOfAll) {
                 }
                 ASSERT_GE(neighbour, 0);
                 ASSERT_NE(neighbour, static_cast<int>(s));
-                // If several dots have the same distance, any of them may be chosen, so the test
+                // If several dots are at the same distance, any of them may be chosen, so the test
                 // compares distances.
                 ASSERT_EQ(squared_distance(dots[seeds[s]],
                                            dots[seeds[static_cast<std::size_t>(neighbour)]]),

@@ -46,7 +46,8 @@ TEST(Cells, PlanePointsAreThoseOfTheFormula) {
             };
             const FixedVec p{coordinate(j & 1), coordinate(j & 2)};
             const Vec2 exact = formula(plane, real(plane.centre_q8, 8) + real(p, 3));
-            // Slopes are truncated to 2^-18 per px on each axis, and the sum to 2^-16.
+            // Slopes are truncated to multiples of 2^-18 per px on each axis, and their sum to a
+            // multiple of 2^-16.
             const double tolerance =
                 (std::abs(p.x) + std::abs(p.y)) / 8.0 / (1 << 18) + 2.0 / 65536;
             const Vec2 found = real(cells.plane_point_q16(p), 16);

@@ -29,7 +29,7 @@ struct MeanError {
 };
 
 /// A frame whose dots have equal sub-pixel phases, because the spacing and the displacement are
-/// whole numbers of pixels.
+/// integer multiples of the pixel size.
 class AlikeFrame {
   public:
     AlikeFrame(const DrawnDot& dot, Vec2 phase, Rng& rng)
@@ -162,8 +162,8 @@ TEST(PixelBias, IsTakenFromSmallAndLargeDiscs) {
     }
 }
 
-/// An oblique motion blur tilts the dots. The centroid of a dot that is not at the centre of its
-/// window is then shifted along the other axis.
+/// An oblique motion blur tilts the image of a dot. If the dot is off the centre of its window
+/// along one axis, its centroid is then also shifted along the other axis.
 TEST(PixelBias, IsTakenFromObliquelyMovingDots) {
     const DotAt moving = [](Vec2 phase) { return moving_dot(disc(1), phase, kBlur_px, {1, -0.7}); };
     const MeanError error = typical_error(moving, 1.15F);

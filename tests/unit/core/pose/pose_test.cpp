@@ -240,8 +240,8 @@ struct HalfDark {
 
 TEST(Pose, DotsInTheDarkCountLess) {
     // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part, so the variance
-    // of a dot is 16 times as large there. The reference is a view with all dots in the light part.
-    // In comparison, the variance of the plain mean is 8.5 times as large, and that of the weighted
+    // of a dot in the dark part is 16 times as large. Compared with a view with all dots in the
+    // light part, the variance of the plain mean is 8.5 times as large, and that of the weighted
     // mean is 1.9 times as large.
     Rng rng(kSeed);
     const HalfDark paper;

@@ -26,7 +26,7 @@ struct RawImage {
 /// bits, because cameras with 10 and 12 bits use 16-bit encodings. In a Bayer mosaic, each pixel is
 /// replaced with a weighted mean of 3 x 3 pixels, in which the total weight of each colour is the
 /// same for all pixels. Throws dotpose::Error with a remedy if the encoding is not supported, or if
-/// there are fewer data than the image size requires.
+/// the image has less data than its size requires.
 dotpose::ImageView grey_view(const RawImage& image, dotpose::GreyImage& buffer);
 
 }  // namespace dotpose_ros
