@@ -84,7 +84,7 @@ class SheetEdits {
         std::array<double, 2> origin_mm{};
         bool operator==(const Values&) const = default;
     };
-    /// A change of one sheet. `after` is none if the sheet was removed.
+    /// A change to one sheet. `after` is none if the sheet was removed.
     struct SheetStep {
         std::optional<SheetEntry> before;
         std::optional<SheetEntry> after;

@@ -139,7 +139,7 @@ class ImageLocator {
 
     const LocateArguments& arguments_;
     Follower follower_;
-    std::unique_ptr<LargeMemory> scratch_;  ///< memory for finding advice on images without a fix
+    std::unique_ptr<LargeMemory> scratch_;  ///< memory for `advice_on`, for images without a fix
     std::optional<PictureFolder> pictures_;
 };
 

@@ -131,8 +131,9 @@ bool begin_reading(Tracking& tracking) {
 
 void read_ready_dots(Tracking& tracking) {
     const RowDirection direction = row_direction(tracking);
-    // The pixels of a dot may extend one row below the square of kHalf_px around its intersection,
-    // so one more row must be stored. After the last row of the image, all visible dots are ready.
+    // The pixels of a dot may extend one row below the square with half side kHalf_px around its
+    // intersection, so one more row must be stored. After the last row of the image, all visible
+    // dots are ready.
     const bool is_last = tracking.rows_taken == tracking.height_px;
     const int ahead = is_last ? 0 : kHalf_px + 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead) * 65536 + 32767;

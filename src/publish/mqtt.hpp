@@ -57,7 +57,7 @@ struct MqttOptions {
 /// ports are 1883 and 8883. Throws BadArgument if the URL is invalid.
 void parse_url(const std::string& url, MqttOptions& options);
 
-/// A connection and its thread: base class of publisher and subscriber.
+/// An MQTT connection and its thread. Base class of the publisher and the subscriber.
 class MqttClient {
   public:
     MqttClient(const MqttClient&) = delete;

@@ -65,7 +65,8 @@ struct ScreenOptions {
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
-/// Draws into the window and writes the file. Implemented by the module.
+/// Draws into the window and writes the video file. The OpenCV module, which is loaded at run time,
+/// implements this class (video/module.hpp).
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;

@@ -44,9 +44,9 @@ struct DrawOptions {
     /// `locate`. Default: the fix of the trace.
     std::optional<Fix> fix{};
     std::string title{};  ///< title of the caption, for example the name of the file, or empty
-    /// Place of the fix on a sheet. If given, the caption shows the pose in large numbers: in the
-    /// world or, if the world pose of the sheet is unknown, on the sheet. Otherwise, it shows the
-    /// pose in the pattern.
+    /// Place of the fix on a sheet. If given, the caption shows the pose in large type. This pose
+    /// is in world coordinates, or in sheet coordinates if the world pose of the sheet is unknown.
+    /// If no place is given, the caption shows the pose in the pattern.
     std::optional<SheetPlace> place{};
     /// Reason and remedy for the caption if there is no fix. Default: the message of the status.
     std::string reason{};

@@ -56,7 +56,7 @@ struct OverlayOptions {
     /// True to replace black ink with the other inks, because black ink is visible in infrared
     /// light.
     bool black_to_cmy = false;
-    double lighten = 0;  ///< fraction of the ink that is removed from the document, 0 to below 1
+    double lighten = 0;  ///< fraction of the ink that is removed from the document, in [0, 1)
     /// Maximum size of the uncompressed content of one page, in megabytes. The limit for all pages
     /// together is eight times as large. Processing a page needs a few times this amount of memory.
     /// Increase the limit for large maps.

@@ -71,7 +71,7 @@ inline constexpr int kSecondDot_4ths = 3;
 inline constexpr int kMaxCrowded_8ths = 3;
 }  // namespace sample_cells
 
-/// Search by runs of lines (decode/search).
+/// Search for the position in runs of consecutive lines (decode/search).
 namespace search {
 /// Maximum number of rolls to try per line.
 inline constexpr int kChoices = 8;

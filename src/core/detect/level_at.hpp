@@ -1,4 +1,4 @@
-// Level at: interpolates the grey level of an image at a sub-pixel point.
+// Level at a point: interpolates the grey level of an image at sub-pixel positions.
 #pragma once
 
 #include "dotpose/geometry.hpp"

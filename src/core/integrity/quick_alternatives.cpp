@@ -57,10 +57,12 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
 }
 
 /// Returns an upper bound on the expected odds of the alternatives in one set, as log2 in units of
-/// 2^-8. The bound treats all nonzero roll offsets as one state. In each step, only one combination
-/// of digits leads to a given roll offset. Its probability is at most the probability p that all
-/// digits are equal to those of the reading. A line that is not shared therefore multiplies the
-/// odds by at most p * `sum`, and by at most `best` (see `LineOdds`).
+/// 2^-8. The bound treats all nonzero roll offsets as one state. In each step, exactly one
+/// combination of digits leads from one roll offset to another. The probability of this combination
+/// is at most the probability p that all digits are equal to those of the reading. A line that is
+/// not shared therefore multiplies the odds by at most p times the summed odds of the other rolls
+/// (`LineOdds::sum_q8`). Because the probabilities add up to at most 1, the line also multiplies
+/// the odds by at most the odds of the best other roll (`LineOdds::best_q8`).
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);

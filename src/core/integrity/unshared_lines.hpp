@@ -26,7 +26,7 @@ enum class Sharing : std::uint8_t {
 class UnsharedLines {
   public:
     static constexpr int kMaxTableLines = 16;
-    /// Uses the largest table that has at most `max_lines` lines and at most as many lines as the
+    /// Uses the largest table that has neither more than `max_lines` lines nor more lines than the
     /// view.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int max_lines = kMaxTableLines);
     /// Variant that sums the losses with a kernel.
@@ -34,8 +34,8 @@ class UnsharedLines {
                   int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables that have at most `max_lines` lines and at most as many lines
-    /// as the view. This object uses the last of these tables.
+    /// Returns the number of tables that have neither more than `max_lines` lines nor more lines
+    /// than the view. This object uses the last of these tables.
     std::size_t tables() const { return row_ + 1; }
     /// Returns true if every alternative that differs from the reading only in `sequence` loses at
     /// least `loss_limit`.

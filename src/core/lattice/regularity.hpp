@@ -53,10 +53,10 @@ struct Regularity {
 };
 
 /// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` must fit the grid
-/// to the dots whose cells are at most `reach_cells` from the origin, and set `found`. At each
-/// reach, the fit is repeated until enough dots are near an intersection, but at most `max_rounds`
-/// times, because each fit assigns more dots to the correct cells. The reach is then extended, even
-/// if too few dots are near an intersection. Returns false if `fit` returns false.
+/// to the dots whose cells are at most `reach_cells` from the origin, and set `found`. Each
+/// fit assigns more dots to the correct cells. At each reach, the fit is therefore repeated until
+/// enough dots are near an intersection, but at most `max_rounds` times. The reach is then
+/// extended, even if too few dots are near an intersection. Returns false if `fit` returns false.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {

@@ -30,14 +30,15 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
 /// top to bottom. Points are in px relative to the image centre. Row 0 is the middle row, and shows
 /// the scene at time 0.
 ///
-/// While the middle row is read, the image of a scene point p moves by drift + rad_per_row (p -
+/// While the middle row is read, the image of a scene point p moves by drift + rad_per_row * (p -
 /// axis)' px per row, where the prime denotes a rotation by 90 degrees. The scene point p appears
 /// in the image at
 ///
-///     seen = axis + R(row rad_per_row) (p - axis) + way(row), where row = seen.y.
+///     seen = axis + R(row * rad_per_row) * (p - axis) + displacement(row), where row = seen.y.
 ///
-/// R(a) is the rotation by the angle a, and way(row) is the displacement of the scene point `axis`.
-/// Without the rotation, p would appear at p + row drift, which is an affine map. The member
+/// R(a) is the rotation by the angle a. displacement(row) is the distance that the scene point
+/// `axis` has moved since row 0. Without the rotation, p would appear at the point q with q = p +
+/// q.y * drift. The map from p to q is affine. The member
 /// functions convert between the images with and without rotation.
 struct ReadoutTurn {
     float rad_per_row = 0;
@@ -47,7 +48,7 @@ struct ReadoutTurn {
     /// Returns the point of the image without rotation that shows the same scene point as `seen`.
     FloatVec without_turn(FloatVec seen) const {
         const float row = seen.y;
-        const FloatVec moved = way(row);
+        const FloatVec moved = displacement(row);
         const FloatVec turned{seen.x - axis.x - moved.x, seen.y - axis.y - moved.y};
         const FloatVec p = rotated(turned, small_unit(-rad_per_row * row));
         const float still_row = (p.y + axis.y) / (1 - drift.y);
@@ -64,7 +65,7 @@ struct ReadoutTurn {
                          still.y - still.y * drift.y - axis.y};
         for (;; --steps) {
             const FloatVec turned = rotated(p, small_unit(rad_per_row * row));
-            const FloatVec moved = way(row);
+            const FloatVec moved = displacement(row);
             const FloatVec seen{axis.x + moved.x + turned.x, axis.y + moved.y + turned.y};
             if (steps == 0) return seen;
             const float fall = drift.y + rad_per_row * (seen.x - axis.x);
@@ -76,7 +77,7 @@ struct ReadoutTurn {
   private:
     /// Returns the displacement of the scene point `axis` between the readout of row 0 and the
     /// readout of `row`. The direction of motion turns with the scene, so the path is an arc.
-    FloatVec way(float row) const {
+    FloatVec displacement(float row) const {
         const float half = rad_per_row * row / 2;
         const FloatVec chord = rotated(drift, small_unit(half));
         const float length = row * (1 - half * half / 6);

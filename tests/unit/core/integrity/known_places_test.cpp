@@ -172,8 +172,9 @@ TEST(KnownPlaces, UnknownSheetsMayHaveTheSameRows) {
         return best ? wrong_at(block, sheets, *best) : 1;
     };
     // The view contains 5 x 5 cells. An unknown sheet may have the same rolls along one axis and,
-    // by chance, also the same 25 bits of the other axis. The factor of 4 accounts for the two
-    // axes, and for the two positions with each roll.
+    // by chance, also the same 25 bits along the other axis. Along each axis, the sheet is longer
+    // than the period of 63 cells, so two positions can have the same roll. The factor of 4 is the
+    // number of axes times this number of positions.
     EXPECT_GE(wrong_if(OtherSheets::possible), 4 * std::exp2(-25.0));
     EXPECT_LT(wrong_if(OtherSheets::impossible), std::exp2(-25.0));
 }
