@@ -38,8 +38,8 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
 ///
 /// R(a) is the rotation by the angle a. displacement(row) is the distance that the scene point
 /// `axis` has moved since row 0. Without the rotation, p would appear at the point q with q = p +
-/// q.y * drift. The map from p to q is affine. The member
-/// functions convert between the images with and without rotation.
+/// q.y * drift. The map from p to q is affine. The member functions convert between the images
+/// with and without rotation.
 struct ReadoutTurn {
     float rad_per_row = 0;
     FloatVec axis;   ///< fixed point of the rotation
