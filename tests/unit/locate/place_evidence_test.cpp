@@ -44,7 +44,8 @@ std::optional<core::TurnedPlace> found(const core::BitBlock& block, CodeVariant 
     std::array<core::ScoredLine, 128> scores{};
     core::WorkLimit work(0);
     return core::find_turned_place(
-        {core::kernels(), options, known, earlier, scores, nullptr, work}, block);
+        {core::kernels(), options, known, earlier, scores, nullptr, work}, block,
+        core::PlaceSearch::brief);
 }
 
 Place random_place(Rng& rng) {
