@@ -80,16 +80,15 @@ bool has_common_phase(const FloatPlane& p, float max_off_px) {
 }
 
 /// Returns half the side of the window around an intersection, in spacings. The window of a square
-/// cell includes the dot at each of its four places, but not the dots of other cells. In a grid that
-/// a rolling shutter stretches, the window is reduced with the shorter side of the cell.
+/// cell includes the dot at each of its four places, but not the dots of other cells. In a grid
+/// that a rolling shutter stretches, the window is reduced with the shorter side of the cell.
 float window_reach(const FloatPlane& p) {
     constexpr float kReach = 0.36F;
     const float spacing = spacing_px(p);
     // The determinant of the plane is 1 / spacing^2, so the sides of a cell are spacing^2 times the
     // lengths of the rows of its matrix.
-    const float shorter_side =
-        spacing * std::sqrt(std::min(p.du_x * p.du_x + p.dv_x * p.dv_x,
-                                     p.du_y * p.du_y + p.dv_y * p.dv_y));
+    const float shorter_side = spacing * std::sqrt(std::min(p.du_x * p.du_x + p.dv_x * p.dv_x,
+                                                            p.du_y * p.du_y + p.dv_y * p.dv_y));
     return shorter_side < tuned::kMinSideOfSquare ? shorter_side * kReach : kReach;
 }
 

@@ -110,16 +110,17 @@ class PatchSearch {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;
         view.is_skewed = is_skewed;
-        if (!find_grid(frame_.kernels, patch_, view, grid)) return false;
-        if (!is_skewed) return true;
+        bool is_found = find_grid(frame_.kernels, patch_, view, grid);
+        if (!is_skewed) return is_found;
         for (const float central_dots : tuned::kOtherCentralDots) {
-            if (!is_probably_false(grid)) break;
+            if (is_found && !is_probably_false(grid)) break;
             view.central_dots = central_dots;
             PatchGrid other;
-            if (find_grid(frame_.kernels, patch_, view, other) && other.agreement > grid.agreement)
-                grid = other;
+            if (!find_grid(frame_.kernels, patch_, view, other)) continue;
+            if (!is_found || other.agreement > grid.agreement) grid = other;
+            is_found = true;
         }
-        return true;
+        return is_found;
     }
 
     /// Tests the hypothesis that is decoded from a grid of the patch at the image centre.

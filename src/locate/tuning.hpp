@@ -12,14 +12,14 @@ namespace patch_grid {
 /// Maximum variance of the offset between a dot and the nearest place of its cell, per axis, in
 /// spacings^2, of a grid that is probably correct. In a false grid, the offsets are evenly
 /// distributed over discs with a radius of 0.18 spacings, so their variance is 0.008, or 0.0024 and
-/// more after perspective is fitted. In 1,000 nominal frames, it is less than 0.002 in all, and less
-/// than 0.001 in 996. In hard frames, correct grids also exceed 0.002, because the dots are printed
-/// inaccurately.
+/// more after perspective is fitted. In 1,000 nominal frames, it is less than 0.002 in all, and
+/// less than 0.001 in 996. In hard frames, correct grids also exceed 0.002, because the dots are
+/// printed inaccurately.
 inline constexpr float kMaxVariance = 0.002F;
 /// Maximum number of dots in a patch for a thorough search for the place. With more dots, enough
-/// lines are long, and the brief search finds the place. Of 1,000 frames of 188 x 120 px whose scene
-/// moves by 60 % of the image height during the readout, 892 are located with a thorough search, and
-/// 845 without it.
+/// lines are long, and the brief search finds the place. Of 1,000 frames of 188 x 120 px whose
+/// scene moves by 60 % of the image height during the readout, 892 are located with a thorough
+/// search, and 845 without it.
 inline constexpr int kMaxDotsForThoroughSearch = 144;
 /// A place agrees with the bits if, on each axis, at most one bit in kMinBitsPerError is wrong.
 inline constexpr int kMinBitsPerError = 16;
