@@ -183,7 +183,7 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                  camera});
             // If the scene moves in the direction of the readout, the image contains fewer rows of
             // cells. The small frames of devices may then contain too few.
-            limits.back().is_held = percent == 10 || !is_device;
+            limits.back().is_held = percent <= 30 || !is_device;
         }
         for (const int degrees : {2, 10, 20, 40, 60}) {
             limits.push_back(
@@ -194,7 +194,6 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                      shot.camera.readout_turn_rad = sign * degrees * std::numbers::pi / 180;
                  },
                  camera});
-            limits.back().is_held = degrees < 40 || !is_device;
         }
         limits.push_back({std::string("rolling shutter, moved by 30 % of the image height and "
                                       "turned by 10 degrees while it reads the rows") +

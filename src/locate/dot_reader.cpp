@@ -79,6 +79,19 @@ bool has_common_phase(const FloatPlane& p, float max_off_px) {
            (is_whole(by * p.du_y) && is_whole(by * p.du_x));
 }
 
+/// Returns half the side of the window around an intersection, in spacings. The window of a square
+/// cell includes the dot at each of its four places, but not the dots of other cells. In a grid
+/// that a rolling shutter stretches, the window is reduced with the shorter side of the cell.
+float window_reach(const FloatPlane& p) {
+    constexpr float kReach = 0.36F;
+    const float spacing = spacing_px(p);
+    // The determinant of the plane is 1 / spacing^2, so the sides of a cell are spacing^2 times the
+    // lengths of the rows of its matrix.
+    const float shorter_side = spacing * std::sqrt(std::min(p.du_x * p.du_x + p.dv_x * p.dv_x,
+                                                            p.du_y * p.du_y + p.dv_y * p.dv_y));
+    return shorter_side < tuned::kMinSideOfSquare ? shorter_side * kReach : kReach;
+}
+
 }  // namespace
 
 bool can_sample_directly(const Hypothesis& hypothesis) {
@@ -97,7 +110,8 @@ bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
 }
 
 WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
-    return {spacing_px_, 0.36F, hypothesis.dot_contrast_q8 * kContrastCut_q8 >> 8};
+    return {spacing_px_, window_reach(hypothesis.pattern_from_image),
+            hypothesis.dot_contrast_q8 * kContrastCut_q8 >> 8};
 }
 
 BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block) {

@@ -52,6 +52,7 @@ class PatchSearch {
     /// Searches patches of increasing size around the image centre. Then searches patches that
     /// cover the whole image. Sets `is_mirrored` if a patch shows the mirrored code.
     Confirmation search(bool& is_mirrored) {
+        tries_left_ = tuned::kMaxTries;
         for (const int scale : {1, 2, 4}) {
             if (!place_patch_in_middle(frame_.image, scale, patch_)) break;
             const Confirmation confirmation = search_middle();
@@ -73,31 +74,59 @@ class PatchSearch {
   private:
     /// Searches the patch at the image centre for a square grid. If there is no plausible
     /// hypothesis, also searches for a grid of arbitrary parallelograms, because a rolling shutter
-    /// shears and stretches moving scenes.
+    /// shears and stretches moving scenes. Does the same if the square grid is probably false and
+    /// its hypothesis is uncertain.
     Confirmation search_middle() {
         if (!find_patch_dots(frame_, patch_, fix_)) return Confirmation::implausible;
         measurement_.shows_too_few_cells = shows_too_few_dots();
         if (measurement_.shows_too_few_cells) return Confirmation::implausible;
         undistort(frame_.options.lens, middle_of(patch_, frame_.image), patch_.dots);
-        const Confirmation square = test_grid(false);
-        const bool may_be_skewed =
-            square == Confirmation::implausible && !measurement_.shows_too_few_cells;
-        return may_be_skewed ? test_grid(true) : square;
+        PatchGrid grid;
+        Confirmation square = Confirmation::implausible;
+        if (find_middle_grid(false, grid)) {
+            // The spacing of a skewed grid is not reliable, because scattered dots may form such a
+            // grid with any spacing. It is therefore not tested in this way.
+            measurement_.shows_too_few_cells = shows_too_few_cells(grid.grid_from_image);
+            if (measurement_.shows_too_few_cells) return Confirmation::implausible;
+            square = test_grid(grid);
+        }
+        const bool is_false = square == Confirmation::uncertain && is_probably_false(grid);
+        if (square != Confirmation::implausible && !is_false) return square;
+        if (!find_middle_grid(true, grid)) return square;
+        if (is_false) --tries_left_;
+        const Confirmation skewed = test_grid(grid);
+        return skewed == Confirmation::implausible ? square : skewed;
     }
 
-    /// Finds the grid in the patch at the image centre, and tests its hypothesis. If `is_skewed` is
-    /// true, cells may be arbitrary parallelograms. Otherwise, cells must be approximately square.
-    Confirmation test_grid(bool is_skewed) {
+    static bool is_probably_false(const PatchGrid& grid) {
+        return grid.variance > tuning::patch_grid::kMaxVariance;
+    }
+
+    /// Finds the grid in the patch at the image centre. If `is_skewed` is true, cells may be
+    /// arbitrary parallelograms. Otherwise, cells must be approximately square. If a skewed grid is
+    /// probably false, because the central dots are too few for its waves or are displaced by a
+    /// rotation, also tries other numbers of central dots.
+    bool find_middle_grid(bool is_skewed, PatchGrid& grid) const {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;
         view.is_skewed = is_skewed;
-        PatchGrid grid;
-        if (!find_grid(frame_.kernels, patch_, view, grid)) return Confirmation::implausible;
-        // The spacing of a skewed grid is not reliable, because scattered dots may form such a grid
-        // with any spacing.
-        measurement_.shows_too_few_cells = !is_skewed && shows_too_few_cells(grid.grid_from_image);
-        if (measurement_.shows_too_few_cells) return Confirmation::implausible;
-        auto hypothesis = read_grid(patch_, grid, middle_of(patch_, frame_.image), evidence_);
+        bool is_found = find_grid(frame_.kernels, patch_, view, grid);
+        if (!is_skewed) return is_found;
+        for (const float central_dots : tuned::kOtherCentralDots) {
+            if (is_found && !is_probably_false(grid)) break;
+            view.central_dots = central_dots;
+            PatchGrid other;
+            if (!find_grid(frame_.kernels, patch_, view, other)) continue;
+            if (!is_found || other.agreement > grid.agreement) grid = other;
+            is_found = true;
+        }
+        return is_found;
+    }
+
+    /// Tests the hypothesis that is decoded from a grid of the patch at the image centre.
+    Confirmation test_grid(const PatchGrid& grid) {
+        auto hypothesis = read_grid(patch_, grid, middle_of(patch_, frame_.image), evidence_,
+                                    PlaceSearch::thorough);
         if (!hypothesis) return Confirmation::implausible;
         move_origin_to_centre(*hypothesis);
         // If the patch is the whole image, the grid is fitted to all dots, and predicts each dot to
@@ -136,12 +165,12 @@ class PatchSearch {
     /// Searches the whole image. If the search fails, repeats it with thresholds for pale dots
     /// among graphics.
     Confirmation search_everywhere() {
-        tries_left_ = tuned::kMaxTries;
+        const int tries = tries_left_;
         for (const DotTiles tiles : {DotTiles::median, DotTiles::pale}) {
             dot_tiles_ = tiles;
             if (search_patches()) return Confirmation::ok;
         }
-        return tries_left_ < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
+        return tries_left_ < tries ? Confirmation::uncertain : Confirmation::implausible;
     }
 
     /// Searches adjacent patches that cover the image. The patch size doubles from round to round.

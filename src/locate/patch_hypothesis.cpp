@@ -47,12 +47,15 @@ bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix, DotTiles tiles)
 }
 
 std::optional<Hypothesis> read_grid(const Patch& patch, const PatchGrid& grid, FloatVec from_centre,
-                                    const PlaceEvidence& evidence) {
+                                    const PlaceEvidence& evidence, PlaceSearch search) {
     BitBlock block;
     evidence.kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
                                 block.rows);
     if (!join_earlier(grid.grid_from_image, from_centre, evidence.earlier, block)) return {};
-    const auto found = find_turned_place(evidence, block);
+    namespace tuned = tuning::patch_grid;
+    if (grid.variance > tuned::kMaxVariance || patch.dots.count > tuned::kMaxDotsForThoroughSearch)
+        search = PlaceSearch::brief;
+    const auto found = find_turned_place(evidence, block, search);
     if (!found) return {};
     return Hypothesis{.pattern_from_image = turned(found->quarters, grid.grid_from_image),
                       .from_centre = from_centre,
@@ -65,7 +68,7 @@ std::optional<Hypothesis> read_hypothesis(const Patch& patch, const PatchView& v
                                           FloatVec from_centre, const PlaceEvidence& evidence) {
     PatchGrid grid;
     if (!find_grid(evidence.kernels, patch, view, grid)) return {};
-    return read_grid(patch, grid, from_centre, evidence);
+    return read_grid(patch, grid, from_centre, evidence, PlaceSearch::brief);
 }
 
 }  // namespace dotpose::core

@@ -36,12 +36,13 @@ bool place_patch_in_middle(const ImageView& image, int scale, Patch& patch);
 bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix, DotTiles tiles = DotTiles::median);
 
 /// Finds a place in the code from the dots and the grid of a patch. The dots, the grid and the
-/// hypothesis are relative to `from_centre`. Returns nullopt if no place is found.
+/// hypothesis are relative to `from_centre`. A thorough search is made only if the grid is probably
+/// correct and the patch has few dots, because it takes long. Returns nullopt if no place is found.
 std::optional<Hypothesis> read_grid(const Patch& patch, const PatchGrid& grid, FloatVec from_centre,
-                                    const PlaceEvidence& evidence);
+                                    const PlaceEvidence& evidence, PlaceSearch search);
 
-/// Finds a grid in the dots of a patch, and its place in the code (see `read_grid`). Returns
-/// nullopt if no grid or no place is found.
+/// Finds a grid in the dots of a patch, and its place in the code by a brief search (see
+/// `read_grid`). Returns nullopt if no grid or no place is found.
 std::optional<Hypothesis> read_hypothesis(const Patch& patch, const PatchView& view,
                                           FloatVec from_centre, const PlaceEvidence& evidence);
 

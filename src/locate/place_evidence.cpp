@@ -1,12 +1,15 @@
 #include "locate/place_evidence.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "core/decode/exact_lines.hpp"
 #include "core/integrity/certainty.hpp"
 #include "core/integrity/coded_block.hpp"
 #include "core/integrity/known_places.hpp"
 #include "locate/on_sheets.hpp"
+#include "locate/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -60,9 +63,49 @@ bool is_certain_together(const PlaceEvidence& evidence, const Place& place,
     return true;
 }
 
+/// Returns true if at most one bit in kMinBitsPerError of an upright block is wrong, on each axis.
+bool agrees_with_code(CodeVariant code, const Place& place, const BitBlock& upright) {
+    const auto [x, y] = compared_with_code(code, place, upright);
+    constexpr int kMinBits = tuning::patch_grid::kMinBitsPerError;
+    return kMinBits * x.wrong() <= x.bits() && kMinBits * y.wrong() <= y.bits();
+}
+
+/// Returns true if a place may agree with the bits of an axis (see `agrees_with_code`). `bits` is
+/// the number of bits of the axis. Each line agrees best at its best roll, so no place has a higher
+/// score than all best rolls together.
+bool may_agree(const Lines& lines, int bits) {
+    constexpr int kWeight = 127;
+    int max_score = 0;
+    for (const ScoredLine& line : lines.all)
+        max_score += line.best.score;
+    // A wrong bit decreases the score by the weights of two bits.
+    constexpr int kMinBits = tuning::patch_grid::kMinBitsPerError;
+    return kMinBits * max_score >= (kMinBits - 2) * kWeight * bits;
+}
+
+/// Searches all quarter turns for a place that agrees with the bits, beginning at `first_quarters`.
+std::optional<TurnedPlace> find_agreeing_place(const PlaceEvidence& evidence, const BitBlock& block,
+                                               int first_quarters) {
+    const CodeVariant code = evidence.options.code;
+    int bits = 0;
+    for (const std::uint64_t valid : block.rows.valid)
+        bits += std::popcount(valid);
+    for (int i = 0; i < 4; ++i) {
+        TurnedPlace found{(first_quarters + i) % 4, {}};
+        const BitBlock upright = turned(found.quarters, block);
+        const BlockLines lines = score_block(evidence.kernels, upright, evidence.line_scores);
+        if (may_agree(lines.columns, bits) && may_agree(lines.rows, bits) &&
+            find_place_thoroughly(code, lines, found.place) &&
+            agrees_with_code(code, found.place, upright))
+            return found;
+    }
+    return {};
+}
+
 }  // namespace
 
-std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block) {
+std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block,
+                                             PlaceSearch search) {
     const auto& [kernels, options, known, earlier, line_scores, others, work] = evidence;
     TurnedPlace found{likeliest_turn(kernels, block), {}};
     const BitBlock upright = turned(found.quarters, block);
@@ -72,10 +115,15 @@ std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, cons
             return TurnedPlace{on_sheet->quarters, on_sheet->place};
         if (known.are_all()) return {};
     }
-    if (is_exact ||
-        find_place(options.code, score_block(kernels, upright, line_scores), found.place))
-        return found;
-    return {};
+    if (is_exact) return found;
+    const bool is_found =
+        find_place(options.code, score_block(kernels, upright, line_scores), found.place);
+    if (search == PlaceSearch::thorough &&
+        !(is_found && agrees_with_code(options.code, found.place, upright))) {
+        if (const auto agreeing = find_agreeing_place(evidence, block, found.quarters))
+            return agreeing;
+    }
+    return is_found ? std::optional(found) : std::nullopt;
 }
 
 bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, EarlierBits& earlier,

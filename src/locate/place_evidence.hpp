@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -38,9 +39,19 @@ struct TurnedPlace {
     Place place;
 };
 
+/// Time that the search for a place may take.
+enum class PlaceSearch : std::uint8_t {
+    brief,  ///< only at the likeliest quarter turn
+    /// If the place that the brief search finds does not agree with the bits, searches thoroughly,
+    /// at all quarter turns, for a place that does. In a block of few cells, many lines are too
+    /// short to determine their rolls, or to vote for a quarter turn.
+    thorough,
+};
+
 /// Finds the place of a block in the code. Prefers places on known sheets. Returns nullopt if no
 /// place is found, or if only known sheets are possible and the place is not on a known sheet.
-std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block);
+std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block,
+                                             PlaceSearch search);
 
 /// Outside a series of frames, does nothing and returns true. Within a series, stores the bits of
 /// the current frame and returns true. If frames are being read together, instead adds the bits of

@@ -209,9 +209,10 @@ std::optional<Hypothesis> find_turning_hypothesis(const Frame& frame, const Patc
         if (size > max) break;
         const bool is_grid = i < 0 ? search.climb(turn.rad_per_row, turn.drift)
                                    : search.climb(i % 2 == 0 ? size : -size, {});
-        if (!is_grid || search.grid().variance > tuned::kMaxVariance) continue;
+        if (!is_grid || search.grid().variance > tuning::patch_grid::kMaxVariance) continue;
         --climbs_left;
-        auto hypothesis = read_grid(patch, search.grid(), middle_of(patch, frame.image), evidence);
+        auto hypothesis = read_grid(patch, search.grid(), middle_of(patch, frame.image), evidence,
+                                    PlaceSearch::thorough);
         if (!hypothesis) continue;
         move_origin_to_centre(*hypothesis);
         turn = search.turn();

@@ -95,6 +95,19 @@ int backwardness(const Kernels& kernels, const BitLines& lines) {
     return sum;
 }
 
+/// Finds the place of cell (0, 0). `find` is the search for the position of an axis.
+bool find_place_with(decltype(find_axis) find, CodeVariant code, const BlockLines& lines,
+                     Place& place) {
+    constexpr int kMinLines = 6;
+    if (lines.columns.count() < kMinLines || lines.rows.count() < kMinLines) return false;
+    AxisReading x;
+    AxisReading y;
+    if (find(code, lines.columns, x) != Status::ok || find(code, lines.rows, y) != Status::ok)
+        return false;
+    place = place_of_middle(code, lines.first_column, lines.first_row, x, y);
+    return true;
+}
+
 Lines score_lines(const Kernels& kernels, const BitLines& lines, const LineRange& which,
                   int first_cell, std::span<ScoredLine> storage) {
     const auto count = static_cast<std::size_t>(which.count);
@@ -169,16 +182,11 @@ Place place_of_middle(CodeVariant code, int first_column, int first_row, const A
 }
 
 bool find_place(CodeVariant code, const BlockLines& lines, Place& place) {
-    constexpr int kMinLines = 6;
-    if (lines.columns.count() < kMinLines || lines.rows.count() < kMinLines) return false;
-    AxisReading x;
-    AxisReading y;
-    if (find_axis_briefly(code, lines.columns, x) != Status::ok ||
-        find_axis_briefly(code, lines.rows, y) != Status::ok) {
-        return false;
-    }
-    place = place_of_middle(code, lines.first_column, lines.first_row, x, y);
-    return true;
+    return find_place_with(find_axis_briefly, code, lines, place);
+}
+
+bool find_place_thoroughly(CodeVariant code, const BlockLines& lines, Place& place) {
+    return find_place_with(find_axis, code, lines, place);
 }
 
 }  // namespace dotpose::core

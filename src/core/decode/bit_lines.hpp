@@ -67,4 +67,9 @@ Place place_of_middle(CodeVariant code, int first_column, int first_row, const A
 /// columns or rows, or if `find_axis_briefly` finds no position on one of the axes.
 bool find_place(CodeVariant code, const BlockLines& lines, Place& place);
 
+/// Variant of `find_place` that tries more combinations of rolls (see `find_axis`). It also finds
+/// the places of blocks in which most lines are too short to determine their rolls, but takes many
+/// times as long.
+bool find_place_thoroughly(CodeVariant code, const BlockLines& lines, Place& place);
+
 }  // namespace dotpose::core

@@ -1,10 +1,15 @@
 // Tests the first attempt on frames of a rolling shutter, in which the scene moves while the rows
 // are read.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "core/decode/bit_lines.hpp"
+#include "core/integrity/certainty.hpp"
 #include "shots.hpp"
 
 namespace dotpose::core_test::rolling_shutter_test {
@@ -44,6 +49,81 @@ TEST(RollingShutter, FramesAreLocatedAtTheFirstAttemptForTheMiddleRow) {
         }
         EXPECT_GE(located, kDirections - 1) << motion;
     }
+}
+
+void set_bit(core::BitLines& lines, int line, int cell, int bit) {
+    const auto i = static_cast<std::size_t>(line + core::BitBlock::kMiddle);
+    lines.valid[i] |= std::uint64_t{1} << (cell + core::BitBlock::kMiddle);
+    lines.bits[i] |= static_cast<std::uint64_t>(bit) << (cell + core::BitBlock::kMiddle);
+}
+
+/// Returns the bits of the dots that are completely in the image. `place` is the place of cell (0,
+/// 0) of the block.
+core::BitBlock bits_in_view(const Shot& shot, const Place& place) {
+    constexpr int kReach = 30;
+    constexpr double kMargin_px = 2;
+    const Pattern& pattern = shot.page.pattern;
+    const Projection projection(shot.camera, shot.pose);
+    core::BitBlock block;
+    for (int j = -kReach; j < kReach; ++j) {
+        for (int i = -kReach; i < kReach; ++i) {
+            const Place at = moved(pattern.code, place, i, j);
+            const Symbol symbol = symbol_at(pattern.code, at.cell, at.section);
+            const Vec2 seen =
+                projection.pixel_from_offset({(i - shot.pose.fraction_x) * pattern.spacing_mm +
+                                                  dx(symbol) * pattern.displacement_mm,
+                                              (j - shot.pose.fraction_y) * pattern.spacing_mm +
+                                                  dy(symbol) * pattern.displacement_mm});
+            if (std::min(seen.x, seen.y) < kMargin_px ||
+                seen.x > shot.camera.width_px - 1 - kMargin_px ||
+                seen.y > shot.camera.height_px - 1 - kMargin_px)
+                continue;
+            set_bit(block.columns, i, j, x_bit(symbol));
+            set_bit(block.rows, j, i, y_bit(symbol));
+        }
+    }
+    return block;
+}
+
+/// Returns true if the dots in view, read without an error, make the position certain.
+bool carries_position(const Shot& shot) {
+    const CodeVariant code = shot.page.pattern.code;
+    const Place place{shot.pose.cell, shot.page.pattern.section};
+    const core::BitBlock block = bits_in_view(shot, place);
+    std::array<core::ScoredLine, 128> scores{};
+    const auto bits = core::compared_with_code(code, place, block);
+    Fix fix;
+    return core::is_certain(core::kernels(),
+                            core::evidence_of(core::kernels(), code, place, block, bits, scores),
+                            code, IntegrityOptions{}, fix);
+}
+
+TEST(RollingShutter, SmallFramesAreLocatedAtTheFirstAttemptIfTheirDotsCarryThePosition) {
+    DeviceOptions options;
+    options.effort = Effort::once;
+    Locator locator(options);
+    constexpr int kFrames = 200;
+    const ShotSize size;
+    int carrying = 0;
+    int missed = 0;
+    for (int i = 0; i < kFrames; ++i) {
+        SCOPED_TRACE(testing::Message() << "shot " << i);
+        Shot shot = shot_of(size, kSeed, static_cast<std::uint64_t>(i));
+        // Downwards within 45 degrees. The image then contains half of the usual cells or fewer.
+        const double angle_rad = std::numbers::pi / 4 * (1 + 2 * (i + 0.5) / kFrames);
+        shot.camera.readout_px = {0.6 * size.height_px * std::cos(angle_rad),
+                                  0.6 * size.height_px * std::sin(angle_rad)};
+        const Fix fix = locator.locate(render(shot).view());
+        const bool is_located = fix.status == Status::ok;
+        if (is_located) {
+            EXPECT_TRUE(is_right(fix, shot));
+        }
+        if (!carries_position(shot)) continue;
+        ++carrying;
+        missed += is_located ? 0 : 1;
+    }
+    EXPECT_GE(carrying, kFrames / 3);
+    EXPECT_LE(100 * missed, carrying);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Tests frames of a rolling shutter whose scene turns while the rows are read: single frames, and
 // drives with predictions from the last fix.
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -77,6 +79,28 @@ TEST(Turning, TheSceneMayAlsoMove) {
     constexpr int kFrames = 10;
     EXPECT_EQ(locate_turned(kLarge, 4, {0, -0.6}, kFrames).located, kFrames);
     EXPECT_EQ(locate_turned(kLarge, 20, {0.3, 0.2}, kFrames).located, kFrames);
+}
+
+TEST(Turning, AFalseGridDoesNotEndTheSearchOnKnownSheets) {
+    constexpr int kFrames = 64;
+    constexpr std::uint32_t kReach = 200;
+    Locator locator(once());
+    int located = 0;
+    for (int i = 0; i < kFrames; ++i) {
+        const Shot shot = turned_shot(kSmall, i % 2 == 0 ? -20 : 20, {}, i);
+        const Cell& cell = shot.pose.cell;
+        const std::array sheet{KnownRegion{CodeVariant::anoto,
+                                           shot.page.pattern.section,
+                                           {cell.x - kReach, cell.y - kReach},
+                                           2 * kReach,
+                                           2 * kReach}};
+        ASSERT_EQ(locator.set_known(sheet), Status::ok);
+        const Fix fix = locator.locate(render(shot).view());
+        if (fix.status != Status::ok) continue;
+        ++located;
+        EXPECT_TRUE(is_right(fix, shot)) << i;
+    }
+    EXPECT_EQ(located, kFrames);
 }
 
 TEST(Turning, TheFixOfAStillSceneHasNoTurn) {
