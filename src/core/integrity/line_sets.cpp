@@ -4,11 +4,22 @@
 
 namespace dotpose::core {
 
-void make_relative(std::size_t line_count, int first_shared, RollOffsets& offsets) {
+void set_relative_offsets(const RankedLines& lines, std::size_t sequence, std::uint32_t place,
+                          int shared, RollOffsets& offsets) {
+    const std::uint8_t* const own =
+        lines.ratios.basis[sequence].rolls + lines.ratios.places[sequence];
+    const std::uint8_t* const alternative = lines.ratios.basis[sequence].rolls + place;
     const auto back =
-        static_cast<std::uint8_t>(kSections - offsets[static_cast<std::size_t>(first_shared)]);
-    for (std::size_t line = 0; line < line_count; line += sizeof(Bytes)) {
-        const Bytes relative = modulo_sections(bytes_at(offsets, line) + back);
+        static_cast<std::uint8_t>(kSections - roll_offset(own[shared], alternative[shared]));
+    // The loop also accesses elements beyond the last line, like `RankedLines::set_offsets`.
+    for (std::size_t line = 0; line < static_cast<std::size_t>(lines.count());
+         line += sizeof(Bytes)) {
+        Bytes from;
+        Bytes to;
+        std::memcpy(&from, own + line, sizeof from);
+        std::memcpy(&to, alternative + line, sizeof to);
+        const Bytes offset = to - from + (static_cast<Bytes>(to < from) & kSections);
+        const Bytes relative = modulo_sections(offset + back);
         std::memcpy(offsets.data() + line, &relative, sizeof relative);
     }
 }

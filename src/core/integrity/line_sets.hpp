@@ -35,8 +35,10 @@ inline Bytes modulo_sections(Bytes offsets) {
     return offsets - (static_cast<Bytes>(offsets >= kSections) & kSections);
 }
 
-/// Subtracts the roll offset of the line `first_shared` from the roll offsets of all lines.
-void make_relative(std::size_t line_count, int first_shared, RollOffsets& offsets);
+/// Sets the roll offsets of the single alternative at `place` in `sequence`, at the shift at which
+/// it shares the line `shared`.
+void set_relative_offsets(const RankedLines& lines, std::size_t sequence, std::uint32_t place,
+                          int shared, RollOffsets& offsets);
 
 /// The places at which a position and the reading have the same digit in a step. Two positions
 /// share two adjacent lines only if, in the step between these lines, they have the same digit in

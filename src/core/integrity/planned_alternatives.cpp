@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <span>
 
 #include "core/integrity/line_sets.hpp"
@@ -21,9 +22,9 @@ constexpr float kPlanMargin = 4;
 /// the odds at this loss.
 constexpr int kSkippedBits = 46;
 
-/// Keys of places: the changes of the roll offset across the first two gaps, combined as kKeyStep *
-/// first + second. Sums of two keys are also valid indices, because the elements of each key are
-/// below kSections.
+/// Keys of places: the changes of the roll offset from the first shared line to the ends of the
+/// first two gaps, combined as kKeyStep * first + second. Sums of two keys are also valid indices,
+/// because the elements of each key are below kSections.
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
@@ -38,12 +39,10 @@ struct Pattern {
                 unshared[n] = unshared[n - 1];
             unshared[n] = static_cast<std::uint8_t>(line);
         }
-        packed_count = std::min(unshared_count, sizeof(std::uint64_t));
     }
     LineSet shared;
     Gaps gaps;
     std::size_t unshared_count = 0;
-    std::size_t packed_count;  ///< number of lines whose offsets are packed (`KeyedPlaces::packed`)
     std::array<std::uint8_t, kMaxLines> unshared;
 };
 
@@ -52,55 +51,34 @@ class KeyedPlaces {
   public:
     /// Lists the places. If `negates` is true, computes the keys from the negated changes.
     void list(const RankedLines& lines, std::size_t sequence, const PlaceBits& places,
-              const Pattern& pattern, bool negates) {
+              const Gaps& gaps, bool negates) {
         count_ = 0;
         for (std::size_t word = 0; word < places.size(); ++word) {
             for (std::uint32_t rest = places[word]; rest != 0; rest &= rest - 1) {
-                const auto place = static_cast<std::uint32_t>(
+                places_[count_] = static_cast<std::uint8_t>(
                     32 * word + static_cast<std::size_t>(std::countr_zero(rest)));
-                lines.set_offsets(sequence, place, offsets_[count_]);
-                is_other_[count_] = place != lines.ratios.places[sequence] ? 1 : 0;
-                set_key(pattern.gaps, negates);
-                make_relative(static_cast<std::size_t>(lines.count()), pattern.gaps.before[0],
-                              offsets_[count_]);
-                pack(pattern);
-                ++count_;
+                RollOffsets& offsets = offsets_[count_];
+                set_relative_offsets(lines, sequence, places_[count_], gaps.before[0], offsets);
+                const auto change = [&](std::size_t gap) -> std::size_t {
+                    const std::size_t offset = offsets[static_cast<std::size_t>(gaps.after[gap])];
+                    return negates && offset != 0 ? kSections - offset : offset;
+                };
+                keys_[count_++] = static_cast<std::uint16_t>(kKeyStep * change(0) + change(1));
             }
         }
     }
     std::size_t count() const { return count_; }
+    std::uint8_t place(std::size_t n) const { return places_[n]; }
     /// Returns the roll offsets of a place relative to the first shared line.
     const RollOffsets& offsets(std::size_t n) const { return offsets_[n]; }
-    /// Returns the roll offsets in the first eight lines that are not shared, one per byte. Sums of
-    /// four such offsets fit in a byte.
-    std::uint64_t packed(std::size_t n) const { return packed_[n]; }
     std::size_t key(std::size_t n) const { return keys_[n]; }
-    /// Returns 1 if the place is not the place of the reading, and 0 otherwise.
-    int is_other(std::size_t n) const { return is_other_[n]; }
 
   private:
-    void set_key(const Gaps& gaps, bool negates) {
-        const RollOffsets& offsets = offsets_[count_];
-        const auto across = [&](std::size_t gap) -> std::size_t {
-            const std::uint8_t before = offsets[static_cast<std::size_t>(gaps.before[gap])];
-            const std::uint8_t after = offsets[static_cast<std::size_t>(gaps.after[gap])];
-            return negates ? roll_offset(after, before) : roll_offset(before, after);
-        };
-        keys_[count_] = static_cast<std::uint16_t>(kKeyStep * across(0) + across(1));
-    }
-    void pack(const Pattern& pattern) {
-        std::uint64_t packed = 0;
-        for (std::size_t n = pattern.packed_count; n-- > 0;)
-            packed = packed << 8 | offsets_[count_][pattern.unshared[n]];
-        packed_[count_] = packed;
-    }
-
     static constexpr std::size_t kMaxPlaces = code::kA4Restored.size();
 
     std::size_t count_ = 0;
-    std::array<std::uint8_t, kMaxPlaces> is_other_;
+    std::array<std::uint8_t, kMaxPlaces> places_;
     std::array<std::uint16_t, kMaxPlaces> keys_;
-    std::array<std::uint64_t, kMaxPlaces> packed_;
     std::array<RollOffsets, kMaxPlaces> offsets_;
 };
 
@@ -122,10 +100,12 @@ class SetSearch {
         newest_.fill(kNone);
     }
 
-    /// Adds the odds of the far alternatives that share exactly the lines `shared`, which must not
-    /// be empty. Lines with a minimum loss of 0 may be shared or not. Returns false if the search
-    /// must end, because the sum exceeds `max_odds` or the work does not suffice.
-    bool add(LineSet shared) {
+    /// Adds the odds of the far alternatives that share at least the lines of `sets[n]`, but not all
+    /// lines of an earlier set. The set must not be empty. Returns false if the search must end,
+    /// because the sum exceeds `max_odds` or the work does not suffice.
+    bool add(std::span<const PlannedSet> sets, std::size_t n) {
+        earlier_ = sets.first(n);
+        const LineSet shared = sets[n].shared;
         PlaceSets places = equal_places_.all();
         for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1)
             equal_places_.keep_equal(static_cast<std::size_t>(std::countr_zero(steps)), places);
@@ -150,7 +130,7 @@ class SetSearch {
     /// Lists the places in all sequences. Returns false if the work does not suffice.
     bool list(const PlaceSets& places, const Pattern& pattern) {
         for (std::size_t k = 0; k < places.size(); ++k)
-            lists_[k].list(lines_, k, places[k], pattern, k % 2 == 1);
+            lists_[k].list(lines_, k, places[k], pattern.gaps, k % 2 == 1);
         const std::size_t tabled = lists_[0].count() * lists_[2].count();
         const std::size_t looked_up = lists_[1].count() * lists_[3].count();
         std::size_t listed = 0;
@@ -165,12 +145,6 @@ class SetSearch {
     /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make
     /// the roll offset equal at both ends of each gap.
     void add_matches(const Pattern& pattern) {
-        int rest = 0;  // minimum loss in the compared lines after line n
-        for (std::size_t n = pattern.packed_count; n-- > 0;) {
-            losses_[n] = lines_.losses(pattern.unshared[n]);
-            limits_[n] = skipped_loss_ - rest;
-            rest += std::max(lines_.ratios.min_loss(pattern.unshared[n]), 0);
-        }
         const auto& [first, second, third, fourth] = lists_;
         for (std::size_t n = 0; n < third.count(); ++n) {
             for (std::size_t m = 0; m < first.count(); ++m) {
@@ -210,34 +184,40 @@ class SetSearch {
     /// first shared line. Most alternatives lose kSkippedBits in the first few lines, and count as
     /// skipped. The arguments are indices into the lists of places.
     void add(const Pattern& pattern, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
-        std::uint64_t shifts =
-            lists_[0].packed(a) + lists_[1].packed(b) + lists_[2].packed(c) + lists_[3].packed(d);
+        RollOffsets shifts;  // sums of four roll offsets, which fit in a byte
+        for (std::size_t line = 0; line < count_; line += sizeof(Bytes)) {
+            const Bytes sum =
+                bytes_at(lists_[0].offsets(a), line) + bytes_at(lists_[1].offsets(b), line) +
+                bytes_at(lists_[2].offsets(c), line) + bytes_at(lists_[3].offsets(d), line);
+            std::memcpy(shifts.data() + line, &sum, sizeof sum);
+        }
         int lost = 0;
-        for (std::size_t n = 0; n < pattern.packed_count; ++n, shifts >>= 8) {
-            lost += losses_[n][shifts & 0xFF];
-            if (lost >= limits_[n]) {
+        for (std::size_t n = 0; n < pattern.unshared_count; ++n) {
+            const std::size_t line = pattern.unshared[n];
+            lost += lines_.losses(line)[shifts[line]];
+            if (lost >= skipped_loss_) {
                 ++skipped_;
                 return;
             }
         }
-        if (lists_[0].is_other(a) + lists_[1].is_other(b) + lists_[2].is_other(c) +
-                lists_[3].is_other(d) >=
+        const auto& own = lines_.ratios.places;
+        if ((lists_[0].place(a) != own[0]) + (lists_[1].place(b) != own[1]) +
+                (lists_[2].place(c) != own[2]) + (lists_[3].place(d) != own[3]) >=
             2)
-            add_in_all_lines(pattern, a, b, c, d);
+            add_once(pattern, shifts, lost);
     }
 
-    /// Adds the odds of the alternative with the given places. Adds nothing if, among the lines
-    /// with a positive minimum loss, it does not share exactly the lines of the pattern.
-    void add_in_all_lines(const Pattern& pattern, std::size_t a, std::size_t b, std::size_t c,
-                          std::size_t d) {
-        int lost = 0;
-        for (std::size_t line = 0; line < count_; ++line) {
-            const int shift = lists_[0].offsets(a)[line] + lists_[1].offsets(b)[line] +
-                              lists_[2].offsets(c)[line] + lists_[3].offsets(d)[line];
-            const bool is_compared = lines_.ratios.min_loss(static_cast<int>(line)) > 0;
-            if (is_compared && (shift % kSections == 0) != ((pattern.shared >> line & 1) != 0))
-                return;
-            lost += lines_.loss(static_cast<int>(line), shift);
+    /// Adds the odds of an alternative that loses `lost`. Adds nothing if the alternative does not
+    /// share all lines of the pattern, or shares all lines of an earlier set. Shifts are sums of
+    /// roll offsets.
+    void add_once(const Pattern& pattern, const RollOffsets& shifts, int lost) {
+        LineSet shared = 0;
+        for (std::size_t line = 0; line < count_; ++line)
+            shared |= LineSet{shifts[line] % kSections == 0} << line;
+        const auto shares = [&](LineSet set) { return (shared & set) == set; };
+        if (!shares(pattern.shared)) return;
+        for (const PlannedSet& set : earlier_) {
+            if (shares(set.shared)) return;
         }
         sum_ += lines_.ratios.odds(lost);
     }
@@ -248,12 +228,8 @@ class SetSearch {
     int skipped_loss_;  ///< kSkippedBits as a loss, plus the maximum gain in other lines
     WorkLimit& work_;
     EqualPlaces equal_places_;
+    std::span<const PlannedSet> earlier_;
     std::array<KeyedPlaces, 4> lists_;
-    /// Losses in the first lines that are not shared, by roll offset (see `RankedLines::losses`).
-    std::array<const std::int16_t*, sizeof(std::uint64_t)> losses_{};
-    /// For each of these lines, the total loss in the lines up to and including this line at which
-    /// an alternative is skipped.
-    std::array<int, sizeof(std::uint64_t)> limits_{};
     /// `newest_` contains the newest pair of places with each key, and `before_` contains for each
     /// pair the previous pair with the same key.
     std::array<std::uint16_t, kKeys> newest_;
@@ -269,8 +245,8 @@ std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, float
     const SetPlan plan(lines, max_rest / kPlanMargin, static_cast<float>(work.left()));
     if (!plan.is_feasible()) return {};
     SetSearch search(lines, max_odds, work);
-    for (const PlannedSet& set : plan.sets()) {
-        if (search.add(set.shared)) continue;
+    for (std::size_t n = 0; n < plan.sets().size(); ++n) {
+        if (search.add(plan.sets(), n)) continue;
         return search.odds() > max_odds ? std::optional(search.odds()) : std::nullopt;
     }
     return search.odds() + kPlanMargin * plan.rest();

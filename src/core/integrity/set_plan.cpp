@@ -167,15 +167,34 @@ void SetPlan::sort_sets() {
     }
 }
 
-/// Removes sets from the end of the list, and adds their expected odds to the rest.
+/// Removes sets from the end of the list, and adds their expected odds to the rest. Also removes
+/// sets that contain another set of the list, because the search for the other set finds their
+/// alternatives.
 void SetPlan::skip_sets() {
     for (; count_ > 0; --count_) {
         const PlannedSet& last = sets_[count_ - 1];
-        const float limit = work_ > max_work_ ? max_rest_ : max_rest_ / 2;
-        if (last.is_required || rest_ + last.expected > limit) break;
-        rest_ += last.expected;
+        if (!contains_another(last)) {
+            const float limit = work_ > max_work_ ? max_rest_ : max_rest_ / 2;
+            if (last.is_required || rest_ + last.expected > limit) break;
+            rest_ += last.expected;
+        }
         work_ -= last.work;
     }
+    for (std::size_t n = count_; n-- > 0;) {
+        if (!contains_another(sets_[n])) continue;
+        work_ -= sets_[n].work;
+        std::copy(sets_.begin() + static_cast<std::ptrdiff_t>(n) + 1,
+                  sets_.begin() + static_cast<std::ptrdiff_t>(count_),
+                  sets_.begin() + static_cast<std::ptrdiff_t>(n));
+        --count_;
+    }
+}
+
+bool SetPlan::contains_another(const PlannedSet& set) const {
+    for (const PlannedSet& other : sets()) {
+        if (other.shared != set.shared && (other.shared & ~set.shared) == 0) return true;
+    }
+    return false;
 }
 
 }  // namespace dotpose::core

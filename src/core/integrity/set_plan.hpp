@@ -41,6 +41,7 @@ class SetPlan {
     void visit_shared(std::size_t n, Node node);
     void sort_sets();
     void skip_sets();
+    bool contains_another(const PlannedSet& set) const;
 
     static constexpr std::size_t kMaxSets = 256;
 
