@@ -38,46 +38,12 @@ float odds_of_others(const OddsByOffset& odds) {
 /// undecided.
 struct SetPlan::Node {
     LineSet shared = 0;
-    /// For each sequence, the expected number of places with the digits of the reading in all steps
-    /// between adjacent shared lines.
-    std::array<float, 4> places;
-    /// Probability that all gaps end at a shared line, times the mean odds in the lines that are
-    /// not shared, for alternatives that differ in two, three and four sequences.
-    float two;
-    float three;
-    float four;
-    int min_loss = 0;  ///< total minimum loss of the lines that are not shared
-    int gaps = 0;
+    float odds = 1;      ///< product of the mean odds in the lines that are not shared
+    int min_loss = 0;    ///< total minimum loss of the lines that are not shared
+    unsigned steps = 0;  ///< number of steps between adjacent shared lines
+    unsigned gaps = 0;
     int last = -2;  ///< last shared line
     int run = 0;    ///< number of adjacent shared lines that end with `last`
-
-    void multiply(float of_two, float of_three, float of_four) {
-        two *= of_two;
-        three *= of_three;
-        four *= of_four;
-    }
-
-    /// Returns the expected odds of the far alternatives that share these lines. The sum over all
-    /// sets that continue this set is not larger.
-    float expected() const {
-        const auto& [a, b, c, d] = places;
-        const float sum = two * (a * b + (a + b) * (c + d) + c * d) +
-                          three * (a * b * (c + d) + (a + b) * c * d) + four * (a * b * c * d);
-        return shared == 0 ? kSections * sum : sum;
-    }
-
-    /// Returns the estimated work of `SetSearch::add`, in processor instructions.
-    float work() const {
-        constexpr float kNever = 1e9F;
-        if (shared == 0) return kNever;
-        const auto& [a, b, c, d] = places;
-        const float tabled = (1 + a) * (1 + c);
-        const float looked_up = (1 + b) * (1 + d);
-        float matches = tabled * looked_up;
-        for (int gap = 0; gap < std::min(gaps, 2); ++gap)
-            matches /= kSections;
-        return 1000 + 80 * (a + b + c + d) + 36 * tabled + 9 * looked_up + 45 * matches;
-    }
 };
 
 SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
@@ -86,9 +52,6 @@ SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
       max_work_(max_work),
       required_loss_(lines.ratios.loss_for(-256 * kRequiredBits)) {
     Node all;
-    for (std::size_t k = 0; k < all.places.size(); ++k)
-        all.places[k] = static_cast<float>(lines.ratios.basis[k].length);
-    float uncompared = 1;  // product of the mean odds in the lines with a minimum loss of 0
     for (int line = 0; line < lines.count(); ++line) {
         const OddsByOffset& odds = lines.odds()[static_cast<std::size_t>(line)];
         const float others = odds_of_others(odds);
@@ -96,20 +59,58 @@ SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
             mean_odds_[compared_count_] = others / kChanges;
             compared_[compared_count_++] = static_cast<std::uint8_t>(line);
         } else {
-            uncompared *= (others + odds[0]) / kChanges;
+            all.odds *= (others + odds[0]) / kChanges;
         }
     }
-    all.two = kUnevennessOfTwo * uncompared;
-    all.three = kUnevennessOfThree * uncompared;
-    all.four = uncompared;
+    set_numbers();
     visit(0, all);
     sort_sets();
     skip_sets();
 }
 
+void SetPlan::set_numbers() {
+    std::array<float, 4> places;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        places[k] = static_cast<float>(lines_.ratios.basis[k].length);
+    ByDifferent returned{1, 1, 1};
+    for (std::size_t n = 0; n <= compared_count_; ++n) {
+        const auto& [a, b, c, d] = places_[n] = places;
+        number_[n] = {kUnevennessOfTwo * (a * b + (a + b) * (c + d) + c * d),
+                      kUnevennessOfThree * (a * b * (c + d) + (a + b) * c * d), a * b * c * d};
+        returned_[n] = returned;
+        for (std::size_t k = 0; k < places.size(); ++k)
+            places[k] *= lines_.ratios.basis[k].base == 2 ? 1.0F / 2 : 1.0F / 3;
+        returned = {returned.two * kReturnOfTwo, returned.three * kReturnOfThree,
+                    returned.four * kReturnOfFour};
+    }
+}
+
+/// Returns the expected odds of the far alternatives that share the lines of `node`. The sum over
+/// all sets that continue this set is not larger.
+float SetPlan::expected(const Node& node) const {
+    const ByDifferent& number = number_[node.steps];
+    const ByDifferent& returned = returned_[node.gaps];
+    const float sum = number.two * returned.two + number.three * returned.three +
+                      number.four * returned.four;
+    return (node.shared == 0 ? kSections : 1) * node.odds * sum;
+}
+
+/// Returns the estimated work of `SetSearch::add`, in processor instructions.
+float SetPlan::work(const Node& node) const {
+    constexpr float kNever = 1e9F;
+    if (node.shared == 0) return kNever;
+    const auto& [a, b, c, d] = places_[node.steps];
+    const float tabled = (1 + a) * (1 + c);
+    const float looked_up = (1 + b) * (1 + d);
+    float matches = tabled * looked_up;
+    for (unsigned gap = 0; gap < std::min(node.gaps, 2U); ++gap)
+        matches /= kSections;
+    return 1000 + 80 * (a + b + c + d) + 36 * tabled + 9 * looked_up + 45 * matches;
+}
+
 /// Adds all sets that extend `node`. The compared lines from index `n` on are undecided.
 void SetPlan::visit(std::size_t n, const Node& node) {
-    const float expected = node.expected();
+    const float expected = this->expected(node);
     if (expected < max_rest_ / 1024 && node.min_loss >= required_loss_) {
         rest_ += expected;
         return;
@@ -117,32 +118,27 @@ void SetPlan::visit(std::size_t n, const Node& node) {
     if (n == compared_count_) {
         is_complete_ = is_complete_ && count_ < kMaxSets;
         if (is_complete_)
-            sets_[count_++] = {node.shared, expected, node.work(), node.min_loss < required_loss_};
+            sets_[count_++] = {node.shared, expected, work(node), node.min_loss < required_loss_};
         return;
     }
     if (!is_complete_) return;
     visit_shared(n, node);
     Node without = node;
-    without.multiply(mean_odds_[n], mean_odds_[n], mean_odds_[n]);
+    without.odds *= mean_odds_[n];
     without.min_loss += lines_.ratios.min_loss(compared_[n]);
     visit(n + 1, without);
 }
 
 /// Adds all sets that continue `node` and contain the compared line with index `n`.
 void SetPlan::visit_shared(std::size_t n, Node node) {
-    const LikelihoodRatios& ratios = lines_.ratios;
     const int line = compared_[n];
     if (node.last == line - 1) {
         // No alternative shares more than `max_shared` adjacent lines.
-        if (++node.run > ratios.max_shared()) return;
-        for (std::size_t k = 0; k < node.places.size(); ++k)
-            node.places[k] *= ratios.basis[k].base == 2 ? 1.0F / 2 : 1.0F / 3;
+        if (++node.run > lines_.ratios.max_shared()) return;
+        ++node.steps;
     } else {
         node.run = 1;
-        if (node.shared != 0) {
-            node.multiply(kReturnOfTwo, kReturnOfThree, kReturnOfFour);
-            ++node.gaps;
-        }
+        if (node.shared != 0) ++node.gaps;
     }
     node.shared |= LineSet{1} << line;
     node.last = line;
@@ -173,10 +169,11 @@ void SetPlan::sort_sets() {
 void SetPlan::skip_sets() {
     for (; count_ > 0; --count_) {
         const PlannedSet& last = sets_[count_ - 1];
-        if (!contains_another(last)) {
-            const float limit = work_ > max_work_ ? max_rest_ : max_rest_ / 2;
-            if (last.is_required || rest_ + last.expected > limit) break;
+        const float limit = work_ > max_work_ ? max_rest_ : max_rest_ / 2;
+        if (!last.is_required && rest_ + last.expected <= limit) {
             rest_ += last.expected;
+        } else if (!contains_another(last)) {
+            break;
         }
         work_ -= last.work;
     }

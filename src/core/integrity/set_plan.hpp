@@ -37,6 +37,15 @@ class SetPlan {
 
   private:
     struct Node;
+    /// A value for the alternatives that differ in two, three and four sequences.
+    struct ByDifferent {
+        float two;
+        float three;
+        float four;
+    };
+    void set_numbers();
+    float expected(const Node& node) const;
+    float work(const Node& node) const;
     void visit(std::size_t n, const Node& node);
     void visit_shared(std::size_t n, Node node);
     void sort_sets();
@@ -54,6 +63,13 @@ class SetPlan {
     /// For each compared line, the summed odds of all other rolls, divided by kChanges. Indexed as
     /// `compared_`.
     std::array<float, kMaxLines> mean_odds_;
+    /// For n steps between adjacent shared lines, the expected number of places in each sequence
+    /// with the digits of the reading in these steps.
+    std::array<std::array<float, 4>, kMaxLines + 1> places_;
+    /// The expected number of combinations of these places, times a correction factor.
+    std::array<ByDifferent, kMaxLines + 1> number_;
+    /// Probability that n gaps end at a shared line.
+    std::array<ByDifferent, kMaxLines + 1> returned_;
     std::size_t count_ = 0;
     std::array<PlannedSet, kMaxSets> sets_;
     bool is_complete_ = true;
