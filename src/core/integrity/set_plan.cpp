@@ -111,7 +111,7 @@ float SetPlan::work(const Node& node) const {
 /// Adds all sets that extend `node`. The compared lines from index `n` on are undecided.
 void SetPlan::visit(std::size_t n, const Node& node) {
     const float expected = this->expected(node);
-    if (expected < max_rest_ / 1024 && node.min_loss >= required_loss_) {
+    if (expected < max_rest_ / 256 && node.min_loss >= required_loss_) {
         rest_ += expected;
         return;
     }
