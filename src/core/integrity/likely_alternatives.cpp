@@ -30,7 +30,7 @@ class PlaceList {
     void set_offsets(const RankedLines& lines, std::size_t sequence, const Gaps& gaps) {
         for (std::size_t n = 0; n < count_; ++n) {
             RollOffsets& offsets = offsets_[n];
-            set_relative_offsets(lines, sequence, places_[n], gaps.before[0], offsets);
+            set_relative_offsets(lines.ratios, sequence, places_[n], gaps.before[0], offsets);
             const auto across = [&](std::size_t gap) {
                 return roll_offset(offsets[static_cast<std::size_t>(gaps.before[gap])],
                                    offsets[static_cast<std::size_t>(gaps.after[gap])]);

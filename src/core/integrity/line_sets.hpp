@@ -37,7 +37,7 @@ inline Bytes modulo_sections(Bytes offsets) {
 
 /// Sets the roll offsets of the single alternative at `place` in `sequence`, at the shift at which
 /// it shares the line `shared`.
-void set_relative_offsets(const RankedLines& lines, std::size_t sequence, std::uint32_t place,
+void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place,
                           int shared, RollOffsets& offsets);
 
 /// The places at which a position and the reading have the same digit in a step. Two positions

@@ -58,7 +58,7 @@ class KeyedPlaces {
                 places_[count_] = static_cast<std::uint8_t>(
                     32 * word + static_cast<std::size_t>(std::countr_zero(rest)));
                 RollOffsets& offsets = offsets_[count_];
-                set_relative_offsets(lines, sequence, places_[count_], gaps.before[0], offsets);
+                set_relative_offsets(lines.ratios, sequence, places_[count_], gaps.before[0], offsets);
                 const auto change = [&](std::size_t gap) -> std::size_t {
                     const std::size_t offset = offsets[static_cast<std::size_t>(gaps.after[gap])];
                     return negates && offset != 0 ? kSections - offset : offset;
