@@ -267,7 +267,7 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
             measurement.bits = 2 * bits.read;
             // In small views, clean bits are sufficient, because the remaining dots have little
             // influence and further attempts take long.
-            const bool are_clear = hypothesis.is_small_view && !hypothesis.reads_cut_dots
+            const bool are_clear = hypothesis.is_small_view
                                        ? is_clean(bits)
                                        : bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
             if (!confirm_place(evidence, hypothesis, view, block, bits, fix)) {
