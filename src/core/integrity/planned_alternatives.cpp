@@ -18,6 +18,10 @@ namespace {
 /// 4 on 6 axes, and at most 40.
 constexpr float kPlanMargin = 4;
 
+/// Maximum odds that are not searched, including the safety factor. Prevents a large limit of the
+/// caller from making the result imprecise.
+constexpr float kMaxRest = 0x1p-31F;
+
 /// Loss, in bits, at which the evaluation of an alternative stops. The alternative then counts with
 /// the odds at this loss.
 constexpr int kSkippedBits = 46;
@@ -240,16 +244,23 @@ class SetSearch {
 
 }  // namespace
 
-std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, float max_rest,
-                                                 float max_odds, WorkLimit& work) {
-    const SetPlan plan(lines, max_rest / kPlanMargin, static_cast<float>(work.left()));
-    if (!plan.is_feasible()) return {};
+float work_of_planned_alternatives(const SetPlan& plan, float max_rest) {
+    return plan.work_of(plan.count_for(max_rest / kPlanMargin));
+}
+
+std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, const SetPlan& plan,
+                                                 float share, float max_odds, WorkLimit& work) {
+    if (!plan.is_complete()) return {};
     SetSearch search(lines, max_odds, work);
-    for (std::size_t n = 0; n < plan.sets().size(); ++n) {
-        if (search.add(plan.sets(), n)) continue;
-        return search.odds() > max_odds ? std::optional(search.odds()) : std::nullopt;
+    const std::span<const PlannedSet> sets = plan.sets();
+    for (std::size_t n = 0;; ++n) {
+        const float rest = kPlanMargin * plan.rest(n);
+        const bool may_end = n == sets.size() || !sets[n].is_required;
+        if (may_end && rest <= std::min(share * (max_odds - search.odds()), kMaxRest))
+            return search.odds() + rest;
+        if (n == sets.size()) return {};
+        if (sets[n].work > 0 && !search.add(sets, n)) return {};
     }
-    return search.odds() + kPlanMargin * plan.rest();
 }
 
 }  // namespace dotpose::core

@@ -10,6 +10,9 @@ namespace {
 /// that is not counted individually therefore has odds of at most 2^-24.
 constexpr int kRequiredBits = 24;
 
+/// Sets with smaller expected odds are not listed, unless they are required.
+constexpr float kNegligibleOdds = 0x1p-42F;
+
 /// Number of possible changes of the roll from one line to the next. If an alternative differs in
 /// all four sequences, its roll changes are distributed about uniformly over these values.
 constexpr float kChanges = 54;
@@ -46,11 +49,8 @@ struct SetPlan::Node {
     int run = 0;    ///< number of adjacent shared lines that end with `last`
 };
 
-SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
-    : lines_(lines),
-      max_rest_(max_rest),
-      max_work_(max_work),
-      required_loss_(lines.ratios.loss_for(-256 * kRequiredBits)) {
+SetPlan::SetPlan(const RankedLines& lines)
+    : lines_(lines), required_loss_(lines.ratios.loss_for(-256 * kRequiredBits)) {
     Node all;
     for (int line = 0; line < lines.count(); ++line) {
         const OddsByOffset& odds = lines.odds()[static_cast<std::size_t>(line)];
@@ -65,7 +65,8 @@ SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
     set_numbers();
     visit(0, all);
     sort_sets();
-    skip_sets();
+    mark_covered();
+    sum_rests();
 }
 
 void SetPlan::set_numbers() {
@@ -111,8 +112,8 @@ float SetPlan::work(const Node& node) const {
 /// Adds all sets that extend `node`. The compared lines from index `n` on are undecided.
 void SetPlan::visit(std::size_t n, const Node& node) {
     const float expected = this->expected(node);
-    if (expected < max_rest_ / 256 && node.min_loss >= required_loss_) {
-        rest_ += expected;
+    if (expected < kNegligibleOdds && node.min_loss >= required_loss_) {
+        negligible_ += expected;
         return;
     }
     if (n == compared_count_) {
@@ -145,53 +146,54 @@ void SetPlan::visit_shared(std::size_t n, Node node) {
     visit(n + 1, node);
 }
 
-/// Sorts the sets: first the required sets, then the other sets by decreasing ratio of expected
-/// odds to work.
+/// Sorts the sets: first the required sets, those with the fewest lines first, then the other sets
+/// by decreasing ratio of expected odds to work.
 void SetPlan::sort_sets() {
-    std::array<float, kMaxSets> ratios;
+    std::array<float, kMaxSets> keys;
     for (std::size_t n = 0; n < count_; ++n) {
         const PlannedSet set = sets_[n];
-        const float ratio = set.is_required ? 1e30F : set.expected / set.work;
+        const float key = set.is_required ? static_cast<float>(kMaxLines - std::popcount(set.shared))
+                                          : set.expected / set.work;
         std::size_t i = n;
-        for (; i > 0 && ratios[i - 1] < ratio; --i) {
+        for (; i > 0 && keys[i - 1] < key; --i) {
             sets_[i] = sets_[i - 1];
-            ratios[i] = ratios[i - 1];
+            keys[i] = keys[i - 1];
         }
         sets_[i] = set;
-        ratios[i] = ratio;
-        work_ += set.work;
+        keys[i] = key;
     }
 }
 
-/// Removes sets from the end of the list, and adds their expected odds to the rest. Also removes
-/// sets that contain another set of the list, because the search for the other set finds their
-/// alternatives.
-void SetPlan::skip_sets() {
-    for (; count_ > 0; --count_) {
-        const PlannedSet& last = sets_[count_ - 1];
-        const float limit = work_ > max_work_ ? max_rest_ : max_rest_ / 2;
-        if (!last.is_required && rest_ + last.expected <= limit) {
-            rest_ += last.expected;
-        } else if (!contains_another(last)) {
+/// Sets the work of all sets that contain an earlier set to 0.
+void SetPlan::mark_covered() {
+    for (std::size_t n = 0; n < count_; ++n) {
+        for (std::size_t earlier = 0; earlier < n; ++earlier) {
+            if ((sets_[earlier].shared & ~sets_[n].shared) != 0) continue;
+            sets_[n].work = 0;
             break;
         }
-        work_ -= last.work;
-    }
-    for (std::size_t n = count_; n-- > 0;) {
-        if (!contains_another(sets_[n])) continue;
-        work_ -= sets_[n].work;
-        std::copy(sets_.begin() + static_cast<std::ptrdiff_t>(n) + 1,
-                  sets_.begin() + static_cast<std::ptrdiff_t>(count_),
-                  sets_.begin() + static_cast<std::ptrdiff_t>(n));
-        --count_;
     }
 }
 
-bool SetPlan::contains_another(const PlannedSet& set) const {
-    for (const PlannedSet& other : sets()) {
-        if (other.shared != set.shared && (other.shared & ~set.shared) == 0) return true;
-    }
-    return false;
+void SetPlan::sum_rests() {
+    float rest = negligible_;
+    rests_[count_] = rest;
+    for (std::size_t n = count_; n-- > 0;)
+        rests_[n] = rest += sets_[n].expected;
+}
+
+std::size_t SetPlan::count_for(float max_rest) const {
+    std::size_t n = 0;
+    while (n < count_ && (sets_[n].is_required || rests_[n] > max_rest))
+        ++n;
+    return n;
+}
+
+float SetPlan::work_of(std::size_t n) const {
+    float sum = 0;
+    for (const PlannedSet& set : sets().first(n))
+        sum += set.work;
+    return sum;
 }
 
 }  // namespace dotpose::core

@@ -14,26 +14,30 @@ namespace dotpose::core {
 /// Set of lines that far alternatives may share.
 struct PlannedSet {
     LineSet shared;
-    float expected;    ///< expected odds of the far alternatives that share exactly these lines
-    float work;        ///< work of the search for these alternatives, in processor instructions
+    float expected;  ///< expected odds of the far alternatives that share exactly these lines
+    /// Work of the search for these alternatives, in processor instructions. 0 if the search for an
+    /// earlier set of the plan also finds them, because this set contains the earlier set.
+    float work;
     bool is_required;  ///< true if the set must be searched, because single odds may be large
 };
 
-/// Chooses sets of lines. Lines with a minimum loss of 0 may be shared or not.
+/// Lists sets of lines in the order in which they should be searched. Lines with a minimum loss of
+/// 0 may be shared or not.
 class SetPlan {
   public:
-    /// The rest is the sum of the expected odds of all sets that are not searched. If the plan is
-    /// feasible, the rest is at most `max_rest` / 2 or, if the search would otherwise take more
-    /// than `max_work`, at most `max_rest`.
-    SetPlan(const RankedLines& lines, float max_rest, float max_work);
-    /// Returns false if there are too many sets, if the search would take more than `max_work`, or
-    /// if the rest would exceed `max_rest`.
-    bool is_feasible() const { return is_complete_ && work_ <= max_work_ && rest_ <= max_rest_; }
-    /// Returns the sets to search. The required sets come first. The other sets are sorted by
-    /// decreasing ratio of expected odds to work.
+    explicit SetPlan(const RankedLines& lines);
+    /// Returns false if there are too many sets. The list is then incomplete.
+    bool is_complete() const { return is_complete_; }
+    /// Returns the sets. The required sets come first. The other sets are sorted by decreasing
+    /// ratio of expected odds to work.
     std::span<const PlannedSet> sets() const { return std::span(sets_).first(count_); }
-    /// Returns the expected odds of all far alternatives that are not in `sets`.
-    float rest() const { return rest_; }
+    /// Returns the expected odds of all far alternatives that are not in the first n sets.
+    float rest(std::size_t n) const { return rests_[n]; }
+    /// Returns the number of sets that must be searched to make the rest at most `max_rest`. If
+    /// this is not possible, returns the number of all sets.
+    std::size_t count_for(float max_rest) const;
+    /// Returns the work of the search for the first n sets.
+    float work_of(std::size_t n) const;
 
   private:
     struct Node;
@@ -49,14 +53,12 @@ class SetPlan {
     void visit(std::size_t n, const Node& node);
     void visit_shared(std::size_t n, Node node);
     void sort_sets();
-    void skip_sets();
-    bool contains_another(const PlannedSet& set) const;
+    void mark_covered();
+    void sum_rests();
 
     static constexpr std::size_t kMaxSets = 256;
 
     const RankedLines& lines_;
-    float max_rest_;
-    float max_work_;
     int required_loss_;
     std::size_t compared_count_ = 0;
     std::array<std::uint8_t, kMaxLines> compared_;  ///< lines with a positive minimum loss
@@ -73,8 +75,8 @@ class SetPlan {
     std::size_t count_ = 0;
     std::array<PlannedSet, kMaxSets> sets_;
     bool is_complete_ = true;
-    float rest_ = 0;
-    float work_ = 0;
+    float negligible_ = 0;  ///< summed expected odds of the sets that are not listed
+    std::array<float, kMaxSets + 1> rests_;
 };
 
 }  // namespace dotpose::core
