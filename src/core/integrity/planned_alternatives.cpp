@@ -43,11 +43,15 @@ struct Pattern {
                 unshared[n] = unshared[n - 1];
             unshared[n] = static_cast<std::uint8_t>(line);
         }
+        for (std::size_t n = 0; n < unshared_count; ++n)
+            losses[n] = lines.losses(unshared[n]);
     }
     LineSet shared;
     Gaps gaps;
     std::size_t unshared_count = 0;
     std::array<std::uint8_t, kMaxLines> unshared;
+    /// Losses in the lines that are not shared, by roll offset (see `RankedLines::losses`).
+    std::array<const std::int16_t*, kMaxLines> losses;
 };
 
 /// Places in one sequence at which an alternative may share a given set of lines.
@@ -197,8 +201,7 @@ class SetSearch {
         }
         int lost = 0;
         for (std::size_t n = 0; n < pattern.unshared_count; ++n) {
-            const std::size_t line = pattern.unshared[n];
-            lost += lines_.losses(line)[shifts[line]];
+            lost += pattern.losses[n][shifts[pattern.unshared[n]]];
             if (lost >= skipped_loss_) {
                 ++skipped_;
                 return;

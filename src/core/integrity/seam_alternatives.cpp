@@ -26,6 +26,8 @@ constexpr int kMin_q8 = -8 * 256;
 /// shifts are skipped, the minimum is kNone.
 class LossesByBorder {
   public:
+    static constexpr int kNone = 1 << 24;
+
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
         : ratios_(ratios), loss_limit_(loss_limit) {
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
@@ -54,8 +56,6 @@ class LossesByBorder {
     }
 
   private:
-    static constexpr int kNone = 1 << 24;
-
     void add(const RollOffsets& offsets, int shift) {
         const int count = ratios_.count();
         const auto update_min = [](int& min_lost, int lost) {
@@ -161,7 +161,9 @@ class SeamAlternatives {
     void add(const RollOffsets& offsets) {
         const LossesByBorder losses(ratios_, offsets, loss_limit_);
         for (int line = 1; line < ratios_.count(); ++line) {
-            const int odds = ratios_.log2_odds_q8(losses.with_border_before(line));
+            const int lost = losses.with_border_before(line);
+            if (lost >= LossesByBorder::kNone) continue;
+            const int odds = ratios_.log2_odds_q8(lost);
             if (odds > kMin_q8) sum_q8_ = add_log2(sum_q8_, odds + kSeam_q8);
         }
     }
