@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <span>
 
 #include "core/integrity/line_sets.hpp"
@@ -32,26 +31,52 @@ constexpr int kSkippedBits = 46;
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
-/// A set of shared lines, and the lines that are not shared, by decreasing minimum loss.
+/// Number of lines that are compared for all matches (see `SetSearch`). Their roll offsets are
+/// packed into one word.
+constexpr std::size_t kPackedLines = 4;
+
+/// A set of shared lines, and the lines with the largest minimum losses among all other lines.
 struct Pattern {
     Pattern(const RankedLines& lines, LineSet shared_) : shared(shared_), gaps(shared_) {
+        std::array<int, kPackedLines> min_losses{-1, -1, -1, -1};
+        losses.fill(kNoLosses.data());
         for (int line = 0; line < lines.count(); ++line) {
-            if ((shared >> line & 1) != 0) continue;
-            std::size_t n = unshared_count++;
-            for (; n > 0 && lines.ratios.min_loss(unshared[n - 1]) < lines.ratios.min_loss(line);
-                 --n)
+            const int min_loss = std::max(lines.ratios.min_loss(line), 0);
+            if ((shared >> line & 1) != 0 || min_loss <= min_losses.back()) continue;
+            std::size_t n = kPackedLines - 1;
+            for (; n > 0 && min_losses[n - 1] < min_loss; --n) {
+                min_losses[n] = min_losses[n - 1];
                 unshared[n] = unshared[n - 1];
+                losses[n] = losses[n - 1];
+            }
+            min_losses[n] = min_loss;
             unshared[n] = static_cast<std::uint8_t>(line);
-        }
-        for (std::size_t n = 0; n < unshared_count; ++n)
             losses[n] = lines.losses(unshared[n]);
+        }
     }
+    /// Returns the packed roll offsets, one per byte. The sum of four results contains the sums of
+    /// the roll offsets.
+    std::uint32_t packed(const RollOffsets& offsets) const {
+        const auto& [a, b, c, d] = unshared;
+        return offsets[a] | std::uint32_t{offsets[b]} << 8 | std::uint32_t{offsets[c]} << 16 |
+               std::uint32_t{offsets[d]} << 24;
+    }
+    /// Returns the loss in the packed lines. `packed` is a sum of packed roll offsets.
+    int lost(std::uint32_t packed) const {
+        return losses[0][packed & 0xFF] + losses[1][packed >> 8 & 0xFF] +
+               losses[2][packed >> 16 & 0xFF] + losses[3][packed >> 24];
+    }
+
     LineSet shared;
     Gaps gaps;
-    std::size_t unshared_count = 0;
-    std::array<std::uint8_t, kMaxLines> unshared;
-    /// Losses in the lines that are not shared, by roll offset (see `RankedLines::losses`).
-    std::array<const std::int16_t*, kMaxLines> losses;
+
+  private:
+    static constexpr std::array<std::int16_t, 256> kNoLosses{};
+
+    std::array<std::uint8_t, kPackedLines> unshared{};
+    /// Losses in these lines, by roll offset (see `RankedLines::losses`). If there are fewer than
+    /// kPackedLines lines, the last elements are kNoLosses.
+    std::array<const std::int16_t*, kPackedLines> losses;
 };
 
 /// Places in one sequence at which an alternative may share a given set of lines.
@@ -59,7 +84,8 @@ class KeyedPlaces {
   public:
     /// Lists the places. If `negates` is true, computes the keys from the negated changes.
     void list(const RankedLines& lines, std::size_t sequence, const PlaceBits& places,
-              const Gaps& gaps, bool negates) {
+              const Pattern& pattern, bool negates) {
+        const Gaps& gaps = pattern.gaps;
         count_ = 0;
         for (std::size_t word = 0; word < places.size(); ++word) {
             for (std::uint32_t rest = places[word]; rest != 0; rest &= rest - 1) {
@@ -71,7 +97,8 @@ class KeyedPlaces {
                     const std::size_t offset = offsets[static_cast<std::size_t>(gaps.after[gap])];
                     return negates && offset != 0 ? kSections - offset : offset;
                 };
-                keys_[count_++] = static_cast<std::uint16_t>(kKeyStep * change(0) + change(1));
+                keys_[count_] = static_cast<std::uint16_t>(kKeyStep * change(0) + change(1));
+                packed_[count_++] = pattern.packed(offsets);
             }
         }
     }
@@ -80,6 +107,7 @@ class KeyedPlaces {
     /// Returns the roll offsets of a place relative to the first shared line.
     const RollOffsets& offsets(std::size_t n) const { return offsets_[n]; }
     std::size_t key(std::size_t n) const { return keys_[n]; }
+    std::uint32_t packed(std::size_t n) const { return packed_[n]; }
 
   private:
     static constexpr std::size_t kMaxPlaces = code::kA4Restored.size();
@@ -87,6 +115,7 @@ class KeyedPlaces {
     std::size_t count_ = 0;
     std::array<std::uint8_t, kMaxPlaces> places_;
     std::array<std::uint16_t, kMaxPlaces> keys_;
+    std::array<std::uint32_t, kMaxPlaces> packed_;
     std::array<RollOffsets, kMaxPlaces> offsets_;
 };
 
@@ -138,7 +167,7 @@ class SetSearch {
     /// Lists the places in all sequences. Returns false if the work does not suffice.
     bool list(const PlaceSets& places, const Pattern& pattern) {
         for (std::size_t k = 0; k < places.size(); ++k)
-            lists_[k].list(lines_, k, places[k], pattern.gaps, k % 2 == 1);
+            lists_[k].list(lines_, k, places[k], pattern, k % 2 == 1);
         const std::size_t tabled = lists_[0].count() * lists_[2].count();
         const std::size_t looked_up = lists_[1].count() * lists_[3].count();
         std::size_t listed = 0;
@@ -158,6 +187,7 @@ class SetSearch {
             for (std::size_t m = 0; m < first.count(); ++m) {
                 const auto pair = static_cast<std::uint16_t>(kPlaces * n + m);
                 const std::size_t key = reduced(third.key(n) + first.key(m));
+                packed_[pair] = third.packed(n) + first.packed(m);
                 before_[pair] = newest_[key];
                 set_newest(key, pair);
             }
@@ -165,8 +195,15 @@ class SetSearch {
         for (std::size_t n = 0; n < second.count(); ++n) {
             for (std::size_t m = 0; m < fourth.count(); ++m) {
                 const std::size_t key = second.key(n) + fourth.key(m);
-                for (std::uint16_t pair = newest_[key]; pair != kNone; pair = before_[pair])
-                    add(pattern, pair % kPlaces, n, pair / kPlaces, m);
+                for (std::uint16_t pair = newest_[key]; pair != kNone; pair = before_[pair]) {
+                    const std::uint32_t offsets =
+                        packed_[pair] + second.packed(n) + fourth.packed(m);
+                    // Most alternatives lose kSkippedBits in the packed lines.
+                    if (pattern.lost(offsets) >= skipped_loss_)
+                        ++skipped_;
+                    else
+                        add(pattern.shared, pair % kPlaces, n, pair / kPlaces, m);
+                }
             }
         }
         for (std::size_t n = 0; n < third.count(); ++n) {
@@ -189,40 +226,24 @@ class SetSearch {
     }
 
     /// Adds the odds of the alternative with the given places, at the shift at which it shares the
-    /// first shared line. Most alternatives lose kSkippedBits in the first few lines, and count as
-    /// skipped. The arguments are indices into the lists of places.
-    void add(const Pattern& pattern, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
-        RollOffsets shifts;  // sums of four roll offsets, which fit in a byte
-        for (std::size_t line = 0; line < count_; line += sizeof(Bytes)) {
-            const Bytes sum =
-                bytes_at(lists_[0].offsets(a), line) + bytes_at(lists_[1].offsets(b), line) +
-                bytes_at(lists_[2].offsets(c), line) + bytes_at(lists_[3].offsets(d), line);
-            std::memcpy(shifts.data() + line, &sum, sizeof sum);
-        }
-        int lost = 0;
-        for (std::size_t n = 0; n < pattern.unshared_count; ++n) {
-            lost += pattern.losses[n][shifts[pattern.unshared[n]]];
-            if (lost >= skipped_loss_) {
-                ++skipped_;
-                return;
-            }
-        }
+    /// first shared line. Adds nothing if the alternative does not share all lines of the set
+    /// `required`, or shares all lines of an earlier set. The other arguments are indices into the
+    /// lists of places.
+    void add(LineSet required, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
         const auto& own = lines_.ratios.places;
-        if ((lists_[0].place(a) != own[0]) + (lists_[1].place(b) != own[1]) +
-                (lists_[2].place(c) != own[2]) + (lists_[3].place(d) != own[3]) >=
-            2)
-            add_once(pattern, shifts, lost);
-    }
-
-    /// Adds the odds of an alternative that loses `lost`. Adds nothing if the alternative does not
-    /// share all lines of the pattern, or shares all lines of an earlier set. Shifts are sums of
-    /// roll offsets.
-    void add_once(const Pattern& pattern, const RollOffsets& shifts, int lost) {
+        const int different = (lists_[0].place(a) != own[0]) + (lists_[1].place(b) != own[1]) +
+                              (lists_[2].place(c) != own[2]) + (lists_[3].place(d) != own[3]);
+        if (different < 2) return;
+        int lost = 0;
         LineSet shared = 0;
-        for (std::size_t line = 0; line < count_; ++line)
-            shared |= LineSet{shifts[line] % kSections == 0} << line;
+        for (std::size_t line = 0; line < count_; ++line) {
+            const int shift = lists_[0].offsets(a)[line] + lists_[1].offsets(b)[line] +
+                              lists_[2].offsets(c)[line] + lists_[3].offsets(d)[line];
+            lost += lines_.loss(static_cast<int>(line), shift);
+            shared |= LineSet{shift % kSections == 0} << line;
+        }
         const auto shares = [&](LineSet set) { return (shared & set) == set; };
-        if (!shares(pattern.shared)) return;
+        if (!shares(required)) return;
         for (const PlannedSet& set : earlier_) {
             if (shares(set.shared)) return;
         }
@@ -241,6 +262,8 @@ class SetSearch {
     /// pair the previous pair with the same key.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;
+    /// For each pair of places, the sums of the packed roll offsets of the two places.
+    std::array<std::uint32_t, kMaxPairs> packed_;
     std::size_t skipped_ = 0;  ///< number of alternatives that lose `skipped_loss_`
     float sum_ = 0;
 };
