@@ -157,7 +157,7 @@ class SetSearch {
     }
 
   private:
-    static constexpr std::size_t kWorkPerSet = 1000;
+    static constexpr std::size_t kWorkPerSet = 1500;
     /// A pair of places is stored as kPlaces times the index in a3 plus the index in a1.
     static constexpr std::size_t kPlaces = 256;
     static constexpr std::size_t kMaxPairs = code::kA3.size() * kPlaces;
@@ -176,7 +176,7 @@ class SetSearch {
         std::size_t matches = tabled * looked_up;
         for (std::size_t gap = 0; gap < pattern.gaps.count; ++gap)
             matches /= kSections;
-        return work_.spend(kWorkPerSet + 80 * listed + 36 * tabled + 9 * looked_up + 45 * matches);
+        return work_.spend(kWorkPerSet + 130 * listed + 45 * tabled + 11 * looked_up + 25 * matches);
     }
 
     /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make
