@@ -224,6 +224,10 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
+/// In small views, the second bound is computed if the first bound is below this value. If the first
+/// bound is larger, the second bound seldom suffices.
+constexpr float kMaxForQuickBound = 0x1p-20F;
+
 /// Returns an upper bound on the probability that one of the axes of a small view is wrong, or 1 if
 /// the bound exceeds 2^limit_log2. The first two bounds on the alternatives are those of
 /// `axis_wrong`.
@@ -241,8 +245,7 @@ float small_view_wrong(const Kernels& kernels, const std::array<Confidence, 2>& 
         if (wrong > limit) return 1;
         const float enough = limit / 2 - chance;
         float sum = codes * alternatives(kernels, unshared.ratios(), unshared, limit);
-        // The second bound is seldom much tighter than the first.
-        if (sum > enough && sum < 1e-3F) {
+        if (sum > enough && sum < kMaxForQuickBound) {
             sum = codes * power_of_two_rounded_up(quick_alternatives_log2_q8(
                               unshared.ratios(), 256 * query.limit_log2));
         }

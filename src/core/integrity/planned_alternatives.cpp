@@ -285,7 +285,7 @@ std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, const
         if (may_end && rest <= std::min(share * (max_odds - search.odds()), kMaxRest))
             return search.odds() + rest;
         if (n == sets.size()) return {};
-        if (sets[n].work > 0 && !search.add(sets, n)) return {};
+        if (!plan.is_covered(n) && !search.add(sets, n)) return {};
     }
 }
 

@@ -108,7 +108,7 @@ class QuickTest {
     /// least the limit.
     bool shares_required(const RollOffsets& offsets) const {
         int changes = 0;
-        for (std::size_t n = 1; n < required_count_; ++n)
+        for (std::size_t n = 1; n < required_count_ && changes < 2; ++n)
             changes += offsets[required_[n]] != offsets[required_[n - 1]] ? 1 : 0;
         return changes < 2;
     }

@@ -65,7 +65,6 @@ SetPlan::SetPlan(const RankedLines& lines)
     set_numbers();
     visit(0, all);
     sort_sets();
-    mark_covered();
     sum_rests();
 }
 
@@ -164,15 +163,11 @@ void SetPlan::sort_sets() {
     }
 }
 
-/// Sets the work of all sets that contain an earlier set to 0.
-void SetPlan::mark_covered() {
-    for (std::size_t n = 0; n < count_; ++n) {
-        for (std::size_t earlier = 0; earlier < n; ++earlier) {
-            if ((sets_[earlier].shared & ~sets_[n].shared) != 0) continue;
-            sets_[n].work = 0;
-            break;
-        }
+bool SetPlan::is_covered(std::size_t n) const {
+    for (std::size_t earlier = 0; earlier < n; ++earlier) {
+        if ((sets_[earlier].shared & ~sets_[n].shared) == 0) return true;
     }
+    return false;
 }
 
 void SetPlan::sum_rests() {
@@ -191,8 +186,8 @@ std::size_t SetPlan::count_for(float max_rest) const {
 
 float SetPlan::work_of(std::size_t n) const {
     float sum = 0;
-    for (const PlannedSet& set : sets().first(n))
-        sum += set.work;
+    for (std::size_t set = 0; set < n; ++set)
+        sum += is_covered(set) ? 0 : sets_[set].work;
     return sum;
 }
 

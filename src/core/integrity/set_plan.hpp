@@ -15,9 +15,7 @@ namespace dotpose::core {
 struct PlannedSet {
     LineSet shared;
     float expected;  ///< expected odds of the far alternatives that share exactly these lines
-    /// Work of the search for these alternatives, in processor instructions. 0 if the search for an
-    /// earlier set of the plan also finds them, because this set contains the earlier set.
-    float work;
+    float work;      ///< work of the search for these alternatives, in processor instructions
     bool is_required;  ///< true if the set must be searched, because single odds may be large
 };
 
@@ -31,12 +29,15 @@ class SetPlan {
     /// Returns the sets. The required sets come first. The other sets are sorted by decreasing
     /// ratio of expected odds to work.
     std::span<const PlannedSet> sets() const { return std::span(sets_).first(count_); }
+    /// Returns true if set n contains an earlier set. The search for the earlier set then also finds
+    /// the alternatives of set n.
+    bool is_covered(std::size_t n) const;
     /// Returns the expected odds of all far alternatives that are not in the first n sets.
     float rest(std::size_t n) const { return rests_[n]; }
     /// Returns the number of sets that must be searched to make the rest at most `max_rest`. If
     /// this is not possible, returns the number of all sets.
     std::size_t count_for(float max_rest) const;
-    /// Returns the work of the search for the first n sets.
+    /// Returns the work of the search for the first n sets, without those that are covered.
     float work_of(std::size_t n) const;
 
   private:
@@ -53,7 +54,6 @@ class SetPlan {
     void visit(std::size_t n, const Node& node);
     void visit_shared(std::size_t n, Node node);
     void sort_sets();
-    void mark_covered();
     void sum_rests();
 
     static constexpr std::size_t kMaxSets = 256;
