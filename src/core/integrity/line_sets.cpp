@@ -4,25 +4,6 @@
 
 namespace dotpose::core {
 
-void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place,
-                          int shared, RollOffsets& offsets) {
-    const std::uint8_t* const own = ratios.basis[sequence].rolls + ratios.places[sequence];
-    const std::uint8_t* const alternative = ratios.basis[sequence].rolls + place;
-    const auto back =
-        static_cast<std::uint8_t>(kSections - roll_offset(own[shared], alternative[shared]));
-    // The loop also accesses elements beyond the last line, like `RankedLines::set_offsets`.
-    for (std::size_t line = 0; line < static_cast<std::size_t>(ratios.count());
-         line += sizeof(Bytes)) {
-        Bytes from;
-        Bytes to;
-        std::memcpy(&from, own + line, sizeof from);
-        std::memcpy(&to, alternative + line, sizeof to);
-        const Bytes offset = to - from + (static_cast<Bytes>(to < from) & kSections);
-        const Bytes relative = modulo_sections(offset + back);
-        std::memcpy(offsets.data() + line, &relative, sizeof relative);
-    }
-}
-
 EqualPlaces::EqualPlaces(const RankedLines& lines) {
     const auto line_count = static_cast<std::size_t>(lines.count());
     for (std::size_t k = 0; k < all_.size(); ++k) {

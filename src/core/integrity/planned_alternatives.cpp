@@ -189,6 +189,7 @@ class SetSearch {
                 const std::size_t key = reduced(third.key(n) + first.key(m));
                 packed_[pair] = third.packed(n) + first.packed(m);
                 before_[pair] = newest_[key];
+                keys_[pair] = static_cast<std::uint16_t>(key);
                 set_newest(key, pair);
             }
         }
@@ -208,7 +209,7 @@ class SetSearch {
         }
         for (std::size_t n = 0; n < third.count(); ++n) {
             for (std::size_t m = 0; m < first.count(); ++m)
-                set_newest(reduced(third.key(n) + first.key(m)), kNone);
+                set_newest(keys_[kPlaces * n + m], kNone);
         }
     }
     /// Reduces both elements of a key modulo kSections.
@@ -262,6 +263,7 @@ class SetSearch {
     /// pair the previous pair with the same key.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;
+    std::array<std::uint16_t, kMaxPairs> keys_;  ///< key of each pair
     /// For each pair of places, the sums of the packed roll offsets of the two places.
     std::array<std::uint32_t, kMaxPairs> packed_;
     std::size_t skipped_ = 0;  ///< number of alternatives that lose `skipped_loss_`

@@ -31,18 +31,16 @@ float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t 
     return lines.ratios.odds(lost);
 }
 
-/// Returns the loss of a single alternative at the shift at which it shares a line. If the loss in
-/// the first lines exceeds `max_loss`, returns this loss. The order of the lines is that of
-/// `sorted`.
-int loss_of_place(const RankedLines& lines, std::span<const LineLoss> sorted,
-                  const SimilarPlaceList::Entry& entry, int max_loss) {
-    const LikelihoodRatios& ratios = lines.ratios;
-    const std::uint8_t* own = ratios.basis[entry.sequence].rolls + ratios.places[entry.sequence];
-    const std::uint8_t* alternative = ratios.basis[entry.sequence].rolls + entry.place;
-    const int base = 2 * kSections + own[entry.line] - alternative[entry.line];
+/// Returns the loss of a single alternative at the shift at which it shares the line `shared`. If
+/// the loss in the first lines exceeds `max_loss`, returns this loss. `own` and `alternative` are
+/// the rolls of the reading and of the alternative. The order of the lines is that of `sorted`.
+int loss_of_rolls(const RankedLines& lines, std::span<const LineLoss> sorted,
+                  const std::uint8_t* own, const std::uint8_t* alternative, std::size_t shared,
+                  int max_loss) {
+    const int base = 2 * kSections + own[shared] - alternative[shared];
     int lost = 0;
     for (const auto& [line, min_loss] : sorted) {
-        lost += lines.loss(line, alternative[line] - own[line] + base);
+        lost += lines.losses(line)[alternative[line] - own[line] + base];
         if (lost > max_loss) break;
     }
     return lost;
@@ -136,13 +134,18 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
     // An alternative that loses more than this in some lines has odds below 2^-kSkippedBits,
     // whatever it gains in the other lines.
     const int max_loss = ratios.loss_for(-256 * kSkippedBits) + ratios.max_gain();
+    std::array<const std::uint8_t*, 4> own;
+    for (std::size_t k = 0; k < own.size(); ++k)
+        own[k] = ratios.basis[k].rolls + ratios.places[k];
     for (const SimilarPlaceList::Entry& entry :
          std::span(list.places).first(static_cast<std::size_t>(list.count))) {
         if (entry.loss >= evaluated_limit) {
             sum += power_of_two_exactly(-kEvaluatedBits);
             continue;
         }
-        const int lost = loss_of_place(lines, sorted, entry, max_loss);
+        const int lost = loss_of_rolls(lines, sorted, own[entry.sequence],
+                                       ratios.basis[entry.sequence].rolls + entry.place, entry.line,
+                                       max_loss);
         sum += lost > max_loss ? power_of_two_exactly(-kSkippedBits) : ratios.odds(lost);
     }
     return sum;
