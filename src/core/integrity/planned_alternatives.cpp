@@ -176,7 +176,7 @@ class SetSearch {
         std::size_t matches = tabled * looked_up;
         for (std::size_t gap = 0; gap < pattern.gaps.count; ++gap)
             matches /= kSections;
-        return work_.spend(kWorkPerSet + 130 * listed + 45 * tabled + 11 * looked_up + 25 * matches);
+        return work_.spend(kWorkPerSet + 105 * listed + 38 * tabled + 11 * looked_up + 25 * matches);
     }
 
     /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make

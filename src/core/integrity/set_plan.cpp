@@ -105,7 +105,7 @@ float SetPlan::work(const Node& node) const {
     float matches = tabled * looked_up;
     for (unsigned gap = 0; gap < std::min(node.gaps, 2U); ++gap)
         matches /= kSections;
-    return 1500 + 130 * (a + b + c + d) + 45 * tabled + 11 * looked_up + 25 * matches;
+    return 1500 + 105 * (a + b + c + d) + 38 * tabled + 11 * looked_up + 25 * matches;
 }
 
 /// Adds all sets that extend `node`. The compared lines from index `n` on are undecided.

@@ -119,7 +119,7 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
     // add up to at most 2^-37.
     constexpr int kSkippedBits = 51;
     constexpr int kEvaluatedBits = 43;
-    constexpr std::size_t kWorkPerEntry = 95;  // in processor instructions, with those of the seams
+    constexpr std::size_t kWorkPerEntry = 85;  // in processor instructions, with those of the seams
     const LikelihoodRatios& ratios = lines.ratios;
     const CoarseLosses losses(ratios, kSkippedBits);
     std::array<LineLoss, kMaxLines> storage;

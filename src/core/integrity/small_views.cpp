@@ -12,7 +12,7 @@ namespace {
 
 /// Work of `RankedLines`, of the list of single alternatives, of `SetPlan`, and of the seam
 /// alternatives of one axis, in processor instructions.
-constexpr std::size_t kPreparation = 90'000;
+constexpr std::size_t kPreparation = 80'000;
 
 /// Returns an upper bound on the summed odds of the reading's position in all other sections.
 float bound_of_other_sections(const LikelihoodRatios& ratios) {
