@@ -47,14 +47,6 @@ Status decode(const DeviceOptions& options, const Grid& grid, std::span<ScoredLi
     return decode_all(grid, options.code, line_scores, decoding);
 }
 
-/// Returns the sums that are computed for an image. In small images, the sums that take longest
-/// seldom make a position certain.
-SumsOverAlternatives sums_for(const ImageView& image) {
-    return image.width_px * image.height_px <= tuning::confirm::kMaxPixelsOfSmallView
-               ? SumsOverAlternatives::short_ones
-               : SumsOverAlternatives::all;
-}
-
 /// Returns true if the pixel bias of the fix is significant. If so, the dots are measured again as
 /// in the tracked attempt, which corrects the bias.
 bool may_be_biased(const Fix& fix, const PlaneFromImage& plane, const ImageView& image) {
@@ -121,7 +113,7 @@ Status SecondAttempt::read_filtered(const Frame& frame) {
 }
 
 /// Finds the position from the bits, and verifies the position with the bits of all dots.
-Status SecondAttempt::read_position(const Frame& frame, const PlaceEvidence& evidence) {
+Status SecondAttempt::read_position(const PlaceEvidence& evidence) {
     const auto& [kernels, options, known, earlier, line_scores, others, work] = evidence;
     const Grid& grid = w_.grid;
     Decoding& decoding = w_.decoding;
@@ -132,7 +124,7 @@ Status SecondAttempt::read_position(const Frame& frame, const PlaceEvidence& evi
     Status status = decode(options, grid, line_scores, decoding);
     if (status == Status::ok) {
         status = verify(kernels, grid, options.code, others, decoding, options.integrity,
-                        line_scores, w_.fix, sums_for(frame.image));
+                        line_scores, w_.fix);
     }
     if (status == Status::ok && !is_possible(options.code, decoding, known))
         status = Status::not_certain;
@@ -165,7 +157,7 @@ Status SecondAttempt::resample(const Frame& frame, const PlaceEvidence& evidence
     w_.decoding.p_wrong_log2_q8 = {};  // these values are for the previous bits
     if (!sample_cells(frame.image, w_.smoothing.paper, options.lens, w_.grid_from_image, w_.grid))
         return Status::not_certain;
-    return read_position(frame, evidence);
+    return read_position(evidence);
 }
 
 /// Measures the pose at the decoded position (paper, section II-B.8), and writes the pose and its
@@ -198,7 +190,7 @@ bool SecondAttempt::read(const Frame& frame, Resampling resampling) {
     w_.fix = seen_;
     if (status != Status::ok) return false;
     w_.decoding = {};
-    status = read_position(frame, evidence);
+    status = read_position(evidence);
     if (status == Status::not_certain && resampling == Resampling::if_doubtful) {
         status = resample(frame, evidence);
         is_seen_ = false;

@@ -28,7 +28,7 @@ class SecondAttempt {
     Status read_filtered(const Frame& frame);
     Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image);
     Status find_grid(const LatticeOptions& options, FixedVec centre_q8);
-    Status read_position(const Frame& frame, const PlaceEvidence& evidence);
+    Status read_position(const PlaceEvidence& evidence);
     Status resample(const Frame& frame, const PlaceEvidence& evidence);
     Status measure_pose(const Frame& frame);
     bool fit_pattern(const Frame& frame, const Nominal& nominal, PoseFit& fit);

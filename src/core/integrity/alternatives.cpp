@@ -81,8 +81,7 @@ float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float 
 
 }  // namespace
 
-float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2,
-                          SumsOverAlternatives sums) {
+float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2) {
     if (ratios.lines.count() <= kMaxSharedInARow) return 1;
     const RankedLines lines(ratios);
     const float limit = power_of_two_exactly(limit_log2);
@@ -92,7 +91,6 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     const float max_rest = std::min(limit, kUsualLimit) / 4;
     if (const auto others = sum_of_likely_alternatives(kernels, lines, max_rest, limit - known))
         return known + *others;
-    if (sums == SumsOverAlternatives::short_ones) return 1;
     const auto expected_of = [&](int min_different, int max_different) {
         return sum_of_expected_alternatives(kernels, lines, kMaxSharedInARow - 1, min_different,
                                             max_different);
@@ -108,9 +106,8 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     return counted_in_detail(kernels, lines, known, expected, limit);
 }
 
-int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2,
-                      SumsOverAlternatives sums) {
-    return log2_rounded_up(sum_of_alternatives(kernels, ratios, limit_log2, sums));
+int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2) {
+    return log2_rounded_up(sum_of_alternatives(kernels, ratios, limit_log2));
 }
 
 }  // namespace dotpose::core

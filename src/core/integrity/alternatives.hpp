@@ -8,22 +8,14 @@
 
 namespace dotpose::core {
 
-/// Sums that may be computed.
-enum class SumsOverAlternatives : std::uint8_t {
-    all,
-    short_ones,  ///< all except the sums that take longest (see docs/integrity.md)
-};
-
 /// Returns the summed odds of all alternatives except seam alternatives, accurate to 2 %. Each
 /// alternative counts with its odds or with an upper bound on its odds, except that some far
 /// alternatives count with their expected odds. The summation stops when the sum reaches
 /// 2^limit_log2, so a larger result may be too small. Returns 1 or more if there are at most 5
-/// lines, if the ratios come from hard bits, or if the short sums do not suffice.
-float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2,
-                          SumsOverAlternatives sums = SumsOverAlternatives::all);
+/// lines, or if the ratios come from hard bits.
+float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2);
 
 /// Returns log2 of `sum_of_alternatives`, rounded up to an integer and clamped to at most 0.
-int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0,
-                      SumsOverAlternatives sums = SumsOverAlternatives::all);
+int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

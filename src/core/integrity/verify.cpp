@@ -272,7 +272,7 @@ void weigh_other_codes(const Kernels& kernels, const Grid& grid, CodeVariant cod
 
 Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const OtherCodes* others,
               Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
-              Fix& fix, SumsOverAlternatives sums) {
+              Fix& fix) {
     decoding.p_wrong_log2_q8 = {};
     const int limit_q8 = 256 * options.max_p_wrong_log2;
     Doubt doubt = compare_with_chance(grid, code, options, decoding, fix);
@@ -295,7 +295,7 @@ Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const 
             [&](std::size_t axis, const LikelihoodRatios& ratios) {
                 const bool is_in_doubt = p_wrong_q8[axis] > doubtful_q8 - 4 * 256;
                 if (!is_in_doubt) return 0;
-                return 256 * alternatives_log2(kernels, ratios, options.max_p_wrong_log2, sums) +
+                return 256 * alternatives_log2(kernels, ratios, options.max_p_wrong_log2) +
                        codes_q8;
             });
         for (std::size_t i = 0; i < counted_q8.size(); ++i)

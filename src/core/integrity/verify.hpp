@@ -5,7 +5,6 @@
 
 #include "core/decode/grid.hpp"
 #include "core/decode/lines.hpp"
-#include "core/integrity/alternatives.hpp"
 #include "core/integrity/compared_line.hpp"
 #include "core/kernels/kernels.hpp"
 #include "core/other_codes.hpp"
@@ -20,11 +19,10 @@ namespace dotpose::core {
 /// seams between sections. `others` contains the number of possible codes. It may be null if the
 /// code is given. If `decoding.lines_are_scored` is true, `storage` must contain the scores of the
 /// decoder. Error: not_certain, if the probability exceeds the limit in `options`, or if the
-/// fraction of wrong bits on an axis exceeds its limit. If only the short sums may be computed, the
-/// error is more frequent.
+/// fraction of wrong bits on an axis exceeds its limit.
 Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const OtherCodes* others,
               Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
-              Fix& fix, SumsOverAlternatives sums = SumsOverAlternatives::all);
+              Fix& fix);
 
 /// Verifies a decoded position in integers and in bounded time. Refuses more positions than
 /// `verify`, because it uses only quick_alternatives.hpp. Error: not_certain, for the same reasons
