@@ -224,8 +224,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// In small views, the second bound is computed if the first bound is below this value. If the first
-/// bound is larger, the second bound seldom suffices.
+/// In small views, the second bound is computed if the first bound is below this value. If the
+/// first bound is larger, the second bound seldom suffices.
 constexpr float kMaxForQuickBound = 0x1p-20F;
 
 /// Returns an upper bound on the probability that one of the axes of a small view is wrong, or 1 if

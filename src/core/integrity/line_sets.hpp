@@ -37,8 +37,8 @@ inline Bytes modulo_sections(Bytes offsets) {
 
 /// Sets the roll offsets of the single alternative at `place` in `sequence`, at the shift at which
 /// it shares the line `shared`.
-inline void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place,
-                          int shared, RollOffsets& offsets) {
+inline void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t sequence,
+                                 std::uint32_t place, int shared, RollOffsets& offsets) {
     const std::uint8_t* const own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* const alternative = ratios.basis[sequence].rolls + place;
     const auto back =

@@ -92,7 +92,8 @@ class KeyedPlaces {
                 places_[count_] = static_cast<std::uint8_t>(
                     32 * word + static_cast<std::size_t>(std::countr_zero(rest)));
                 RollOffsets& offsets = offsets_[count_];
-                set_relative_offsets(lines.ratios, sequence, places_[count_], gaps.before[0], offsets);
+                set_relative_offsets(lines.ratios, sequence, places_[count_], gaps.before[0],
+                                     offsets);
                 const auto change = [&](std::size_t gap) -> std::size_t {
                     const std::size_t offset = offsets[static_cast<std::size_t>(gaps.after[gap])];
                     return negates && offset != 0 ? kSections - offset : offset;
@@ -137,9 +138,9 @@ class SetSearch {
         newest_.fill(kNone);
     }
 
-    /// Adds the odds of the far alternatives that share at least the lines of `sets[n]`, but not all
-    /// lines of an earlier set. The set must not be empty. Returns false if the search must end,
-    /// because the sum exceeds `max_odds` or the work does not suffice.
+    /// Adds the odds of the far alternatives that share at least the lines of `sets[n]`, but not
+    /// all lines of an earlier set. The set must not be empty. Returns false if the search must
+    /// end, because the sum exceeds `max_odds` or the work does not suffice.
     bool add(std::span<const PlannedSet> sets, std::size_t n) {
         earlier_ = sets.first(n);
         const LineSet shared = sets[n].shared;
@@ -176,7 +177,8 @@ class SetSearch {
         std::size_t matches = tabled * looked_up;
         for (std::size_t gap = 0; gap < pattern.gaps.count; ++gap)
             matches /= kSections;
-        return work_.spend(kWorkPerSet + 105 * listed + 38 * tabled + 11 * looked_up + 25 * matches);
+        return work_.spend(kWorkPerSet + 105 * listed + 38 * tabled + 11 * looked_up +
+                           25 * matches);
     }
 
     /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make

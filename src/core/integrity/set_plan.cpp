@@ -90,8 +90,8 @@ void SetPlan::set_numbers() {
 float SetPlan::expected(const Node& node) const {
     const ByDifferent& number = number_[node.steps];
     const ByDifferent& returned = returned_[node.gaps];
-    const float sum = number.two * returned.two + number.three * returned.three +
-                      number.four * returned.four;
+    const float sum =
+        number.two * returned.two + number.three * returned.three + number.four * returned.four;
     return (node.shared == 0 ? kSections : 1) * node.odds * sum;
 }
 
@@ -151,8 +151,9 @@ void SetPlan::sort_sets() {
     std::array<float, kMaxSets> keys;
     for (std::size_t n = 0; n < count_; ++n) {
         const PlannedSet set = sets_[n];
-        const float key = set.is_required ? static_cast<float>(kMaxLines - std::popcount(set.shared))
-                                          : set.expected / set.work;
+        const float key = set.is_required
+                              ? static_cast<float>(kMaxLines - std::popcount(set.shared))
+                              : set.expected / set.work;
         std::size_t i = n;
         for (; i > 0 && keys[i - 1] < key; --i) {
             sets_[i] = sets_[i - 1];

@@ -14,8 +14,8 @@ namespace dotpose::core {
 /// Set of lines that far alternatives may share.
 struct PlannedSet {
     LineSet shared;
-    float expected;  ///< expected odds of the far alternatives that share exactly these lines
-    float work;      ///< work of the search for these alternatives, in processor instructions
+    float expected;    ///< expected odds of the far alternatives that share exactly these lines
+    float work;        ///< work of the search for these alternatives, in processor instructions
     bool is_required;  ///< true if the set must be searched, because single odds may be large
 };
 
@@ -29,8 +29,8 @@ class SetPlan {
     /// Returns the sets. The required sets come first. The other sets are sorted by decreasing
     /// ratio of expected odds to work.
     std::span<const PlannedSet> sets() const { return std::span(sets_).first(count_); }
-    /// Returns true if set n contains an earlier set. The search for the earlier set then also finds
-    /// the alternatives of set n.
+    /// Returns true if set n contains an earlier set. The search for the earlier set then also
+    /// finds the alternatives of set n.
     bool is_covered(std::size_t n) const;
     /// Returns the expected odds of all far alternatives that are not in the first n sets.
     float rest(std::size_t n) const { return rests_[n]; }

@@ -143,9 +143,9 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
             sum += power_of_two_exactly(-kEvaluatedBits);
             continue;
         }
-        const int lost = loss_of_rolls(lines, sorted, own[entry.sequence],
-                                       ratios.basis[entry.sequence].rolls + entry.place, entry.line,
-                                       max_loss);
+        const int lost =
+            loss_of_rolls(lines, sorted, own[entry.sequence],
+                          ratios.basis[entry.sequence].rolls + entry.place, entry.line, max_loss);
         sum += lost > max_loss ? power_of_two_exactly(-kSkippedBits) : ratios.odds(lost);
     }
     return sum;
