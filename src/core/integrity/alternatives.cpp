@@ -7,7 +7,6 @@
 #include "core/integrity/expected_alternatives.hpp"
 #include "core/integrity/likely_alternatives.hpp"
 #include "core/integrity/near_alternatives.hpp"
-#include "core/integrity/planned_alternatives.hpp"
 #include "core/integrity/ranked_lines.hpp"
 #include "core/integrity/single_alternatives.hpp"
 #include "core/math/odds.hpp"
@@ -37,14 +36,6 @@ float sum_of_other_sections(const RankedLines& lines) {
         sum += lines.ratios.odds(lost);
     }
     return sum;
-}
-
-/// Returns an upper bound on the result of `sum_of_other_sections`.
-float bound_of_other_sections(const LikelihoodRatios& ratios) {
-    int lost = 0;
-    for (int line = 0; line < ratios.count(); ++line)
-        lost += ratios.min_loss(line);
-    return (kSections - 1) * ratios.odds(lost);
 }
 
 int log2_rounded_up(float sum) {
@@ -113,23 +104,6 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
         sum > std::min(limit, kUsualLimit) / 1024 && far > known && far < kMaxOddsForDetail;
     if (known >= limit || !needs_detail) return sum;
     return counted_in_detail(kernels, lines, known, expected, limit);
-}
-
-float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2,
-                          WorkLimit& work) {
-    // Estimated work of `RankedLines`, of the list of single alternatives, of `SetPlan`, and of the
-    // seam alternatives, in processor instructions.
-    constexpr std::size_t kPreparation = 110'000;
-    if (ratios.lines.count() <= kMaxSharedInARow || !work.spend(kPreparation)) return 1;
-    const RankedLines lines(ratios);
-    const auto single = sum_of_single_alternatives(kernels, lines, work);
-    if (!single) return 1;
-    const float limit = power_of_two_exactly(limit_log2);
-    const float known = *single + bound_of_other_sections(ratios);
-    if (known >= limit) return known;
-    const auto others =
-        sum_of_planned_alternatives(lines, std::min(limit, kUsualLimit) / 4, limit - known, work);
-    return others ? known + *others : 1;
 }
 
 int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2) {

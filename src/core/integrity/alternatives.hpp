@@ -4,7 +4,6 @@
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
-#include "core/integrity/work_limit.hpp"
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
@@ -16,13 +15,7 @@ namespace dotpose::core {
 /// are at most 5 lines, or if the ratios come from hard bits.
 float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2);
 
-/// Variant of `sum_of_alternatives` with bounded work, for small views. Also returns 1 if `work`
-/// does not suffice. Never computes the sums that take longest (see docs/integrity.md, "Small
-/// views").
-float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2,
-                          WorkLimit& work);
-
-/// Returns log2 of the sum with unbounded work, rounded up to an integer and clamped to at most 0.
+/// Returns log2 of `sum_of_alternatives`, rounded up to an integer and clamped to at most 0.
 int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

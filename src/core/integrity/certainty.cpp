@@ -10,6 +10,7 @@
 #include "core/integrity/min_losses.hpp"
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/seam_alternatives.hpp"
+#include "core/integrity/small_views.hpp"
 #include "core/integrity/tabled_alternatives.hpp"
 #include "core/integrity/unshared_lines.hpp"
 #include "core/integrity/weigh_codes.hpp"
@@ -213,20 +214,51 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     // still make the frame certain.
     const float enough = limit / 2;
     float sum = with(alternatives(kernels, ratios, unshared, limit));
-    // In small views, the second bound is rarely much tighter than the first. It is therefore
-    // computed only if the first bound is already small.
-    const bool may_suffice_quickly = query.work == nullptr || sum < 1e-3F;
-    if (sum > enough && !ratios.is_of_bits() && may_suffice_quickly)
+    if (sum > enough && !ratios.is_of_bits())
         sum = with(power_of_two_rounded_up(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
     if (sum > enough && !ratios.is_of_bits()) {
-        const float counted = query.work == nullptr
-                                  ? sum_of_alternatives(kernels, ratios, limit_log2)
-                                  : sum_of_alternatives(kernels, ratios, limit_log2, *query.work);
-        // The factor covers the rounding errors of the exponentials in the sum.
-        sum = with(1.03F * counted);
+        // The factor covers the error of the exponentials.
+        sum = with(1.03F * sum_of_alternatives(kernels, ratios, limit_log2));
     }
     if (sum > limit) return 1;
     return sum + seam_alternatives(kernels, unshared);
+}
+
+/// In small views, the second bound is computed if the first bound is below this value. If the
+/// first bound is larger, the second bound seldom suffices.
+constexpr float kMaxForQuickBound = 0x1p-20F;
+
+/// Returns an upper bound on the probability that one of the axes of a small view is wrong, or 1 if
+/// the bound exceeds 2^limit_log2. The first two bounds on the alternatives are those of
+/// `axis_wrong`.
+float small_view_wrong(const Kernels& kernels, const std::array<Confidence, 2>& bits,
+                       const std::array<const UnsharedLines*, 2>& axes, const Query& query) {
+    const float limit = power_of_two_exactly(query.limit_log2);
+    const float codes = codes_in_question(query);
+    float wrong = 0;
+    std::array<const UnsharedLines*, 2> in_doubt;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const UnsharedLines& unshared = *axes[i];
+        const float chance = chance_of(bits[i], query);
+        wrong += chance;
+        if (wrong > limit) return 1;
+        const float enough = limit / 2 - chance;
+        float sum = codes * alternatives(kernels, unshared.ratios(), unshared, limit);
+        if (sum > enough && sum < kMaxForQuickBound) {
+            sum = codes * power_of_two_rounded_up(quick_alternatives_log2_q8(
+                              unshared.ratios(), 256 * query.limit_log2));
+        }
+        if (sum > enough) {
+            in_doubt[count++] = &unshared;
+        } else {
+            wrong += sum + seam_alternatives(kernels, unshared);
+        }
+    }
+    if (count == 0) return wrong;
+    // The margin covers the roundings of the sums.
+    return wrong + wrong_in_small_view(kernels, std::span(in_doubt).first(count), codes,
+                                       0.999F * limit - wrong, *query.work);
 }
 
 /// Returns true if the bounds on the error probabilities of both axes add up to at most
@@ -236,11 +268,17 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
                  Fix& fix) {
     const UnsharedLines x_unshared(kernels, x);
-    const float x_wrong = axis_wrong(kernels, bits[0], x_unshared, query);
-    if (x_wrong >= 1) return false;
     const UnsharedLines y_unshared(kernels, y);
-    const float y_wrong = axis_wrong(kernels, bits[1], y_unshared, query);
-    if (!is_within_limit(x_wrong + y_wrong, query.limit_log2, fix)) return false;
+    float wrong = 0;
+    if (query.work != nullptr) {
+        wrong = small_view_wrong(kernels, bits, {&x_unshared, &y_unshared}, query);
+        if (wrong >= 1) return false;
+    } else {
+        wrong = axis_wrong(kernels, bits[0], x_unshared, query);
+        if (wrong >= 1) return false;
+        wrong += axis_wrong(kernels, bits[1], y_unshared, query);
+    }
+    if (!is_within_limit(wrong, query.limit_log2, fix)) return false;
     if (query.others == nullptr) return true;
     weigh_other_codes(kernels, x_unshared, y_unshared, query.code, *query.others);
     return true;

@@ -28,11 +28,9 @@ class PlaceList {
     }
     /// Computes the roll offsets and keys of the listed places.
     void set_offsets(const RankedLines& lines, std::size_t sequence, const Gaps& gaps) {
-        const auto line_count = static_cast<std::size_t>(lines.count());
         for (std::size_t n = 0; n < count_; ++n) {
             RollOffsets& offsets = offsets_[n];
-            lines.set_offsets(sequence, places_[n], offsets);
-            make_relative(line_count, gaps.before[0], offsets);
+            set_relative_offsets(lines.ratios, sequence, places_[n], gaps.before[0], offsets);
             const auto across = [&](std::size_t gap) {
                 return roll_offset(offsets[static_cast<std::size_t>(gaps.before[gap])],
                                    offsets[static_cast<std::size_t>(gaps.after[gap])]);

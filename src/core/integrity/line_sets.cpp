@@ -4,15 +4,6 @@
 
 namespace dotpose::core {
 
-void make_relative(std::size_t line_count, int first_shared, RollOffsets& offsets) {
-    const auto back =
-        static_cast<std::uint8_t>(kSections - offsets[static_cast<std::size_t>(first_shared)]);
-    for (std::size_t line = 0; line < line_count; line += sizeof(Bytes)) {
-        const Bytes relative = modulo_sections(bytes_at(offsets, line) + back);
-        std::memcpy(offsets.data() + line, &relative, sizeof relative);
-    }
-}
-
 EqualPlaces::EqualPlaces(const RankedLines& lines) {
     const auto line_count = static_cast<std::size_t>(lines.count());
     for (std::size_t k = 0; k < all_.size(); ++k) {

@@ -34,8 +34,26 @@ inline Bytes modulo_sections(Bytes offsets) {
     return offsets - (static_cast<Bytes>(offsets >= kSections) & kSections);
 }
 
-/// Subtracts the roll offset of the line `first_shared` from the roll offsets of all lines.
-void make_relative(std::size_t line_count, int first_shared, RollOffsets& offsets);
+/// Sets the roll offsets of the single alternative at `place` in `sequence`, at the shift at which
+/// it shares the line `shared`.
+inline void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t sequence,
+                                 std::uint32_t place, int shared, RollOffsets& offsets) {
+    const std::uint8_t* const own = ratios.basis[sequence].rolls + ratios.places[sequence];
+    const std::uint8_t* const alternative = ratios.basis[sequence].rolls + place;
+    const auto back =
+        static_cast<std::uint8_t>(kSections - roll_offset(own[shared], alternative[shared]));
+    // The loop also accesses elements beyond the last line, like `RankedLines::set_offsets`.
+    for (std::size_t line = 0; line < static_cast<std::size_t>(ratios.count());
+         line += sizeof(Bytes)) {
+        Bytes from;
+        Bytes to;
+        std::memcpy(&from, own + line, sizeof from);
+        std::memcpy(&to, alternative + line, sizeof to);
+        const Bytes offset = to - from + (static_cast<Bytes>(to < from) & kSections);
+        const Bytes relative = modulo_sections(offset + back);
+        std::memcpy(offsets.data() + line, &relative, sizeof relative);
+    }
+}
 
 /// The places whose digits are equal to the digits of the reading in given steps. Two positions
 /// share two adjacent lines only if, in the step between these lines, they have the same digit in

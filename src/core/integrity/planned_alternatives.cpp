@@ -17,34 +17,66 @@ namespace {
 /// 4 on 6 axes, and at most 40.
 constexpr float kPlanMargin = 4;
 
-/// If the loss of an alternative reaches this number of bits, its evaluation stops. The alternative
-/// then contributes the odds at this loss.
+/// Maximum odds that are not searched, including the safety factor. Prevents a large limit of the
+/// caller from making the result imprecise.
+constexpr float kMaxRest = 0x1p-31F;
+
+/// Loss, in bits, at which the evaluation of an alternative stops. The alternative then counts with
+/// the odds at this loss.
 constexpr int kSkippedBits = 46;
 
-/// The key of a place consists of the changes of the roll offset across the first two gaps,
-/// combined as kKeyStep * first + second. The sum of two keys is less than kKeys, because both
-/// parts of a key are below kSections.
+/// Keys of places: the changes of the roll offset from the first shared line to the ends of the
+/// first two gaps, combined as kKeyStep * first + second. Sums of two keys are also valid indices,
+/// because the elements of each key are below kSections.
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
-/// A set of shared lines, and the lines that are not shared, sorted by decreasing minimum loss.
+/// Number of lines that are compared for all matches (see `SetSearch`). Their roll offsets are
+/// packed into one word.
+constexpr std::size_t kPackedLines = 4;
+
+/// A set of shared lines, and the lines with the largest minimum losses among all other lines.
 struct Pattern {
     Pattern(const RankedLines& lines, LineSet shared_) : shared(shared_), gaps(shared_) {
+        std::array<int, kPackedLines> min_losses{-1, -1, -1, -1};
+        losses.fill(kNoLosses.data());
         for (int line = 0; line < lines.count(); ++line) {
-            if ((shared >> line & 1) != 0) continue;
-            std::size_t n = unshared_count++;
-            for (; n > 0 && lines.ratios.min_loss(unshared[n - 1]) < lines.ratios.min_loss(line);
-                 --n)
+            const int min_loss = std::max(lines.ratios.min_loss(line), 0);
+            if ((shared >> line & 1) != 0 || min_loss <= min_losses.back()) continue;
+            std::size_t n = kPackedLines - 1;
+            for (; n > 0 && min_losses[n - 1] < min_loss; --n) {
+                min_losses[n] = min_losses[n - 1];
                 unshared[n] = unshared[n - 1];
+                losses[n] = losses[n - 1];
+            }
+            min_losses[n] = min_loss;
             unshared[n] = static_cast<std::uint8_t>(line);
+            losses[n] = lines.losses(unshared[n]);
         }
-        packed_count = std::min(unshared_count, sizeof(std::uint64_t));
     }
+    /// Returns the packed roll offsets, one per byte. The sum of four results contains the sums of
+    /// the roll offsets.
+    std::uint32_t packed(const RollOffsets& offsets) const {
+        const auto& [a, b, c, d] = unshared;
+        return offsets[a] | std::uint32_t{offsets[b]} << 8 | std::uint32_t{offsets[c]} << 16 |
+               std::uint32_t{offsets[d]} << 24;
+    }
+    /// Returns the loss in the packed lines. `packed` is a sum of packed roll offsets.
+    int lost(std::uint32_t packed) const {
+        return losses[0][packed & 0xFF] + losses[1][packed >> 8 & 0xFF] +
+               losses[2][packed >> 16 & 0xFF] + losses[3][packed >> 24];
+    }
+
     LineSet shared;
     Gaps gaps;
-    std::size_t unshared_count = 0;
-    std::size_t packed_count;  ///< number of lines whose offsets are packed (`KeyedPlaces::packed`)
-    std::array<std::uint8_t, kMaxLines> unshared;
+
+  private:
+    static constexpr std::array<std::int16_t, 256> kNoLosses{};
+
+    std::array<std::uint8_t, kPackedLines> unshared{};
+    /// Losses in these lines, by roll offset (see `RankedLines::losses`). If there are fewer than
+    /// kPackedLines lines, the last elements are kNoLosses.
+    std::array<const std::int16_t*, kPackedLines> losses;
 };
 
 /// Places in one sequence at which an alternative may share a given set of lines.
@@ -53,54 +85,38 @@ class KeyedPlaces {
     /// Lists the places. If `negates` is true, computes the keys from the negated changes.
     void list(const RankedLines& lines, std::size_t sequence, const PlaceBits& places,
               const Pattern& pattern, bool negates) {
+        const Gaps& gaps = pattern.gaps;
         count_ = 0;
         for (std::size_t word = 0; word < places.size(); ++word) {
             for (std::uint32_t rest = places[word]; rest != 0; rest &= rest - 1) {
-                const auto place = static_cast<std::uint32_t>(
+                places_[count_] = static_cast<std::uint8_t>(
                     32 * word + static_cast<std::size_t>(std::countr_zero(rest)));
-                lines.set_offsets(sequence, place, offsets_[count_]);
-                is_other_[count_] = place != lines.ratios.places[sequence] ? 1 : 0;
-                set_key(pattern.gaps, negates);
-                make_relative(static_cast<std::size_t>(lines.count()), pattern.gaps.before[0],
-                              offsets_[count_]);
-                pack(pattern);
-                ++count_;
+                RollOffsets& offsets = offsets_[count_];
+                set_relative_offsets(lines.ratios, sequence, places_[count_], gaps.before[0],
+                                     offsets);
+                const auto change = [&](std::size_t gap) -> std::size_t {
+                    const std::size_t offset = offsets[static_cast<std::size_t>(gaps.after[gap])];
+                    return negates && offset != 0 ? kSections - offset : offset;
+                };
+                keys_[count_] = static_cast<std::uint16_t>(kKeyStep * change(0) + change(1));
+                packed_[count_++] = pattern.packed(offsets);
             }
         }
     }
     std::size_t count() const { return count_; }
+    std::uint8_t place(std::size_t n) const { return places_[n]; }
     /// Returns the roll offsets of a place relative to the first shared line.
     const RollOffsets& offsets(std::size_t n) const { return offsets_[n]; }
-    /// Returns the roll offsets in the first eight lines that are not shared, one per byte. Sums of
-    /// four such offsets fit in a byte.
-    std::uint64_t packed(std::size_t n) const { return packed_[n]; }
     std::size_t key(std::size_t n) const { return keys_[n]; }
-    /// Returns 1 if the place is not the place of the reading, and 0 otherwise.
-    int is_other(std::size_t n) const { return is_other_[n]; }
+    std::uint32_t packed(std::size_t n) const { return packed_[n]; }
 
   private:
-    void set_key(const Gaps& gaps, bool negates) {
-        const RollOffsets& offsets = offsets_[count_];
-        const auto across = [&](std::size_t gap) -> std::size_t {
-            const std::uint8_t before = offsets[static_cast<std::size_t>(gaps.before[gap])];
-            const std::uint8_t after = offsets[static_cast<std::size_t>(gaps.after[gap])];
-            return negates ? roll_offset(after, before) : roll_offset(before, after);
-        };
-        keys_[count_] = static_cast<std::uint16_t>(kKeyStep * across(0) + across(1));
-    }
-    void pack(const Pattern& pattern) {
-        std::uint64_t packed = 0;
-        for (std::size_t n = pattern.packed_count; n-- > 0;)
-            packed = packed << 8 | offsets_[count_][pattern.unshared[n]];
-        packed_[count_] = packed;
-    }
-
     static constexpr std::size_t kMaxPlaces = code::kA4Restored.size();
 
     std::size_t count_ = 0;
-    std::array<std::uint8_t, kMaxPlaces> is_other_;
+    std::array<std::uint8_t, kMaxPlaces> places_;
     std::array<std::uint16_t, kMaxPlaces> keys_;
-    std::array<std::uint64_t, kMaxPlaces> packed_;
+    std::array<std::uint32_t, kMaxPlaces> packed_;
     std::array<RollOffsets, kMaxPlaces> offsets_;
 };
 
@@ -122,10 +138,12 @@ class SetSearch {
         newest_.fill(kNone);
     }
 
-    /// Adds the odds of the far alternatives that share exactly the lines `shared`, which must not
-    /// be empty. Lines without a positive minimum loss may or may not be shared. Returns false if
-    /// the search must end, because the sum exceeds `max_odds` or the work does not suffice.
-    bool add(LineSet shared) {
+    /// Adds the odds of the far alternatives that share at least the lines of `sets[n]`, but not
+    /// all lines of an earlier set. The set must not be empty. Returns false if the search must
+    /// end, because the sum exceeds `max_odds` or the work does not suffice.
+    bool add(std::span<const PlannedSet> sets, std::size_t n) {
+        earlier_ = sets.first(n);
+        const LineSet shared = sets[n].shared;
         PlaceSets places = equal_places_.all();
         for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1)
             equal_places_.keep_equal(static_cast<std::size_t>(std::countr_zero(steps)), places);
@@ -140,7 +158,7 @@ class SetSearch {
     }
 
   private:
-    static constexpr std::size_t kWorkPerSet = 1000;
+    static constexpr std::size_t kWorkPerSet = 1500;
     /// A pair of places is stored as kPlaces times the index in a3 plus the index in a1.
     static constexpr std::size_t kPlaces = 256;
     static constexpr std::size_t kMaxPairs = code::kA3.size() * kPlaces;
@@ -159,37 +177,41 @@ class SetSearch {
         std::size_t matches = tabled * looked_up;
         for (std::size_t gap = 0; gap < pattern.gaps.count; ++gap)
             matches /= kSections;
-        return work_.spend(kWorkPerSet + 80 * listed + 36 * tabled + 9 * looked_up + 45 * matches);
+        return work_.spend(kWorkPerSet + 105 * listed + 38 * tabled + 11 * looked_up +
+                           25 * matches);
     }
 
     /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make
     /// the roll offset equal at both ends of each gap.
     void add_matches(const Pattern& pattern) {
-        int rest = 0;  // minimum loss in the packed lines after line n
-        for (std::size_t n = pattern.packed_count; n-- > 0;) {
-            losses_[n] = lines_.losses(pattern.unshared[n]);
-            limits_[n] = skipped_loss_ - rest;
-            rest += std::max(lines_.ratios.min_loss(pattern.unshared[n]), 0);
-        }
         const auto& [first, second, third, fourth] = lists_;
         for (std::size_t n = 0; n < third.count(); ++n) {
             for (std::size_t m = 0; m < first.count(); ++m) {
                 const auto pair = static_cast<std::uint16_t>(kPlaces * n + m);
                 const std::size_t key = reduced(third.key(n) + first.key(m));
+                packed_[pair] = third.packed(n) + first.packed(m);
                 before_[pair] = newest_[key];
+                keys_[pair] = static_cast<std::uint16_t>(key);
                 set_newest(key, pair);
             }
         }
         for (std::size_t n = 0; n < second.count(); ++n) {
             for (std::size_t m = 0; m < fourth.count(); ++m) {
                 const std::size_t key = second.key(n) + fourth.key(m);
-                for (std::uint16_t pair = newest_[key]; pair != kNone; pair = before_[pair])
-                    add(pattern, pair % kPlaces, n, pair / kPlaces, m);
+                for (std::uint16_t pair = newest_[key]; pair != kNone; pair = before_[pair]) {
+                    const std::uint32_t offsets =
+                        packed_[pair] + second.packed(n) + fourth.packed(m);
+                    // Most alternatives lose kSkippedBits in the packed lines.
+                    if (pattern.lost(offsets) >= skipped_loss_)
+                        ++skipped_;
+                    else
+                        add(pattern.shared, pair % kPlaces, n, pair / kPlaces, m);
+                }
             }
         }
         for (std::size_t n = 0; n < third.count(); ++n) {
             for (std::size_t m = 0; m < first.count(); ++m)
-                set_newest(reduced(third.key(n) + first.key(m)), kNone);
+                set_newest(keys_[kPlaces * n + m], kNone);
         }
     }
     /// Reduces both parts of a key modulo kSections.
@@ -206,38 +228,27 @@ class SetSearch {
             pair;
     }
 
-    /// Adds the odds of the alternative with the given places, at the shift where it shares the
-    /// first shared line. Most alternatives lose kSkippedBits in the first few lines, and count as
-    /// skipped. The arguments are indices into the lists of places.
-    void add(const Pattern& pattern, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
-        std::uint64_t shifts =
-            lists_[0].packed(a) + lists_[1].packed(b) + lists_[2].packed(c) + lists_[3].packed(d);
+    /// Adds the odds of the alternative with the given places, at the shift at which it shares the
+    /// first shared line. Adds nothing if the alternative does not share all lines of the set
+    /// `required`, or shares all lines of an earlier set. The other arguments are indices into the
+    /// lists of places.
+    void add(LineSet required, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+        const auto& own = lines_.ratios.places;
+        const int different = (lists_[0].place(a) != own[0]) + (lists_[1].place(b) != own[1]) +
+                              (lists_[2].place(c) != own[2]) + (lists_[3].place(d) != own[3]);
+        if (different < 2) return;
         int lost = 0;
-        for (std::size_t n = 0; n < pattern.packed_count; ++n, shifts >>= 8) {
-            lost += losses_[n][shifts & 0xFF];
-            if (lost >= limits_[n]) {
-                ++skipped_;
-                return;
-            }
-        }
-        if (lists_[0].is_other(a) + lists_[1].is_other(b) + lists_[2].is_other(c) +
-                lists_[3].is_other(d) >=
-            2)
-            add_in_all_lines(pattern, a, b, c, d);
-    }
-
-    /// Adds the odds of the alternative with the given places. Adds nothing if, among the lines
-    /// with a positive minimum loss, it does not share exactly the lines of the pattern.
-    void add_in_all_lines(const Pattern& pattern, std::size_t a, std::size_t b, std::size_t c,
-                          std::size_t d) {
-        int lost = 0;
+        LineSet shared = 0;
         for (std::size_t line = 0; line < count_; ++line) {
             const int shift = lists_[0].offsets(a)[line] + lists_[1].offsets(b)[line] +
                               lists_[2].offsets(c)[line] + lists_[3].offsets(d)[line];
-            const bool is_compared = lines_.ratios.min_loss(static_cast<int>(line)) > 0;
-            if (is_compared && (shift % kSections == 0) != ((pattern.shared >> line & 1) != 0))
-                return;
             lost += lines_.loss(static_cast<int>(line), shift);
+            shared |= LineSet{shift % kSections == 0} << line;
+        }
+        const auto shares = [&](LineSet set) { return (shared & set) == set; };
+        if (!shares(required)) return;
+        for (const PlannedSet& set : earlier_) {
+            if (shares(set.shared)) return;
         }
         sum_ += lines_.ratios.odds(lost);
     }
@@ -248,32 +259,38 @@ class SetSearch {
     int skipped_loss_;  ///< kSkippedBits as a loss, plus the maximum gain in other lines
     WorkLimit& work_;
     EqualPlaces equal_places_;
+    std::span<const PlannedSet> earlier_;
     std::array<KeyedPlaces, 4> lists_;
-    /// Losses in the first lines that are not shared, by roll offset (see `RankedLines::losses`).
-    std::array<const std::int16_t*, sizeof(std::uint64_t)> losses_{};
-    /// For each of these lines, the loss limit. An alternative is skipped if its total loss in the
-    /// lines up to and including this line reaches the limit.
-    std::array<int, sizeof(std::uint64_t)> limits_{};
     /// `newest_` contains the newest pair of places with each key, and `before_` contains for each
     /// pair the previous pair with the same key.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;
-    std::size_t skipped_ = 0;  ///< number of skipped alternatives
+    std::array<std::uint16_t, kMaxPairs> keys_;  ///< key of each pair
+    /// For each pair of places, the sums of the packed roll offsets of the two places.
+    std::array<std::uint32_t, kMaxPairs> packed_;
+    std::size_t skipped_ = 0;  ///< number of alternatives that lose `skipped_loss_`
     float sum_ = 0;
 };
 
 }  // namespace
 
-std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, float max_rest,
-                                                 float max_odds, WorkLimit& work) {
-    const SetPlan plan(lines, max_rest / kPlanMargin, static_cast<float>(work.left()));
-    if (!plan.is_feasible()) return {};
+float work_of_planned_alternatives(const SetPlan& plan, float max_rest) {
+    return plan.work_of(plan.count_for(max_rest / kPlanMargin));
+}
+
+std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, const SetPlan& plan,
+                                                 float share, float max_odds, WorkLimit& work) {
+    if (!plan.is_complete()) return {};
     SetSearch search(lines, max_odds, work);
-    for (const PlannedSet& set : plan.sets()) {
-        if (search.add(set.shared)) continue;
-        return search.odds() > max_odds ? std::optional(search.odds()) : std::nullopt;
+    const std::span<const PlannedSet> sets = plan.sets();
+    for (std::size_t n = 0;; ++n) {
+        const float rest = kPlanMargin * plan.rest(n);
+        const bool may_end = n == sets.size() || !sets[n].is_required;
+        if (may_end && rest <= std::min(share * (max_odds - search.odds()), kMaxRest))
+            return search.odds() + rest;
+        if (n == sets.size()) return {};
+        if (!plan.is_covered(n) && !search.add(sets, n)) return {};
     }
-    return search.odds() + kPlanMargin * plan.rest();
 }
 
 }  // namespace dotpose::core

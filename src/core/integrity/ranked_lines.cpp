@@ -46,11 +46,12 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
         OddsByOffset& odds = odds_[line];
         const LineScores& scores = ratios.lines[static_cast<int>(line)];
         const auto own = static_cast<std::size_t>(ratios.own_roll(static_cast<int>(line)));
-        for (std::size_t offset = 0; offset < kSections; ++offset) {
-            const std::size_t roll = own + offset;
-            losses[offset] = static_cast<std::int16_t>(
-                scores[own] - scores[roll < kSections ? roll : roll - kSections]);
-        }
+        // Two loops without a condition, which compilers vectorise.
+        const std::int16_t own_score = scores[own];
+        for (std::size_t roll = own; roll < kSections; ++roll)
+            losses[roll - own] = static_cast<std::int16_t>(own_score - scores[roll]);
+        for (std::size_t roll = 0; roll < own; ++roll)
+            losses[roll + kSections - own] = static_cast<std::int16_t>(own_score - scores[roll]);
         for (std::size_t offset = 0; offset < kSections; ++offset)
             odds[offset] = odds_of(losses[offset]);
         odds.back() = 0;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "core/integrity/line_sets.hpp"
 #include "core/integrity/min_losses.hpp"
 #include "core/integrity/similar_places.hpp"
 #include "core/integrity/unshared_lines.hpp"
@@ -25,11 +26,13 @@ constexpr int kMin_q8 = -8 * 256;
 /// skipped, the minimum is kNone.
 class LossesByBorder {
   public:
+    static constexpr int kNone = 1 << 24;
+
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
         : ratios_(ratios), loss_limit_(loss_limit) {
-        before_.fill(kNone);
-        from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
+        std::fill_n(before_.begin(), in_view.size(), kNone);
+        std::fill_n(from_.begin(), in_view.size(), kNone);
         // Losses that the alternative avoids at each shift: the summed minimum losses of the lines
         // that it shares at this shift.
         std::array<int, kSections> kept{};
@@ -53,15 +56,14 @@ class LossesByBorder {
     }
 
   private:
-    static constexpr int kNone = 1 << 24;
-
     void add(const RollOffsets& offsets, int shift) {
         const int count = ratios_.count();
         const auto update_min = [](int& min_lost, int lost) {
             min_lost = std::min(min_lost, lost);
         };
         const auto loss_in = [&](int line) {
-            return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
+            const int roll_offset = offsets[static_cast<std::size_t>(line)] - shift;
+            return roll_offset == 0 ? 0 : ratios_.loss(line, roll_offset);
         };
         // Each loop stops when the loss on its side of the border reaches `loss_limit_`, because
         // the odds at this shift are negligible for more distant borders.
@@ -83,72 +85,68 @@ class LossesByBorder {
     std::array<int, kMaxLines> from_;    ///< minimum loss from each line to the last line
 };
 
-/// Returns true if, for at least one border and the best shift on each side of this border, the
-/// minimum losses of the lines that the alternative does not share add up to less than
-/// `loss_limit`. Takes a tenth of the time of `LossesByBorder`.
-bool may_matter(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place,
-                int loss_limit) {
-    RollOffsets offsets;
-    set_roll_offsets(ratios, sequence, place, offsets);
-    // For each line, the minimum loss in all lines before it, at the best shift.
-    std::array<int, kMaxLines> before;
-    const auto count = static_cast<std::size_t>(ratios.count());
-    std::array<int, kSections> kept{};  // losses that the alternative avoids, by shift
-    int in_all = 0;
-    int max_kept = 0;
-    const auto add = [&](std::size_t line) {
-        const int loss = std::max(ratios.min_loss(static_cast<int>(line)), 0);
-        in_all += loss;
-        max_kept = std::max(max_kept, kept[offsets[line]] += loss);
-    };
-    for (std::size_t line = 0; line < count; ++line) {
-        before[line] = in_all - max_kept;
-        add(line);
-    }
-    // A seam alternative shares lines at no more than two shifts, so it avoids at most twice the
-    // largest loss that one shift avoids.
-    if (in_all - 2 * max_kept >= loss_limit) return false;
-    kept.fill(0);
-    in_all = max_kept = 0;
-    for (std::size_t line = count; line-- > 1;) {
-        add(line);
-        if (before[line] + in_all - max_kept < loss_limit) return true;
-    }
-    return false;
-}
-
-/// The required lines are those whose minimum loss is at least a loss limit. The odds of an
-/// alternative are negligible unless it shares every required line, either at the shift before the
-/// border or at the shift after it.
-class RequiredLines {
+/// Tests with the minimum losses of the lines whether a seam alternative may matter. Takes a tenth
+/// of the time of `LossesByBorder`.
+class QuickTest {
   public:
-    RequiredLines(const LikelihoodRatios& ratios, int loss_limit) : ratios_(ratios) {
-        for (int line = 0; line < ratios.count(); ++line) {
-            if (ratios.min_loss(line) >= loss_limit)
-                lines_[count_++] = static_cast<std::uint8_t>(line);
+    QuickTest(const LikelihoodRatios& ratios, int loss_limit)
+        : loss_limit_(loss_limit), count_(static_cast<std::size_t>(ratios.count())) {
+        for (std::size_t line = 0; line < count_; ++line) {
+            losses_[line] = std::max(ratios.min_loss(static_cast<int>(line)), 0);
+            if (losses_[line] >= loss_limit) required_[required_count_++] = line;
         }
     }
-    /// Returns true if the alternative can share all required lines: its shift changes at most once
-    /// from one required line to the next.
-    bool can_be_shared(std::size_t sequence, std::uint32_t place) const {
-        const std::uint8_t* own = ratios_.basis[sequence].rolls + ratios_.places[sequence];
-        const std::uint8_t* alternative = ratios_.basis[sequence].rolls + place;
-        int changes = 0;
-        for (std::size_t n = 1; n < count_ && changes < 2; ++n) {
-            const std::size_t line = lines_[n];
-            const std::size_t before = lines_[n - 1];
-            changes += roll_offset(own[line], alternative[line]) !=
-                               roll_offset(own[before], alternative[before])
-                           ? 1
-                           : 0;
-        }
-        return changes < 2;
+
+    /// Returns true if an alternative with the given roll offsets may lose less than the limit.
+    bool operator()(const RollOffsets& offsets) const {
+        return shares_required(offsets) && may_lose_less(offsets);
     }
 
   private:
-    const LikelihoodRatios& ratios_;
-    std::size_t count_ = 0;
-    std::array<std::uint8_t, kMaxLines> lines_;
+    /// Returns true if the alternative can share all required lines: its shift changes at most once
+    /// from one required line to the next. The required lines are those whose minimum loss is at
+    /// least the limit.
+    bool shares_required(const RollOffsets& offsets) const {
+        int changes = 0;
+        for (std::size_t n = 1; n < required_count_ && changes < 2; ++n)
+            changes += offsets[required_[n]] != offsets[required_[n - 1]] ? 1 : 0;
+        return changes < 2;
+    }
+
+    /// Returns true if, for some border, the minimum losses of the lines that the alternative does
+    /// not share add up to less than the limit. The alternative has the best shift on each side of
+    /// the border.
+    bool may_lose_less(const RollOffsets& offsets) const {
+        // Minimum loss in all lines before each line, at the best shift.
+        std::array<int, kMaxLines> before;
+        std::array<int, kSections> kept{};  // losses that the alternative avoids, by shift
+        int in_all = 0;
+        int max_kept = 0;
+        const auto add = [&](std::size_t line) {
+            in_all += losses_[line];
+            max_kept = std::max(max_kept, kept[offsets[line]] += losses_[line]);
+        };
+        for (std::size_t line = 0; line < count_; ++line) {
+            before[line] = in_all - max_kept;
+            add(line);
+        }
+        // A seam alternative shares lines at no more than two shifts, so it avoids at most twice
+        // the largest loss that one shift avoids.
+        if (in_all - 2 * max_kept >= loss_limit_) return false;
+        kept.fill(0);
+        in_all = max_kept = 0;
+        for (std::size_t line = count_; line-- > 1;) {
+            add(line);
+            if (before[line] + in_all - max_kept < loss_limit_) return true;
+        }
+        return false;
+    }
+
+    int loss_limit_;
+    std::size_t count_;
+    std::array<int, kMaxLines> losses_;  ///< minimum losses; negative losses count as 0
+    std::size_t required_count_ = 0;
+    std::array<std::size_t, kMaxLines> required_;
 };
 
 /// Sums the odds of the seam alternatives whose odds, without the prior, exceed kMin_q8.
@@ -157,15 +155,15 @@ class SeamAlternatives {
     SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)
         : ratios_(ratios), loss_limit_(loss_limit) {}
 
-    /// For each border between two lines, adds the odds of the best seam alternative that has
-    /// `place` in `sequence` and its seam at this border. Skips alternatives whose odds without the
+    /// For each border between two lines, adds the odds of the best seam alternative that has the
+    /// given roll offsets and its seam at this border. Skips alternatives whose odds without the
     /// prior are at most kMin_q8.
-    void add(std::size_t sequence, std::uint32_t place) {
-        RollOffsets offsets;
-        set_roll_offsets(ratios_, sequence, place, offsets);
+    void add(const RollOffsets& offsets) {
         const LossesByBorder losses(ratios_, offsets, loss_limit_);
         for (int line = 1; line < ratios_.count(); ++line) {
-            const int odds = ratios_.log2_odds_q8(losses.with_border_before(line));
+            const int lost = losses.with_border_before(line);
+            if (lost >= LossesByBorder::kNone) continue;
+            const int odds = ratios_.log2_odds_q8(lost);
             if (odds > kMin_q8) sum_q8_ = add_log2(sum_q8_, odds + kSeam_q8);
         }
     }
@@ -222,7 +220,11 @@ int seam_alternatives_log2_q8(const LikelihoodRatios& ratios) {
         [&](std::size_t sequence) {
             return unshared.all_lose(sequence, Sharing::on_two_sides, loss_limit);
         },
-        [&](std::size_t sequence, std::uint32_t place) { alternatives.add(sequence, place); });
+        [&](std::size_t sequence, std::uint32_t place) {
+            RollOffsets offsets;
+            set_roll_offsets(ratios, sequence, place, offsets);
+            alternatives.add(offsets);
+        });
     return alternatives.sum_q8();
 }
 
@@ -232,7 +234,7 @@ int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unsha
     SeamAlternatives alternatives(ratios, loss_limit);
     if (must_lose_with_border(ratios, loss_limit)) return alternatives.sum_q8();
     std::optional<StepLosses> steps;
-    const RequiredLines required(ratios, loss_limit);
+    const QuickTest may_matter(ratios, loss_limit);
     for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
         if (unshared.all_lose(k, Sharing::on_two_sides, loss_limit)) continue;
         if (!steps) steps = losses_of_steps(ratios, loss_limit);
@@ -240,8 +242,9 @@ int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unsha
             kernels.find_similar_places(ratios.basis[k], ratios.places[k], *steps);
         for (std::uint32_t word = 0; word < similar.size(); ++word)
             visit_places(similar[word], word, [&](std::uint32_t place) {
-                if (required.can_be_shared(k, place) && may_matter(ratios, k, place, loss_limit))
-                    alternatives.add(k, place);
+                RollOffsets offsets;
+                set_relative_offsets(ratios, k, place, 0, offsets);
+                if (may_matter(offsets)) alternatives.add(offsets);
             });
     }
     return alternatives.sum_q8();

@@ -10,6 +10,9 @@ namespace {
 /// that are not counted individually therefore have odds of at most 2^-24.
 constexpr int kRequiredBits = 24;
 
+/// Sets with smaller expected odds are not listed, unless they are required.
+constexpr float kNegligibleOdds = 0x1p-42F;
+
 /// Number of possible changes of the roll from one line to the next. If an alternative differs in
 /// all four sequences, its roll changes are distributed about uniformly over these values.
 constexpr float kChanges = 54;
@@ -39,57 +42,17 @@ float odds_of_others(const OddsByOffset& odds) {
 /// undecided.
 struct SetPlan::Node {
     LineSet shared = 0;
-    /// For each sequence, the expected number of places that have the digits of the reading in all
-    /// steps between adjacent shared lines.
-    std::array<float, 4> places;
-    /// Probability that all gaps end at a shared line, times the mean odds in the lines that are
-    /// not shared, for alternatives that differ in two, three and four sequences.
-    float two;
-    float three;
-    float four;
-    int min_loss = 0;  ///< total minimum loss of the lines that are not shared
-    int gaps = 0;
+    float odds = 1;      ///< product of the mean odds in the lines that are not shared
+    int min_loss = 0;    ///< total minimum loss of the lines that are not shared
+    unsigned steps = 0;  ///< number of steps between adjacent shared lines
+    unsigned gaps = 0;
     int last = -2;  ///< last shared line
     int run = 0;    ///< number of adjacent shared lines that end with `last`
-
-    void multiply(float of_two, float of_three, float of_four) {
-        two *= of_two;
-        three *= of_three;
-        four *= of_four;
-    }
-
-    /// Returns the expected odds of the far alternatives that share these lines. The sum over all
-    /// sets that extend this set is not larger.
-    float expected() const {
-        const auto& [a, b, c, d] = places;
-        const float sum = two * (a * b + (a + b) * (c + d) + c * d) +
-                          three * (a * b * (c + d) + (a + b) * c * d) + four * (a * b * c * d);
-        return shared == 0 ? kSections * sum : sum;
-    }
-
-    /// Returns the estimated work of `SetSearch::add`, in processor instructions.
-    float work() const {
-        constexpr float kNever = 1e9F;
-        if (shared == 0) return kNever;
-        const auto& [a, b, c, d] = places;
-        const float tabled = (1 + a) * (1 + c);
-        const float looked_up = (1 + b) * (1 + d);
-        float matches = tabled * looked_up;
-        for (int gap = 0; gap < std::min(gaps, 2); ++gap)
-            matches /= kSections;
-        return 1000 + 80 * (a + b + c + d) + 36 * tabled + 9 * looked_up + 45 * matches;
-    }
 };
 
-SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
-    : lines_(lines),
-      max_rest_(max_rest),
-      max_work_(max_work),
-      required_loss_(lines.ratios.loss_for(-256 * kRequiredBits)) {
+SetPlan::SetPlan(const RankedLines& lines)
+    : lines_(lines), required_loss_(lines.ratios.loss_for(-256 * kRequiredBits)) {
     Node all;
-    for (std::size_t k = 0; k < all.places.size(); ++k)
-        all.places[k] = static_cast<float>(lines.ratios.basis[k].length);
-    float uncompared = 1;  // product of the mean odds in the lines without a positive minimum loss
     for (int line = 0; line < lines.count(); ++line) {
         const OddsByOffset& odds = lines.odds()[static_cast<std::size_t>(line)];
         const float others = odds_of_others(odds);
@@ -97,86 +60,137 @@ SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
             mean_odds_[compared_count_] = others / kChanges;
             compared_[compared_count_++] = static_cast<std::uint8_t>(line);
         } else {
-            uncompared *= (others + odds[0]) / kChanges;
+            all.odds *= (others + odds[0]) / kChanges;
         }
     }
-    all.two = kUnevennessOfTwo * uncompared;
-    all.three = kUnevennessOfThree * uncompared;
-    all.four = uncompared;
+    set_numbers();
     visit(0, all);
     sort_sets();
-    skip_sets();
+    sum_rests();
+}
+
+void SetPlan::set_numbers() {
+    std::array<float, 4> places;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        places[k] = static_cast<float>(lines_.ratios.basis[k].length);
+    ByDifferent returned{1, 1, 1};
+    for (std::size_t n = 0; n <= compared_count_; ++n) {
+        const auto& [a, b, c, d] = places_[n] = places;
+        number_[n] = {kUnevennessOfTwo * (a * b + (a + b) * (c + d) + c * d),
+                      kUnevennessOfThree * (a * b * (c + d) + (a + b) * c * d), a * b * c * d};
+        returned_[n] = returned;
+        for (std::size_t k = 0; k < places.size(); ++k)
+            places[k] *= lines_.ratios.basis[k].base == 2 ? 1.0F / 2 : 1.0F / 3;
+        returned = {returned.two * kReturnOfTwo, returned.three * kReturnOfThree,
+                    returned.four * kReturnOfFour};
+    }
+}
+
+/// Returns the expected odds of the far alternatives that share the lines of `node`. The sum over
+/// all sets that continue this set is not larger.
+float SetPlan::expected(const Node& node) const {
+    const ByDifferent& number = number_[node.steps];
+    const ByDifferent& returned = returned_[node.gaps];
+    const float sum =
+        number.two * returned.two + number.three * returned.three + number.four * returned.four;
+    return (node.shared == 0 ? kSections : 1) * node.odds * sum;
+}
+
+/// Returns the estimated work of `SetSearch::add`, in processor instructions.
+float SetPlan::work(const Node& node) const {
+    constexpr float kNever = 1e9F;
+    if (node.shared == 0) return kNever;
+    const auto& [a, b, c, d] = places_[node.steps];
+    const float tabled = (1 + a) * (1 + c);
+    const float looked_up = (1 + b) * (1 + d);
+    float matches = tabled * looked_up;
+    for (unsigned gap = 0; gap < std::min(node.gaps, 2U); ++gap)
+        matches /= kSections;
+    return 1500 + 105 * (a + b + c + d) + 38 * tabled + 11 * looked_up + 25 * matches;
 }
 
 /// Adds all sets that extend `node`. The compared lines from index `n` on are undecided.
 void SetPlan::visit(std::size_t n, const Node& node) {
-    const float expected = node.expected();
-    if (expected < max_rest_ / 1024 && node.min_loss >= required_loss_) {
-        rest_ += expected;
+    const float expected = this->expected(node);
+    if (expected < kNegligibleOdds && node.min_loss >= required_loss_) {
+        negligible_ += expected;
         return;
     }
     if (n == compared_count_) {
         is_complete_ = is_complete_ && count_ < kMaxSets;
         if (is_complete_)
-            sets_[count_++] = {node.shared, expected, node.work(), node.min_loss < required_loss_};
+            sets_[count_++] = {node.shared, expected, work(node), node.min_loss < required_loss_};
         return;
     }
     if (!is_complete_) return;
     visit_shared(n, node);
     Node without = node;
-    without.multiply(mean_odds_[n], mean_odds_[n], mean_odds_[n]);
+    without.odds *= mean_odds_[n];
     without.min_loss += lines_.ratios.min_loss(compared_[n]);
     visit(n + 1, without);
 }
 
 /// Adds all sets that extend `node` and contain the compared line with index `n`.
 void SetPlan::visit_shared(std::size_t n, Node node) {
-    const LikelihoodRatios& ratios = lines_.ratios;
     const int line = compared_[n];
     if (node.last == line - 1) {
         // No alternative shares more than `max_shared` adjacent lines.
-        if (++node.run > ratios.max_shared()) return;
-        for (std::size_t k = 0; k < node.places.size(); ++k)
-            node.places[k] *= ratios.basis[k].base == 2 ? 1.0F / 2 : 1.0F / 3;
+        if (++node.run > lines_.ratios.max_shared()) return;
+        ++node.steps;
     } else {
         node.run = 1;
-        if (node.shared != 0) {
-            node.multiply(kReturnOfTwo, kReturnOfThree, kReturnOfFour);
-            ++node.gaps;
-        }
+        if (node.shared != 0) ++node.gaps;
     }
     node.shared |= LineSet{1} << line;
     node.last = line;
     visit(n + 1, node);
 }
 
-/// Sorts the sets: first the required sets, then the other sets by decreasing ratio of expected
-/// odds to work.
+/// Sorts the sets: first the required sets, those with the fewest lines first, then the other sets
+/// by decreasing ratio of expected odds to work.
 void SetPlan::sort_sets() {
-    std::array<float, kMaxSets> ratios;
+    std::array<float, kMaxSets> keys;
     for (std::size_t n = 0; n < count_; ++n) {
         const PlannedSet set = sets_[n];
-        const float ratio = set.is_required ? 1e30F : set.expected / set.work;
+        const float key = set.is_required
+                              ? static_cast<float>(kMaxLines - std::popcount(set.shared))
+                              : set.expected / set.work;
         std::size_t i = n;
-        for (; i > 0 && ratios[i - 1] < ratio; --i) {
+        for (; i > 0 && keys[i - 1] < key; --i) {
             sets_[i] = sets_[i - 1];
-            ratios[i] = ratios[i - 1];
+            keys[i] = keys[i - 1];
         }
         sets_[i] = set;
-        ratios[i] = ratio;
-        work_ += set.work;
+        keys[i] = key;
     }
 }
 
-/// Removes sets from the end of the list, and adds their expected odds to the rest.
-void SetPlan::skip_sets() {
-    for (; count_ > 0; --count_) {
-        const PlannedSet& last = sets_[count_ - 1];
-        const float limit = work_ > max_work_ ? max_rest_ : max_rest_ / 2;
-        if (last.is_required || rest_ + last.expected > limit) break;
-        rest_ += last.expected;
-        work_ -= last.work;
+bool SetPlan::is_covered(std::size_t n) const {
+    for (std::size_t earlier = 0; earlier < n; ++earlier) {
+        if ((sets_[earlier].shared & ~sets_[n].shared) == 0) return true;
     }
+    return false;
+}
+
+void SetPlan::sum_rests() {
+    float rest = negligible_;
+    rests_[count_] = rest;
+    for (std::size_t n = count_; n-- > 0;)
+        rests_[n] = rest += sets_[n].expected;
+}
+
+std::size_t SetPlan::count_for(float max_rest) const {
+    std::size_t n = 0;
+    while (n < count_ && (sets_[n].is_required || rests_[n] > max_rest))
+        ++n;
+    return n;
+}
+
+float SetPlan::work_of(std::size_t n) const {
+    float sum = 0;
+    for (std::size_t set = 0; set < n; ++set)
+        sum += is_covered(set) ? 0 : sets_[set].work;
+    return sum;
 }
 
 }  // namespace dotpose::core

@@ -19,46 +19,64 @@ struct PlannedSet {
     bool is_required;  ///< true if the set must be searched, because individual odds may be large
 };
 
-/// Chooses the sets of lines to search. Lines without a positive minimum loss are in no set, and
-/// may or may not be shared.
+/// Lists sets of lines in the order in which they should be searched. Lines with a minimum loss of
+/// 0 may be shared or not.
 class SetPlan {
   public:
-    /// Makes a plan. The rest is the sum of the expected odds of all sets that are not searched.
-    /// The plan skips sets as long as the rest remains at most `max_rest` / 2. While the search
-    /// would take more than `max_work`, it skips further sets, up to a rest of `max_rest`.
-    SetPlan(const RankedLines& lines, float max_rest, float max_work);
-    /// Returns false if there are too many sets, if the search would take more than `max_work`, or
-    /// if the rest would exceed `max_rest`.
-    bool is_feasible() const { return is_complete_ && work_ <= max_work_ && rest_ <= max_rest_; }
-    /// Returns the sets to search. The required sets come first. The other sets are sorted by
-    /// decreasing ratio of expected odds to work.
+    explicit SetPlan(const RankedLines& lines);
+    /// Returns false if there are too many sets. The list is then incomplete.
+    bool is_complete() const { return is_complete_; }
+    /// Returns the sets. The required sets come first. The other sets are sorted by decreasing
+    /// ratio of expected odds to work.
     std::span<const PlannedSet> sets() const { return std::span(sets_).first(count_); }
-    /// Returns the expected odds of all far alternatives that are not in `sets`.
-    float rest() const { return rest_; }
+    /// Returns true if set n contains an earlier set. The search for the earlier set then also
+    /// finds the alternatives of set n.
+    bool is_covered(std::size_t n) const;
+    /// Returns the expected odds of all far alternatives that are not in the first n sets.
+    float rest(std::size_t n) const { return rests_[n]; }
+    /// Returns the number of sets that must be searched to make the rest at most `max_rest`. If
+    /// this is not possible, returns the number of all sets.
+    std::size_t count_for(float max_rest) const;
+    /// Returns the work of the search for the first n sets, without those that are covered.
+    float work_of(std::size_t n) const;
 
   private:
     struct Node;
+    /// A value for the alternatives that differ in two, three and four sequences.
+    struct ByDifferent {
+        float two;
+        float three;
+        float four;
+    };
+    void set_numbers();
+    float expected(const Node& node) const;
+    float work(const Node& node) const;
     void visit(std::size_t n, const Node& node);
     void visit_shared(std::size_t n, Node node);
     void sort_sets();
-    void skip_sets();
+    void sum_rests();
 
     static constexpr std::size_t kMaxSets = 256;
 
     const RankedLines& lines_;
-    float max_rest_;
-    float max_work_;
     int required_loss_;
     std::size_t compared_count_ = 0;
     std::array<std::uint8_t, kMaxLines> compared_;  ///< lines with a positive minimum loss
     /// For each compared line, the summed odds of all other rolls, divided by kChanges. Indexed as
     /// `compared_`.
     std::array<float, kMaxLines> mean_odds_;
+    /// For n steps between adjacent shared lines, the expected number of places in each sequence
+    /// with the digits of the reading in these steps.
+    std::array<std::array<float, 4>, kMaxLines + 1> places_;
+    /// The expected number of combinations of these places, times a correction factor.
+    std::array<ByDifferent, kMaxLines + 1> number_;
+    /// Probability that n gaps end at a shared line.
+    std::array<ByDifferent, kMaxLines + 1> returned_;
     std::size_t count_ = 0;
     std::array<PlannedSet, kMaxSets> sets_;
     bool is_complete_ = true;
-    float rest_ = 0;
-    float work_ = 0;
+    float negligible_ = 0;  ///< summed expected odds of the sets that are not listed
+    std::array<float, kMaxSets + 1> rests_;
 };
 
 }  // namespace dotpose::core

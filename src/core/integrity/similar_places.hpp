@@ -3,6 +3,8 @@
 // of a word. likelihood_ratios.hpp defines the terms.
 #pragma once
 
+#include <bit>
+
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
@@ -60,9 +62,8 @@ class SimilarPlaces {
 /// Calls `use(place)` for each set bit of `places`. `word` is the index of `places` in a bit set.
 template <typename Use>
 void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
-    for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
-        if ((places & 1) != 0) use(place);
-    }
+    for (; places != 0; places &= places - 1)
+        use(32 * word + static_cast<std::uint32_t>(std::countr_zero(places)));
 }
 
 /// Calls `use(k, place)` for each similar place in each sequence k, where `place` is the place at

@@ -31,17 +31,19 @@ float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t 
     return lines.ratios.odds(lost);
 }
 
-/// Variant of `odds_at` that computes the roll offsets from the place.
-float odds_of_place(const RankedLines& lines, std::size_t sequence, std::uint32_t place,
-                    std::size_t shared) {
-    const LikelihoodRatios& ratios = lines.ratios;
-    const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
-    const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
+/// Returns the loss of a single alternative at the shift at which it shares the line `shared`. If
+/// the loss in the first lines exceeds `max_loss`, returns this loss. `own` and `alternative` are
+/// the rolls of the reading and of the alternative. The order of the lines is that of `sorted`.
+int loss_of_rolls(const RankedLines& lines, std::span<const LineLoss> sorted,
+                  const std::uint8_t* own, const std::uint8_t* alternative, std::size_t shared,
+                  int max_loss) {
     const int base = 2 * kSections + own[shared] - alternative[shared];
     int lost = 0;
-    for (int line = 0; line < lines.count(); ++line)
-        lost += lines.loss(line, alternative[line] - own[line] + base);
-    return ratios.odds(lost);
+    for (const auto& [line, min_loss] : sorted) {
+        lost += lines.losses(line)[alternative[line] - own[line] + base];
+        if (lost > max_loss) break;
+    }
+    return lost;
 }
 
 float sum_one_by_one(const RankedLines& lines) {
@@ -74,12 +76,10 @@ void sort_losses(const CoarseLosses& losses, std::span<LineLoss> sorted) {
     }
 }
 
-/// Lists the places that may lose less than `losses.limit`. Returns false if the list cannot be
-/// made (see `Kernels::list_similar_places`).
+/// Lists the places that may lose less than `losses.limit`. Sets `sorted` to the lines, sorted by
+/// decreasing loss. Returns false if there are too many places.
 bool list_similar(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses,
-                  SimilarPlaceList& list) {
-    std::array<LineLoss, kMaxLines> storage;
-    const auto sorted = std::span(storage).first(static_cast<std::size_t>(lines.count()));
+                  std::span<LineLoss> sorted, SimilarPlaceList& list) {
     sort_losses(losses, sorted);
     const LikelihoodRatios& ratios = lines.ratios;
     return kernels.list_similar_places(ratios.basis, ratios.places, 15, sorted, losses.limit, list);
@@ -97,8 +97,10 @@ float sum_of_skipped(const RankedLines& lines, int skipped_bits) {
 
 float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines) {
     const int skipped_bits = bits_of_skipped(lines.count());
+    std::array<LineLoss, kMaxLines> storage;
+    const auto sorted = std::span(storage).first(static_cast<std::size_t>(lines.count()));
     SimilarPlaceList list;
-    if (!list_similar(kernels, lines, CoarseLosses(lines.ratios, skipped_bits), list))
+    if (!list_similar(kernels, lines, CoarseLosses(lines.ratios, skipped_bits), sorted, list))
         return sum_one_by_one(lines);
     float sum = sum_of_skipped(lines, skipped_bits);
     RollOffsets offsets;
@@ -118,26 +120,34 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
     // at most 2^-37 in total.
     constexpr int kSkippedBits = 51;
     constexpr int kEvaluatedBits = 43;
-    // Estimated work, in processor instructions.
-    constexpr std::size_t kWorkPerEntry = 20;
-    constexpr std::size_t kWorkPerEvaluation = 100;
+    constexpr std::size_t kWorkPerEntry = 85;  // in processor instructions, with those of the seams
     const LikelihoodRatios& ratios = lines.ratios;
     const CoarseLosses losses(ratios, kSkippedBits);
+    std::array<LineLoss, kMaxLines> storage;
+    const auto sorted = std::span(storage).first(static_cast<std::size_t>(lines.count()));
     SimilarPlaceList list;
     list.max_count = SimilarPlaceList::kMax;
-    if (!list_similar(kernels, lines, losses, list) ||
+    if (!list_similar(kernels, lines, losses, sorted, list) ||
         !work.spend(kWorkPerEntry * static_cast<std::size_t>(list.count)))
         return {};
     float sum = sum_of_skipped(lines, kSkippedBits);
-    const int limit = losses.limit * kEvaluatedBits / kSkippedBits + 1;
-    for (const auto& [sequence, place, shared, loss] :
+    const int evaluated_limit = losses.limit * kEvaluatedBits / kSkippedBits + 1;
+    // An alternative that loses more than this in some lines has odds below 2^-kSkippedBits,
+    // whatever it gains in the other lines.
+    const int max_loss = ratios.loss_for(-256 * kSkippedBits) + ratios.max_gain();
+    std::array<const std::uint8_t*, 4> own;
+    for (std::size_t k = 0; k < own.size(); ++k)
+        own[k] = ratios.basis[k].rolls + ratios.places[k];
+    for (const SimilarPlaceList::Entry& entry :
          std::span(list.places).first(static_cast<std::size_t>(list.count))) {
-        if (loss >= limit) {
+        if (entry.loss >= evaluated_limit) {
             sum += power_of_two_exactly(-kEvaluatedBits);
             continue;
         }
-        if (!work.spend(kWorkPerEvaluation)) return {};
-        sum += odds_of_place(lines, sequence, place, shared);
+        const int lost =
+            loss_of_rolls(lines, sorted, own[entry.sequence],
+                          ratios.basis[entry.sequence].rolls + entry.place, entry.line, max_loss);
+        sum += lost > max_loss ? power_of_two_exactly(-kSkippedBits) : ratios.odds(lost);
     }
     return sum;
 }

@@ -8,10 +8,10 @@ namespace dotpose::core {
 /// Estimated work that may still be done, in processor instructions.
 class WorkLimit {
   public:
-    /// Maximum total work for the sums over alternatives in one frame with a small view, over all
-    /// tested places. docs/speed.md, "Small frames", compares limits. All other steps of a first
-    /// attempt take about 200,000 instructions.
-    static constexpr std::size_t kOfFrame = 600'000;
+    /// Maximum work of testing the places of one frame that shows a small view. docs/speed.md,
+    /// "Small frames", compares limits. All other steps of a first attempt take about 200,000
+    /// instructions.
+    static constexpr std::size_t kOfFrame = 510'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}
     /// Subtracts `work` and returns true. If less than `work` is left, sets the remaining work to 0

@@ -84,6 +84,17 @@ TEST(LocateFirst, SettlesImagesWithTooFewDotsBeforeTheirGrid) {
     }
 }
 
+TEST(LocateFirst, SettlesSmallViewsWithFewCells) {
+    int found = 0;
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        // 64 cells do not suffice, even if some dots are not clear.
+        const Fix fix = outwards(render(shot_of({9, 72, 72, Preset::nominal}, kSeed, i)));
+        EXPECT_NE(fix.status, Status::ok) << "shot " << i;
+        found += large_workspace().measurement.shows_too_few_cells ? 1 : 0;
+    }
+    EXPECT_EQ(found, 100);
+}
+
 TEST(LocateFirst, SettlesSmallViewsWithClearDots) {
     int left = 0;
     int settled = 0;

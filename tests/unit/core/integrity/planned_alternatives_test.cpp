@@ -1,13 +1,16 @@
 // Tests sum_of_planned_alternatives with lines that agree with the reading and, almost as well,
-// with one alternative. Also tests that the work limit ends the search in views with few lines.
+// with one alternative. Also tests the work and the result of wrong_in_small_view.
 #include "core/integrity/planned_alternatives.hpp"
 
+#include <array>
 #include <bit>
 #include <optional>
+#include <span>
 
 #include <gtest/gtest.h>
 
 #include "core/integrity/alternatives.hpp"
+#include "core/integrity/small_views.hpp"
 #include "core/kernels/select.hpp"
 #include "similar_case.hpp"
 
@@ -15,13 +18,14 @@ namespace dotpose::core_test::planned_alternatives_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 71;
-constexpr float kMaxRest = 0x1p-16F;
+constexpr float kMaxRest = 0x1p-31F;  // maximum of the expected odds in the sum
 constexpr std::size_t kPlenty = 10'000'000;
 
 std::optional<float> planned(const RatiosCase& c, float max_odds, std::size_t most_work) {
     const LikelihoodRatios ratios = c.ratios();
     WorkLimit work(most_work);
-    return sum_of_planned_alternatives(RankedLines(ratios), kMaxRest, max_odds, work);
+    const RankedLines lines(ratios);
+    return sum_of_planned_alternatives(lines, SetPlan(lines), 1, max_odds, work);
 }
 
 TEST(PlannedAlternatives, AreFoundIfTheyDifferInTwoOrMoreSequences) {
@@ -65,21 +69,59 @@ RatiosCase small_view(Rng& rng) {
     return c;
 }
 
-TEST(PlannedAlternatives, OfSmallViewsEndAtTheWorkLimit) {
+float wrong_in(const Kernels& kernels, std::span<const RatiosCase> axes, float max_wrong,
+               std::size_t most_work) {
+    const LikelihoodRatios x = axes.front().ratios();
+    const LikelihoodRatios y = axes.back().ratios();
+    const UnsharedLines x_unshared(kernels, x);
+    const UnsharedLines y_unshared(kernels, y);
+    const std::array both{&x_unshared, &y_unshared};
+    WorkLimit work(most_work);
+    return wrong_in_small_view(kernels, std::span(both).first(axes.size()), 1, max_wrong, work);
+}
+
+TEST(SmallViews, EndAtTheWorkLimit) {
     Rng rng(kSeed);
     int found = 0;
     for (int i = 0; i < 50; ++i) {
-        const RatiosCase c = small_view(rng);
-        const auto sum_with = [&](std::size_t most_work) {
-            WorkLimit work(most_work);
-            return sum_of_alternatives(kernels(), c.ratios(), -30, work);
-        };
-        // The limit leaves 5,000 instructions after the other sums, which take 90,000. One set of
-        // lines takes more than 1,000.
-        EXPECT_GE(sum_with(95'000), 1) << i;
-        found += sum_with(kPlenty) < 0x1p-30F ? 1 : 0;
+        const std::array axis{small_view(rng)};
+        // The limit leaves 5,000 instructions after the preparation. One set of lines takes more
+        // than 1,500.
+        EXPECT_GE(wrong_in(kernels(), axis, 0x1p-30F, 85'000), 1) << i;
+        found += wrong_in(kernels(), axis, 0x1p-30F, kPlenty) < 0x1p-30F ? 1 : 0;
     }
     EXPECT_GE(found, 10) << "seed " << kSeed;
+}
+
+TEST(SmallViews, UseOneLimitForBothAxes) {
+    Rng rng(kSeed);
+    int found = 0;
+    for (int i = 0; i < 50; ++i) {
+        const std::array axes{small_view(rng), small_view(rng)};
+        const float both = wrong_in(kernels(), axes, 0x1p-30F, kPlenty);
+        if (both >= 1) continue;
+        ++found;
+        EXPECT_LE(both, 0x1p-30F) << i;
+        // Each axis alone is within the limit as well.
+        for (const RatiosCase& axis : axes)
+            EXPECT_LE(wrong_in(kernels(), std::span(&axis, 1), 0x1p-30F, kPlenty), 0x1p-30F) << i;
+    }
+    EXPECT_GE(found, 5) << "seed " << kSeed;
+}
+
+TEST(SmallViews, AreAtLeastAsWrongAsTheirMostSimilarAlternative) {
+    Rng rng(kSeed);
+    int found = 0;
+    for (int i = 0; i < 20; ++i) {
+        for (unsigned different = 1; different < 16; ++different) {
+            const SimilarCase c(rng, different);
+            const double exact = odds_of_rolls(c.lines, c.rolls);
+            const float wrong = wrong_in(kernels(), std::span(&c.lines, 1), 1, kPlenty);
+            EXPECT_GE(static_cast<double>(wrong), 0.96 * exact) << i << ", " << different;
+            found += wrong < 1 ? 1 : 0;
+        }
+    }
+    EXPECT_GE(found, 100) << "of 300, seed " << kSeed;
 }
 
 }  // namespace

@@ -1,0 +1,84 @@
+#include "core/integrity/small_views.hpp"
+
+#include "core/integrity/planned_alternatives.hpp"
+#include "core/integrity/ranked_lines.hpp"
+#include "core/integrity/seam_alternatives.hpp"
+#include "core/integrity/set_plan.hpp"
+#include "core/integrity/single_alternatives.hpp"
+#include "core/math/odds.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Work of `RankedLines`, of the list of single alternatives, of `SetPlan`, and of the seam
+/// alternatives of one axis, in processor instructions.
+constexpr std::size_t kPreparation = 80'000;
+
+/// Returns an upper bound on the summed odds of the reading's position in all other sections.
+float bound_of_other_sections(const LikelihoodRatios& ratios) {
+    int lost = 0;
+    for (int line = 0; line < ratios.count(); ++line)
+        lost += ratios.min_loss(line);
+    return (kSections - 1) * ratios.odds(lost);
+}
+
+/// Adds up the probabilities of the alternatives and seams on one or two axes.
+class SmallView {
+  public:
+    SmallView(const Kernels& kernels, std::span<const UnsharedLines* const> axes, float codes,
+              float max_wrong, WorkLimit& work)
+        : kernels_(kernels), axes_(axes), factor_(kMargin * codes), left_(max_wrong), work_(work) {}
+
+    /// Adds the axes from index `n` on. Returns false if the sum exceeds the maximum, or if the
+    /// work does not suffice. Adds all sums that take little time before the search for far
+    /// alternatives on any axis.
+    bool add(std::size_t n) {
+        if (n == axes_.size()) return add_seams();
+        const LikelihoodRatios& ratios = axes_[n]->ratios();
+        if (!work_.spend(kPreparation)) return false;
+        const RankedLines lines(ratios);
+        const auto single = sum_of_single_alternatives(kernels_, lines, work_);
+        if (!single || !spend(factor_ * (*single + bound_of_other_sections(ratios)))) return false;
+        const SetPlan plan(lines);
+        const float share = 1 / static_cast<float>(n + 1);
+        planned_work_ += work_of_planned_alternatives(plan, share * left_ / factor_);
+        if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
+        // The axis with the largest index is searched first. It may use only its share of the odds
+        // for alternatives that are not searched.
+        const auto far = sum_of_planned_alternatives(lines, plan, share, left_ / factor_, work_);
+        return far && spend(factor_ * *far);
+    }
+    /// Returns the difference between the maximum and the sum.
+    float left() const { return left_; }
+
+  private:
+    static constexpr float kMargin = 1.03F;  ///< covers the error of the exponentials
+
+    bool add_seams() {
+        float sum = 0;
+        for (const UnsharedLines* axis : axes_)
+            sum += 1.02F * power_of_two(seam_alternatives_log2_q8(kernels_, *axis));
+        return spend(sum);
+    }
+    bool spend(float odds) {
+        left_ -= odds;
+        return left_ > 0;
+    }
+
+    const Kernels& kernels_;
+    std::span<const UnsharedLines* const> axes_;
+    float factor_;
+    float left_;
+    WorkLimit& work_;
+    float planned_work_ = 0;  ///< work of the searches that have not been made
+};
+
+}  // namespace
+
+float wrong_in_small_view(const Kernels& kernels, std::span<const UnsharedLines* const> axes,
+                          float codes, float max_wrong, WorkLimit& work) {
+    SmallView view(kernels, axes, codes, max_wrong, work);
+    return view.add(0) ? max_wrong - view.left() : 1;
+}
+
+}  // namespace dotpose::core
