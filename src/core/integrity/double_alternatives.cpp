@@ -13,9 +13,9 @@ namespace dotpose::core {
 namespace {
 
 /// Lower limit of the result of `sum_of_double_alternatives`: the sum of kNegligible over all pairs
-/// of places and all shifts, so that no fix relies on smaller expected odds. The limit is slightly
-/// too large, because 2,217 of the 190,027 pairs contain a place of the reading and are therefore
-/// not double alternatives.
+/// of places and all shifts. No fix may rely on smaller expected odds. The limit is slightly too
+/// large, because 2,217 of the 190,027 pairs contain a place of the reading and are therefore not
+/// double alternatives.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
 /// An alternative is counted individually if its odds exceed 2^kLargeOdds_log2, unless the search
