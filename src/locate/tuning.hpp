@@ -213,12 +213,12 @@ inline constexpr float kMaxCellsWithCutDots = 144;
 /// is limited. Larger images show so few cells only in rare cases, for example if a rolling shutter
 /// stretches the cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
-/// Number of cells in a small view below which no second attempt follows. It located none of 241
-/// frames of 72 x 72 px with 64 cells whose grid was found. docs/speed.md, "Small frames", has the
-/// numbers for other sizes.
+/// Minimum number of cells in a small view for a second attempt. Of 241 frames of 72 x 72 px with
+/// 64 cells whose grid was found, a second attempt located none. docs/speed.md, "Small frames",
+/// contains the numbers for other sizes.
 inline constexpr float kMinCellsForSecond = 70;
-/// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
-/// may be partly visible.
+/// The dot of a cell may be partly visible if its intersection is outside the image by at most this
+/// distance, in spacings.
 inline constexpr float kBeyondBorder = 0.2F;
 /// Minimum number of dots that `DotReader::find_centres` must find to fit a plane to them.
 inline constexpr int kMinFound = 8;
