@@ -151,8 +151,8 @@ void write_results(const Frame& frame, const Hypothesis& hypothesis, const BitsR
 
 /// Returns true if the fit moved a corner of the measured area by more than kFar spacings along an
 /// axis. The measured area is the part of the image within `reach_px` of the image centre. After
-/// such a motion, the dots must be measured again, because small centroid windows do not measure
-/// large offsets accurately.
+/// such a fit, the dots must be measured again, because small centroid windows do not measure large
+/// offsets accurately.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
