@@ -68,8 +68,8 @@ bool shows_too_few_cells(const Frame& frame, CellsInView view, MeasuredDots& dot
     return are_too_few_cells(frame, dots.count);
 }
 
-/// Returns true if the image shows so few cells that later attempts do not find a certain position.
-/// Returns false on known sheets, where fewer cells suffice.
+/// Returns true if the image shows too few cells for a later attempt to succeed (see
+/// `tuned::kMinCellsForSecond`). Returns false for known sheets, for which fewer cells suffice.
 bool shows_few_cells(const Frame& frame, const Hypothesis& hypothesis) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);
@@ -151,8 +151,8 @@ void write_results(const Frame& frame, const Hypothesis& hypothesis, const BitsR
 
 /// Returns true if the fit moved a corner of the measured area by more than kFar spacings along an
 /// axis. The measured area is the part of the image within `reach_px` of the image centre. After
-/// such a motion, the dots must be measured again, because small centroid windows do not measure
-/// large offsets accurately.
+/// such a fit, the dots must be measured again, because small centroid windows do not measure large
+/// offsets accurately.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -273,8 +273,10 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         }
         if (decides && !hypothesis.is_certain) {
             measurement.bits = 2 * bits.read;
-            // In small views, clean bits are sufficient, because the remaining dots have little
-            // influence and further attempts take long.
+            // If the bits are clear but do not make the position certain, the frame has too few
+            // bits. In small views, clean bits count as clear, because the few unread or misread
+            // dots have little influence and further attempts take a long time. If a small view
+            // shows too few cells for a further attempt, all bits count as clear.
             const bool are_clear = hypothesis.is_small_view
                                        ? is_clean(bits) || shows_few_cells(frame, hypothesis)
                                        : bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;

@@ -42,7 +42,7 @@ enum class Confirmation : std::uint8_t {
                   ///< hypothesis
     uncertain,    ///< the hypothesis is plausible, but its position is not certain
     /// Same as `uncertain`, but all bits in view (in small views, nearly all bits) are clear and
-    /// agree with the code.
+    /// agree with the code, or a small view shows too few cells for a further attempt.
     too_few_bits,
 };
 
@@ -57,9 +57,10 @@ struct Measurement {
     /// Number of bits that were used to decide whether the place is certain, two per dot. Not set
     /// if `Hypothesis::is_certain` is true.
     int bits = 0;
-    /// True if the frame shows too few cells for a reliable position (see `are_too_few_cells`), or
-    /// if the bits of a small view are clear but do not make the position certain. Further attempts
-    /// are then skipped. `confirm` sets this flag only if its result is `too_few_bits`.
+    /// True if the frame shows too few cells for a reliable position, so further attempts are
+    /// skipped. `confirm` sets this flag only if its result is `too_few_bits`. In addition, the
+    /// view must be small, its cut dots must have been read, or `are_too_few_cells` must return
+    /// true.
     bool shows_too_few_cells = false;
     /// True if the result of the first attempt is `too_few_bits`, that is, its bits are clear but
     /// too few to make the position certain. In this case, the scene did not rotate during the

@@ -84,8 +84,8 @@ class PatchSearch {
         PatchGrid grid;
         Confirmation square = Confirmation::implausible;
         if (find_middle_grid(false, grid)) {
-            // The spacing of a skewed grid is not reliable, because scattered dots may form such a
-            // grid with any spacing. It is therefore not tested in this way.
+            // Only a square grid is tested in this way. The spacing of a skewed grid is not
+            // reliable, because scattered dots may form a skewed grid with any spacing.
             measurement_.shows_too_few_cells = shows_too_few_cells(grid.grid_from_image);
             if (measurement_.shows_too_few_cells) return Confirmation::implausible;
             square = test_grid(grid);

@@ -78,7 +78,7 @@ bool may_agree(const Lines& lines, int bits) {
     int max_score = 0;
     for (const ScoredLine& line : lines.all)
         max_score += line.best.score;
-    // A wrong bit decreases the score by the weights of two bits.
+    // Each wrong bit decreases the score by twice its weight.
     constexpr int kMinBits = tuning::patch_grid::kMinBitsPerError;
     return kMinBits * max_score >= (kMinBits - 2) * kWeight * bits;
 }

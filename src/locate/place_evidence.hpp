@@ -39,7 +39,7 @@ struct TurnedPlace {
     Place place;
 };
 
-/// Time that the search for a place may take.
+/// Thoroughness of the search for a place.
 enum class PlaceSearch : std::uint8_t {
     brief,  ///< only at the likeliest quarter turn
     /// If the place that the brief search finds does not agree with the bits, searches thoroughly,

@@ -9,14 +9,16 @@ namespace dotpose::core::tuning {
 
 /// Grids of patches (locate/first, locate/turning, locate/patch_hypothesis).
 namespace patch_grid {
-/// Maximum variance of the offset between a dot and the nearest place of its cell, per axis, in
-/// spacings^2, of a grid that is probably correct. In a false grid, the offsets are evenly
-/// distributed over discs with a radius of 0.18 spacings, so their variance is 0.008. It is less if
-/// perspective was fitted to false cells: 0.0017 and more in frames of rolling shutters. In 1,000
-/// nominal frames, the variance is less than 0.002 in all, and less than 0.001 in 996. In hard
-/// frames, correct grids also exceed 0.002, because the dots are printed inaccurately. With 0.002,
-/// false grids end the search for a rotation in 3 of 3,000 frames that turn by 10 to 40 degrees,
-/// and in 6 of them if the sheet is known. With 0.0015, they do so in none.
+/// A grid is probably correct if the variance of the dot offsets is at most this, per axis, in
+/// spacings^2. The offset of a dot is relative to the nearest of the four dot positions of its
+/// cell. In a false grid, the offsets are uniformly distributed over discs with a radius of 0.18
+/// spacings, so their variance is 0.008. If perspective was fitted to false cells, the variance is
+/// smaller: at least 0.0017 in frames of rolling shutters. In 1,000 nominal frames, the variance is
+/// always less than 0.002, and less than 0.001 in 996 frames. In hard frames, the variance of
+/// correct grids can exceed 0.002, because the dots are printed inaccurately. 3,000 frames that
+/// rotate by 10 to 40 degrees were tested. With a limit of 0.002, false grids end the search for a
+/// rotation in 3 of these frames, or in 6 if the sheet is known. With 0.0015, false grids end it in
+/// none.
 inline constexpr float kMaxVariance = 0.0015F;
 /// Maximum number of dots in a patch for a thorough search for the place. With more dots, enough
 /// lines are long, and the brief search finds the place. Of 1,000 frames of 188 x 120 px whose
@@ -33,8 +35,8 @@ namespace first {
 /// grid, the search continues with patches two and four times as wide and high.
 inline constexpr int kPatchWidth_px = 224;
 inline constexpr int kPatchHeight_px = 160;
-/// Dots are sampled directly at positions predicted from a patch only if the spacing is at least
-/// this. In finer grids, direct sampling is less accurate than windows.
+/// Minimum spacing for direct sampling of dots at positions predicted from a patch. In finer grids,
+/// direct sampling is less accurate than centroid windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Assumed maximum ratio of the number of dots in the filtered image to the number of dots in the
 /// original image.
@@ -51,13 +53,13 @@ inline constexpr int kMaxTries = 4;
 /// weak waves.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
-/// Numbers of central dots from which the waves of a skewed grid at the image centre are computed,
-/// if the grid of the usual number of dots is probably false.
+/// Numbers of central dots from which the waves of a skewed grid at the image centre are computed
+/// if the grid found with the usual number of dots is probably false.
 inline constexpr float kOtherCentralDots[] = {45, 20};
 /// Factors for the estimated spacing if sheets are known. On a known sheet, the place of a strip of
 /// three rows can be certain. The spacing of such a strip is overestimated, because the estimate
-/// assumes that the nearest neighbours of a dot fill a disc. The same is true of dots among
-/// graphics.
+/// assumes that the nearest neighbours of a dot fill a disc. For the same reason, the spacing of
+/// dots among graphics is overestimated.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F, 0.85F, 0.65F};
 }  // namespace first
 
@@ -162,8 +164,8 @@ inline constexpr int kDotsPerWrong = 200;
 /// The limit is therefore about four standard deviations of one coordinate.
 inline constexpr float kOutlier = 8.3F;
 /// Maximum distance by which a fit may move a corner of the measured area, in spacings along an
-/// axis. After a larger motion, the dots are measured again, because small centroid windows do not
-/// measure large offsets accurately.
+/// axis. If the distance is larger, the dots are measured again, because small centroid windows do
+/// not measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
 /// Maximum number of measurements for an exact hypothesis. The hypothesis is implausible if the
 /// last fit still moves the plane by more than kFar. docs/accuracy.md, "Dots with the same
@@ -177,10 +179,11 @@ inline constexpr float kTable = 0.4F;
 /// cannot distinguish the four possible dot positions of a cell.
 inline constexpr float kMaxSpacingForSmallWindow_px = 13;
 inline constexpr float kMinSpacingForDirectSampling_px = 8;
-/// Length of the shorter side of a cell, in spacings, below which the windows around intersections
-/// are smaller (`window_reach`). A tilt of 30 degrees shortens this side to 0.93. If a scene moves
-/// by 60 % of the image height during the readout, it is 0.6 to 0.9. Of 1,000 such frames of 188 x
-/// 120 px, 883 are located with windows of the usual size, 888 with 0.7, and 892 with 0.75 and 0.8.
+/// If the shorter side of a cell is below this limit, in spacings, the windows around intersections
+/// are made smaller (`window_reach`). A tilt of 30 degrees shortens this side to 0.93 spacings. If
+/// a scene moves by 60 % of the image height during the readout, the side is 0.6 to 0.9 spacings.
+/// Of 1,000 such frames of 188 x 120 px, 883 are located with windows of the usual size, 888 with a
+/// limit of 0.7, and 892 with a limit of 0.75 or 0.8.
 inline constexpr float kMinSideOfSquare = 0.75F;
 /// Radius of a centroid window, in dot radii. With this radius, the window includes the edge of the
 /// dot, and the result is nearly independent of the sub-pixel phase (`dotpose_tables alike`).
@@ -191,9 +194,9 @@ inline constexpr float kMinWindowRadius_px = 3.3F;
 /// each other's centroids. Facing dots are adjacent dots that are displaced towards each other. See
 /// pose/facing_dots.hpp.
 inline constexpr float kFacing = 0.55F;
-/// If the step between cells deviates from a whole number of pixels by less than this distance, the
-/// dots of a row or column have about the same sub-pixel phase. At larger deviations, the phases in
-/// view are uniformly distributed.
+/// If the step between cells deviates from an integer number of pixels by less than this distance,
+/// the dots of a row or column have about the same sub-pixel phase. At larger deviations, the
+/// phases in view are uniformly distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// The pixel bias is corrected only if the sub-pixel phases of the dots of a row or column change
 /// by less than this distance across the view. The correction is restricted in this way because it
@@ -213,12 +216,12 @@ inline constexpr float kMaxCellsWithCutDots = 144;
 /// is limited. Larger images show so few cells only in rare cases, for example if a rolling shutter
 /// stretches the cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
-/// Number of cells in a small view below which no second attempt follows. It located none of 241
-/// frames of 72 x 72 px with 64 cells whose grid was found. docs/speed.md, "Small frames", has the
-/// numbers for other sizes.
+/// Minimum number of cells in a small view for a second attempt. Of 241 frames of 72 x 72 px with
+/// 64 cells whose grid was found, a second attempt located none. docs/speed.md, "Small frames",
+/// contains the numbers for other sizes.
 inline constexpr float kMinCellsForSecond = 70;
-/// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
-/// may be partly visible.
+/// The dot of a cell may be partly visible if its intersection is outside the image by at most this
+/// distance, in spacings.
 inline constexpr float kBeyondBorder = 0.2F;
 /// Minimum number of dots that `DotReader::find_centres` must find to fit a plane to them.
 inline constexpr int kMinFound = 8;

@@ -217,20 +217,20 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     if (sum > enough && !ratios.is_of_bits())
         sum = with(power_of_two_rounded_up(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
     if (sum > enough && !ratios.is_of_bits()) {
-        // The factor covers the error of the exponentials.
+        // The factor covers the rounding errors of the exponentials in the sum.
         sum = with(1.03F * sum_of_alternatives(kernels, ratios, limit_log2));
     }
     if (sum > limit) return 1;
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// In small views, the second bound is computed if the first bound is below this value. If the
-/// first bound is larger, the second bound seldom suffices.
+/// In small views, the second bound is computed only if the first bound is below this value. The
+/// second bound is rarely much tighter than the first, so it is seldom sufficient otherwise.
 constexpr float kMaxForQuickBound = 0x1p-20F;
 
-/// Returns an upper bound on the probability that one of the axes of a small view is wrong, or 1 if
-/// the bound exceeds 2^limit_log2. The first two bounds on the alternatives are those of
-/// `axis_wrong`.
+/// Returns an upper bound on the probability that the position in a small view is wrong along at
+/// least one axis. Returns 1 or more if the bound exceeds 2^limit_log2. The first two bounds on the
+/// alternatives are those of `axis_wrong`.
 float small_view_wrong(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                        const std::array<const UnsharedLines*, 2>& axes, const Query& query) {
     const float limit = power_of_two_exactly(query.limit_log2);
@@ -256,7 +256,7 @@ float small_view_wrong(const Kernels& kernels, const std::array<Confidence, 2>& 
         }
     }
     if (count == 0) return wrong;
-    // The margin covers the roundings of the sums.
+    // The factor covers the rounding errors of the sums.
     return wrong + wrong_in_small_view(kernels, std::span(in_doubt).first(count), codes,
                                        0.999F * limit - wrong, *query.work);
 }

@@ -20,7 +20,7 @@ int log2_of_one_and_q16(int n_q8) {
     return kLog2OfOneAnd[i] - ((kLog2OfOneAnd[i] - kLog2OfOneAnd[i + 1]) * (n_q8 & 127) >> 7);
 }
 
-/// Returns the odds that a bit at this level is correct, as log2 in units of 2^-8.
+/// Returns the odds that a bit of the given level is correct, as log2 in units of 2^-8.
 int log_odds_q8(int odds_per_bit_q8, int level) {
     // 129 / 2^14 is about 1 / 127.
     return (odds_per_bit_q8 * Confidence::weight_of(level) * 129) >> 14;

@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Histogram of bits by weight and by agreement with the code. Each level covers eight magnitudes
-/// of the weight.
+/// Histogram of bits by weight and by agreement with the code. Each level covers eight consecutive
+/// magnitudes of the weight.
 class Confidence {
   public:
     static constexpr int kLevels = 16;

@@ -13,9 +13,9 @@ namespace dotpose::core {
 namespace {
 
 /// Lower limit of the result of `sum_of_double_alternatives`: the sum of kNegligible over all pairs
-/// of places and all shifts, so that no fix relies on smaller expected odds. The limit is slightly
-/// too large, because 2,217 of the 190,027 pairs contain a place of the reading and are therefore
-/// not double alternatives.
+/// of places and all shifts. No fix may rely on smaller expected odds. The limit is slightly too
+/// large, because 2,217 of the 190,027 pairs contain a place of the reading and are therefore not
+/// double alternatives.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
 /// An alternative is counted individually if its odds exceed 2^kLargeOdds_log2, unless the search
@@ -138,11 +138,10 @@ class AnchorOffsets {
     std::array<std::array<AnchorBytes, code::kA4Restored.size()>, 4> all_;
 };
 
-/// A place in one sequence. For a fixed anchor `one`, offsets[n] is the roll offset of the place at
-/// `one` minus the roll offset of the place at anchor n, modulo 63. Consider an alternative that
-/// combines this place with a place in another sequence and shares `one`. It also shares anchor n
-/// if offsets[n] equals the roll offset of the other place at anchor n minus the roll offset of the
-/// other place at `one`.
+/// A place in one sequence. offsets[n] is the roll offset of the place at a fixed anchor, called
+/// `one`, minus its roll offset at anchor n, modulo 63. For a place in another sequence, consider
+/// the same difference with the opposite sign. If the two values are equal, an alternative with
+/// both places that shares `one` also shares anchor n.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;

@@ -42,7 +42,8 @@ class PlaceList {
     std::uint8_t place(std::size_t n) const { return places_[n]; }
     /// Returns the roll offsets of a place relative to the first shared line.
     const RollOffsets& offsets(std::size_t n) const { return offsets_[n]; }
-    /// Returns the changes of the roll offset across the two gaps, combined as 64 * first + second.
+    /// Returns the changes of the roll offset across the first two gaps, combined as 64 * first +
+    /// second.
     unsigned key(std::size_t n) const { return keys_[n]; }
 
   private:
@@ -168,7 +169,7 @@ class Finder {
     }
 
     /// Combines each pair of places in the first two sequences with all pairs of places in the last
-    /// two sequences that make the roll offset equal at both ends of each gap.
+    /// two sequences for which the roll offset is equal at both ends of each of the first two gaps.
     void add_matches() {
         const auto& [a, b, c, d] = lists_;
         // The captures have new names because clang 14 cannot capture structured bindings.

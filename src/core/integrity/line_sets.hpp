@@ -34,15 +34,16 @@ inline Bytes modulo_sections(Bytes offsets) {
     return offsets - (static_cast<Bytes>(offsets >= kSections) & kSections);
 }
 
-/// Sets the roll offsets of the single alternative at `place` in `sequence`, at the shift at which
-/// it shares the line `shared`.
+/// Sets the roll offsets of the single alternative at `place` in `sequence`, at the shift where it
+/// shares the line `shared`.
 inline void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t sequence,
                                  std::uint32_t place, int shared, RollOffsets& offsets) {
     const std::uint8_t* const own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* const alternative = ratios.basis[sequence].rolls + place;
     const auto back =
         static_cast<std::uint8_t>(kSections - roll_offset(own[shared], alternative[shared]));
-    // The loop also accesses elements beyond the last line, like `RankedLines::set_offsets`.
+    // Like the loop in `RankedLines::set_offsets`, this loop also accesses elements beyond the last
+    // line.
     for (std::size_t line = 0; line < static_cast<std::size_t>(ratios.count());
          line += sizeof(Bytes)) {
         Bytes from;

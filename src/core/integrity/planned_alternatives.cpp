@@ -12,30 +12,30 @@
 namespace dotpose::core {
 namespace {
 
-/// Safety factor for the expected odds of the sets that are not searched. On 2,500 axes of nominal
-/// frames, the ratio of the true odds of these sets to the expected odds was 0.04 on average, above
-/// 4 on 6 axes, and at most 40.
+/// Safety factor for the expected odds of the sets that are not searched. On 3,798 axes of nominal
+/// frames, the ratio of the true odds of these sets to the expected odds was 0.03 in total, above 4
+/// on 6 axes, and at most 9.
 constexpr float kPlanMargin = 4;
 
-/// Maximum odds that are not searched, including the safety factor. Prevents a large limit of the
-/// caller from making the result imprecise.
+/// Maximum of the expected odds of the sets that are not searched, times kPlanMargin. Keeps the
+/// result precise even if the limit of the caller is large.
 constexpr float kMaxRest = 0x1p-31F;
 
-/// Loss, in bits, at which the evaluation of an alternative stops. The alternative then counts with
-/// the odds at this loss.
+/// If the loss of an alternative in the packed lines reaches this number of bits, its evaluation
+/// stops. The alternative then contributes the odds at this loss.
 constexpr int kSkippedBits = 46;
 
-/// Keys of places: the changes of the roll offset from the first shared line to the ends of the
-/// first two gaps, combined as kKeyStep * first + second. Sums of two keys are also valid indices,
-/// because the elements of each key are below kSections.
+/// The key of a place combines two changes of the roll offset as kKeyStep * first + second: from
+/// the first shared line to the line after the first gap, and to the line after the second gap. The
+/// sum of two keys is less than kKeys because both changes are below kSections.
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
-/// Number of lines that are compared for all matches (see `SetSearch`). Their roll offsets are
-/// packed into one word.
+/// Number of packed lines. `SetSearch` first computes the loss of each alternative in these lines
+/// alone. Their roll offsets are packed into one word.
 constexpr std::size_t kPackedLines = 4;
 
-/// A set of shared lines, and the lines with the largest minimum losses among all other lines.
+/// A set of shared lines, and the packed lines: the unshared lines with the largest minimum losses.
 struct Pattern {
     Pattern(const RankedLines& lines, LineSet shared_) : shared(shared_), gaps(shared_) {
         std::array<int, kPackedLines> min_losses{-1, -1, -1, -1};
@@ -54,14 +54,15 @@ struct Pattern {
             losses[n] = lines.losses(unshared[n]);
         }
     }
-    /// Returns the packed roll offsets, one per byte. The sum of four results contains the sums of
-    /// the roll offsets.
+    /// Returns the roll offsets in the packed lines, one per byte. Sums of four offsets fit in a
+    /// byte, so the words of four sequences can be added.
     std::uint32_t packed(const RollOffsets& offsets) const {
         const auto& [a, b, c, d] = unshared;
         return offsets[a] | std::uint32_t{offsets[b]} << 8 | std::uint32_t{offsets[c]} << 16 |
                std::uint32_t{offsets[d]} << 24;
     }
-    /// Returns the loss in the packed lines. `packed` is a sum of packed roll offsets.
+    /// Returns the total loss in the packed lines. `packed` is the sum of the packed roll offsets
+    /// in the four sequences.
     int lost(std::uint32_t packed) const {
         return losses[0][packed & 0xFF] + losses[1][packed >> 8 & 0xFF] +
                losses[2][packed >> 16 & 0xFF] + losses[3][packed >> 24];
@@ -74,8 +75,8 @@ struct Pattern {
     static constexpr std::array<std::int16_t, 256> kNoLosses{};
 
     std::array<std::uint8_t, kPackedLines> unshared{};
-    /// Losses in these lines, by roll offset (see `RankedLines::losses`). If there are fewer than
-    /// kPackedLines lines, the last elements are kNoLosses.
+    /// Losses in the packed lines, by roll offset (see `RankedLines::losses`). If fewer than
+    /// kPackedLines lines are unshared, the remaining elements point to kNoLosses.
     std::array<const std::int16_t*, kPackedLines> losses;
 };
 
@@ -120,12 +121,12 @@ class KeyedPlaces {
     std::array<RollOffsets, kMaxPlaces> offsets_;
 };
 
-/// Finds the far alternatives that share given sets of lines, and adds their odds. For each set,
-/// lists the places in each sequence at which an alternative may share these lines (see
-/// EqualPlaces). The search builds a table of all pairs of places in two of the sequences. The key
-/// of a pair contains the changes of the roll offset across the gaps between the shared lines. For
-/// each pair of places in the other two sequences, the search looks up the pairs with the opposite
-/// changes.
+/// Finds the far alternatives that share given sets of lines, and adds up their odds. For each set,
+/// the search lists the places in each sequence at which an alternative may share these lines (see
+/// `EqualPlaces`). It then builds a table of all pairs of places in a1 and a3. The key of a pair is
+/// the sum of the keys of both places. For each pair of places in a2 and a4, the search looks up
+/// the pairs with the opposite changes of the roll offset. The four places of such a match are
+/// those of an alternative that shares the lines at the ends of the first two gaps.
 class SetSearch {
   public:
     SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)
@@ -138,9 +139,10 @@ class SetSearch {
         newest_.fill(kNone);
     }
 
-    /// Adds the odds of the far alternatives that share at least the lines of `sets[n]`, but not
-    /// all lines of an earlier set. The set must not be empty. Returns false if the search must
-    /// end, because the sum exceeds `max_odds` or the work does not suffice.
+    /// Adds the odds of the far alternatives that share all lines of `sets[n]`, but not all lines
+    /// of any earlier set, because these alternatives have already been added. The set must not be
+    /// empty. Returns false if the search must end, because the sum exceeds `max_odds` or the work
+    /// does not suffice.
     bool add(std::span<const PlannedSet> sets, std::size_t n) {
         earlier_ = sets.first(n);
         const LineSet shared = sets[n].shared;
@@ -159,7 +161,8 @@ class SetSearch {
 
   private:
     static constexpr std::size_t kWorkPerSet = 1500;
-    /// A pair of places is stored as kPlaces times the index in a3 plus the index in a1.
+    /// A pair of places is stored as kPlaces * (index in the list of a3) + (index in the list of
+    /// a1).
     static constexpr std::size_t kPlaces = 256;
     static constexpr std::size_t kMaxPairs = code::kA3.size() * kPlaces;
     static constexpr std::uint16_t kNone = kMaxPairs;
@@ -181,8 +184,8 @@ class SetSearch {
                            25 * matches);
     }
 
-    /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make
-    /// the roll offset equal at both ends of each gap.
+    /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 for which
+    /// the roll offset is equal at both ends of each of the first two gaps.
     void add_matches(const Pattern& pattern) {
         const auto& [first, second, third, fourth] = lists_;
         for (std::size_t n = 0; n < third.count(); ++n) {
@@ -228,10 +231,10 @@ class SetSearch {
             pair;
     }
 
-    /// Adds the odds of the alternative with the given places, at the shift at which it shares the
-    /// first shared line. Adds nothing if the alternative does not share all lines of the set
-    /// `required`, or shares all lines of an earlier set. The other arguments are indices into the
-    /// lists of places.
+    /// Adds the odds of the alternative with the given places, at the shift where it shares the
+    /// first line of the set `required`. Adds nothing if the alternative differs in fewer than two
+    /// sequences, does not share all lines of `required`, or shares all lines of an earlier set.
+    /// `a` to `d` are indices into the lists of places of a1 to a4.
     void add(LineSet required, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
         const auto& own = lines_.ratios.places;
         const int different = (lists_[0].place(a) != own[0]) + (lists_[1].place(b) != own[1]) +
@@ -256,10 +259,12 @@ class SetSearch {
     const RankedLines& lines_;
     std::size_t count_;
     float max_odds_;
-    int skipped_loss_;  ///< kSkippedBits as a loss, plus the maximum gain in other lines
+    /// Minimum loss in the packed lines at which an alternative is skipped. The alternative loses
+    /// at least kSkippedBits in all lines, even with the maximum gain outside the packed lines.
+    int skipped_loss_;
     WorkLimit& work_;
     EqualPlaces equal_places_;
-    std::span<const PlannedSet> earlier_;
+    std::span<const PlannedSet> earlier_;  ///< sets before the current set
     std::array<KeyedPlaces, 4> lists_;
     /// `newest_` contains the newest pair of places with each key, and `before_` contains for each
     /// pair the previous pair with the same key.
@@ -268,7 +273,7 @@ class SetSearch {
     std::array<std::uint16_t, kMaxPairs> keys_;  ///< key of each pair
     /// For each pair of places, the sums of the packed roll offsets of the two places.
     std::array<std::uint32_t, kMaxPairs> packed_;
-    std::size_t skipped_ = 0;  ///< number of alternatives that lose `skipped_loss_`
+    std::size_t skipped_ = 0;  ///< number of skipped alternatives
     float sum_ = 0;
 };
 

@@ -46,7 +46,7 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
         OddsByOffset& odds = odds_[line];
         const LineScores& scores = ratios.lines[static_cast<int>(line)];
         const auto own = static_cast<std::size_t>(ratios.own_roll(static_cast<int>(line)));
-        // Two loops without a condition, which compilers vectorise.
+        // Two loops without a condition, because compilers can vectorise them.
         const std::int16_t own_score = scores[own];
         for (std::size_t roll = own; roll < kSections; ++roll)
             losses[roll - own] = static_cast<std::int16_t>(own_score - scores[roll]);

@@ -29,7 +29,7 @@ class RankedLines {
         return losses_[static_cast<std::size_t>(line)][static_cast<std::size_t>(further)];
     }
 
-    /// Returns the losses in a line, by `further`.
+    /// Returns the losses in a line, indexed by `further` (see `loss`).
     const std::int16_t* losses(std::size_t line) const { return losses_[line].data(); }
 
     const LikelihoodRatios& ratios;

@@ -85,8 +85,8 @@ class LossesByBorder {
     std::array<int, kMaxLines> from_;    ///< minimum loss from each line to the last line
 };
 
-/// Tests with the minimum losses of the lines whether a seam alternative may matter. Takes a tenth
-/// of the time of `LossesByBorder`.
+/// Tests whether a seam alternative may lose less than a loss limit. Uses only the minimum losses
+/// of the lines, and takes a tenth of the time of `LossesByBorder`.
 class QuickTest {
   public:
     QuickTest(const LikelihoodRatios& ratios, int loss_limit)
@@ -97,7 +97,7 @@ class QuickTest {
         }
     }
 
-    /// Returns true if an alternative with the given roll offsets may lose less than the limit.
+    /// Returns true if a seam alternative with the given roll offsets may lose less than the limit.
     bool operator()(const RollOffsets& offsets) const {
         return shares_required(offsets) && may_lose_less(offsets);
     }
@@ -105,7 +105,8 @@ class QuickTest {
   private:
     /// Returns true if the alternative can share all required lines: its shift changes at most once
     /// from one required line to the next. The required lines are those whose minimum loss is at
-    /// least the limit.
+    /// least the limit. The odds of an alternative are negligible unless it shares every required
+    /// line, either at the shift before the border or at the shift after it.
     bool shares_required(const RollOffsets& offsets) const {
         int changes = 0;
         for (std::size_t n = 1; n < required_count_ && changes < 2; ++n)
@@ -113,11 +114,11 @@ class QuickTest {
         return changes < 2;
     }
 
-    /// Returns true if, for some border, the minimum losses of the lines that the alternative does
-    /// not share add up to less than the limit. The alternative has the best shift on each side of
-    /// the border.
+    /// Returns true if, for at least one border and the best shift on each side of this border, the
+    /// minimum losses of the lines that the alternative does not share add up to less than the
+    /// limit.
     bool may_lose_less(const RollOffsets& offsets) const {
-        // Minimum loss in all lines before each line, at the best shift.
+        // For each line, the minimum loss in all lines before it, at the best shift.
         std::array<int, kMaxLines> before;
         std::array<int, kSections> kept{};  // losses that the alternative avoids, by shift
         int in_all = 0;

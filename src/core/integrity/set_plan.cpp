@@ -10,7 +10,7 @@ namespace {
 /// that are not counted individually therefore have odds of at most 2^-24.
 constexpr int kRequiredBits = 24;
 
-/// Sets with smaller expected odds are not listed, unless they are required.
+/// A set with expected odds below this value is not listed, unless the set is required.
 constexpr float kNegligibleOdds = 0x1p-42F;
 
 /// Number of possible changes of the roll from one line to the next. If an alternative differs in
@@ -18,15 +18,14 @@ constexpr float kNegligibleOdds = 0x1p-42F;
 constexpr float kChanges = 54;
 
 /// Correction factors for the expected odds of alternatives that differ in two and in three
-/// sequences. The factors are necessary because the model assumes that the roll offsets of lines
-/// that are not shared are uniformly distributed, but few changes of the roll are possible if few
-/// sequences differ. On 700 axes of nominal frames, the mean ratio of the result of
-/// `sum_of_expected_alternatives` to the result of the model was 10 to 17 for two different
-/// sequences, 2 for three, and 0.6 for four.
+/// sequences. The model assumes that the roll offsets in unshared lines are uniformly distributed.
+/// However, if few sequences differ, few changes of the roll are possible. On 700 axes of nominal
+/// frames, the mean ratio of the result of `sum_of_expected_alternatives` to the result of the
+/// model was 10 to 17 for two different sequences, 2 for three, and 0.6 for four.
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
 /// Probabilities that the roll offset is 0 again after a gap, for alternatives that differ in two,
-/// three and four sequences.
+/// three, and four sequences.
 constexpr float kReturnOfTwo = 1.0F / 20;
 constexpr float kReturnOfThree = 1.0F / 35;
 constexpr float kReturnOfFour = 1 / kChanges;
@@ -38,12 +37,13 @@ float odds_of_others(const OddsByOffset& odds) {
 
 }  // namespace
 
-/// A choice of shared lines among the first compared lines. The other compared lines are still
-/// undecided.
+/// A node of the search tree over all sets of lines: a choice of shared lines among the first
+/// compared lines. For the remaining compared lines, the choice is still open.
 struct SetPlan::Node {
     LineSet shared = 0;
-    float odds = 1;      ///< product of the mean odds in the lines that are not shared
-    int min_loss = 0;    ///< total minimum loss of the lines that are not shared
+    /// Product of the mean odds in the unshared lines and in the lines that are not compared.
+    float odds = 1;
+    int min_loss = 0;    ///< total minimum loss of the unshared lines
     unsigned steps = 0;  ///< number of steps between adjacent shared lines
     unsigned gaps = 0;
     int last = -2;  ///< last shared line
@@ -86,8 +86,8 @@ void SetPlan::set_numbers() {
     }
 }
 
-/// Returns the expected odds of the far alternatives that share the lines of `node`. The sum over
-/// all sets that continue this set is not larger.
+/// Returns the summed expected odds of the far alternatives that share the lines of `node`. This is
+/// an upper bound on the total for all sets that extend `node`.
 float SetPlan::expected(const Node& node) const {
     const ByDifferent& number = number_[node.steps];
     const ByDifferent& returned = returned_[node.gaps];
@@ -96,7 +96,7 @@ float SetPlan::expected(const Node& node) const {
     return (node.shared == 0 ? kSections : 1) * node.odds * sum;
 }
 
-/// Returns the estimated work of `SetSearch::add`, in processor instructions.
+/// Returns the estimated work of `SetSearch::add` for the set of `node`, in processor instructions.
 float SetPlan::work(const Node& node) const {
     constexpr float kNever = 1e9F;
     if (node.shared == 0) return kNever;
@@ -146,8 +146,8 @@ void SetPlan::visit_shared(std::size_t n, Node node) {
     visit(n + 1, node);
 }
 
-/// Sorts the sets: first the required sets, those with the fewest lines first, then the other sets
-/// by decreasing ratio of expected odds to work.
+/// Sorts the sets. The required sets come first, sorted by increasing number of lines. The other
+/// sets follow, sorted by decreasing ratio of expected odds to work.
 void SetPlan::sort_sets() {
     std::array<float, kMaxSets> keys;
     for (std::size_t n = 0; n < count_; ++n) {

@@ -19,8 +19,9 @@ struct PlannedSet {
     bool is_required;  ///< true if the set must be searched, because individual odds may be large
 };
 
-/// Lists sets of lines in the order in which they should be searched. Lines with a minimum loss of
-/// 0 may be shared or not.
+/// Lists the sets of lines that far alternatives may share, in the order in which these sets should
+/// be searched. Only lines with a positive minimum loss are in the sets. The alternatives of a set
+/// may or may not share the other lines.
 class SetPlan {
   public:
     explicit SetPlan(const RankedLines& lines);
@@ -29,20 +30,24 @@ class SetPlan {
     /// Returns the sets. The required sets come first. The other sets are sorted by decreasing
     /// ratio of expected odds to work.
     std::span<const PlannedSet> sets() const { return std::span(sets_).first(count_); }
-    /// Returns true if set n contains an earlier set. The search for the earlier set then also
-    /// finds the alternatives of set n.
+    /// Returns true if set n contains all lines of an earlier set. A search of the earlier set then
+    /// also finds the alternatives of set n.
     bool is_covered(std::size_t n) const;
-    /// Returns the expected odds of all far alternatives that are not in the first n sets.
+    /// Returns the rest: the summed expected odds of all far alternatives that are not in the first
+    /// n sets.
     float rest(std::size_t n) const { return rests_[n]; }
-    /// Returns the number of sets that must be searched to make the rest at most `max_rest`. If
-    /// this is not possible, returns the number of all sets.
+    /// Returns the number of sets that must be searched to reduce the rest to at most `max_rest`.
+    /// The result includes all required sets. If the rest cannot be reduced to `max_rest`, returns
+    /// the number of all sets.
     std::size_t count_for(float max_rest) const;
-    /// Returns the work of the search for the first n sets, without those that are covered.
+    /// Returns the total work of searching the first n sets, in processor instructions. Covered
+    /// sets are not searched and take no work.
     float work_of(std::size_t n) const;
 
   private:
     struct Node;
-    /// A value for the alternatives that differ in two, three and four sequences.
+    /// Separate values for the alternatives that differ from the reading in two, three, and four
+    /// sequences.
     struct ByDifferent {
         float two;
         float three;
@@ -62,21 +67,22 @@ class SetPlan {
     int required_loss_;
     std::size_t compared_count_ = 0;
     std::array<std::uint8_t, kMaxLines> compared_;  ///< lines with a positive minimum loss
-    /// For each compared line, the summed odds of all other rolls, divided by kChanges. Indexed as
-    /// `compared_`.
+    /// For each line in `compared_`, the summed odds of all rolls except the roll of the reading,
+    /// divided by kChanges.
     std::array<float, kMaxLines> mean_odds_;
-    /// For n steps between adjacent shared lines, the expected number of places in each sequence
-    /// with the digits of the reading in these steps.
+    /// places_[n][k] is the expected number of places in sequence k that have the same digits as
+    /// the reading in n given steps.
     std::array<std::array<float, 4>, kMaxLines + 1> places_;
-    /// The expected number of combinations of these places, times a correction factor.
+    /// number_[n] is the expected number of alternatives that have these digits in all four
+    /// sequences, times a correction factor (see kUnevennessOfTwo).
     std::array<ByDifferent, kMaxLines + 1> number_;
-    /// Probability that n gaps end at a shared line.
+    /// returned_[n] is the probability that the roll offset is 0 again after each of n gaps.
     std::array<ByDifferent, kMaxLines + 1> returned_;
     std::size_t count_ = 0;
     std::array<PlannedSet, kMaxSets> sets_;
     bool is_complete_ = true;
     float negligible_ = 0;  ///< summed expected odds of the sets that are not listed
-    std::array<float, kMaxSets + 1> rests_;
+    std::array<float, kMaxSets + 1> rests_;  ///< results of `rest`
 };
 
 }  // namespace dotpose::core

@@ -31,9 +31,10 @@ float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t 
     return lines.ratios.odds(lost);
 }
 
-/// Returns the loss of a single alternative at the shift at which it shares the line `shared`. If
-/// the loss in the first lines exceeds `max_loss`, returns this loss. `own` and `alternative` are
-/// the rolls of the reading and of the alternative. The order of the lines is that of `sorted`.
+/// Returns the loss of a single alternative at the shift where it shares the line `shared`. Adds up
+/// the losses of the lines in the order of `sorted`. Stops as soon as the sum exceeds `max_loss`,
+/// and returns the sum so far. `own` and `alternative` point to the rolls of the secondary sequence
+/// at the places of the reading and of the alternative.
 int loss_of_rolls(const RankedLines& lines, std::span<const LineLoss> sorted,
                   const std::uint8_t* own, const std::uint8_t* alternative, std::size_t shared,
                   int max_loss) {
@@ -120,7 +121,8 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
     // at most 2^-37 in total.
     constexpr int kSkippedBits = 51;
     constexpr int kEvaluatedBits = 43;
-    constexpr std::size_t kWorkPerEntry = 85;  // in processor instructions, with those of the seams
+    // Estimated work per listed place, in processor instructions. Includes the seam alternatives.
+    constexpr std::size_t kWorkPerEntry = 85;
     const LikelihoodRatios& ratios = lines.ratios;
     const CoarseLosses losses(ratios, kSkippedBits);
     std::array<LineLoss, kMaxLines> storage;
@@ -133,7 +135,7 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
     float sum = sum_of_skipped(lines, kSkippedBits);
     const int evaluated_limit = losses.limit * kEvaluatedBits / kSkippedBits + 1;
     // An alternative that loses more than this in some lines has odds below 2^-kSkippedBits,
-    // whatever it gains in the other lines.
+    // regardless of its gains in the other lines.
     const int max_loss = ratios.loss_for(-256 * kSkippedBits) + ratios.max_gain();
     std::array<const std::uint8_t*, 4> own;
     for (std::size_t k = 0; k < own.size(); ++k)

@@ -10,8 +10,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Work of `RankedLines`, of the list of single alternatives, of `SetPlan`, and of the seam
-/// alternatives of one axis, in processor instructions.
+/// Estimated work per axis for `RankedLines`, the list of single alternatives, `SetPlan`, and the
+/// seam alternatives, in processor instructions.
 constexpr std::size_t kPreparation = 80'000;
 
 /// Returns an upper bound on the summed odds of the reading's position in all other sections.
@@ -22,16 +22,18 @@ float bound_of_other_sections(const LikelihoodRatios& ratios) {
     return (kSections - 1) * ratios.odds(lost);
 }
 
-/// Adds up the probabilities of the alternatives and seams on one or two axes.
+/// Adds up the probabilities of all alternatives on one or two axes, including the seam
+/// alternatives.
 class SmallView {
   public:
     SmallView(const Kernels& kernels, std::span<const UnsharedLines* const> axes, float codes,
               float max_wrong, WorkLimit& work)
         : kernels_(kernels), axes_(axes), factor_(kMargin * codes), left_(max_wrong), work_(work) {}
 
-    /// Adds the axes from index `n` on. Returns false if the sum exceeds the maximum, or if the
-    /// work does not suffice. Adds all sums that take little time before the search for far
-    /// alternatives on any axis.
+    /// Adds the probabilities on the axes from index `n` on. Calls itself for the next axis before
+    /// the search for far alternatives, because this search takes longest. The sums that take
+    /// little time are therefore complete on all axes before the first search begins. Returns false
+    /// if the sum exceeds the maximum, or if the work does not suffice.
     bool add(std::size_t n) {
         if (n == axes_.size()) return add_seams();
         const LikelihoodRatios& ratios = axes_[n]->ratios();
@@ -43,8 +45,9 @@ class SmallView {
         const float share = 1 / static_cast<float>(n + 1);
         planned_work_ += work_of_planned_alternatives(plan, share * left_ / factor_);
         if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
-        // The axis with the largest index is searched first. It may use only its share of the odds
-        // for alternatives that are not searched.
+        // The last axis is searched first. Its alternatives that are not searched may use only the
+        // fraction `share` of the remaining odds. The rest is left for the axes with smaller
+        // indices.
         const auto far = sum_of_planned_alternatives(lines, plan, share, left_ / factor_, work_);
         return far && spend(factor_ * *far);
     }
@@ -68,9 +71,9 @@ class SmallView {
     const Kernels& kernels_;
     std::span<const UnsharedLines* const> axes_;
     float factor_;
-    float left_;
+    float left_;  ///< maximum minus the sum
     WorkLimit& work_;
-    float planned_work_ = 0;  ///< work of the searches that have not been made
+    float planned_work_ = 0;  ///< estimated work of the searches for far alternatives
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Small views: the probability that a position is wrong, in bounded work. See docs/integrity.md,
-// "Small views". likelihood_ratios.hpp defines the terms.
+// Small views: estimates the probability that a position is wrong, with bounded work. See
+// docs/integrity.md, "Small views". likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include <span>
@@ -10,10 +10,10 @@
 
 namespace dotpose::core {
 
-/// Returns an upper estimate of the probability that the position is wrong because of alternatives
-/// or seams, on one or two axes. `codes` is the weighted number of possible codes. Returns 1 if the
-/// estimate exceeds `max_wrong`, or if `work` does not suffice. In most of these cases, returns
-/// before the search for far alternatives.
+/// Returns an upper estimate of the probability that an alternative, rather than the reading, is
+/// correct on at least one of the axes. `axes` contains one or two axes. `codes` is the weighted
+/// number of possible codes. Returns 1 if the estimate exceeds `max_wrong`, or if `work` does not
+/// suffice. Usually, this is known before any far alternatives are searched.
 float wrong_in_small_view(const Kernels& kernels, std::span<const UnsharedLines* const> axes,
                           float codes, float max_wrong, WorkLimit& work);
 

@@ -8,9 +8,9 @@ namespace dotpose::core {
 /// Estimated work that may still be done, in processor instructions.
 class WorkLimit {
   public:
-    /// Maximum work of testing the places of one frame that shows a small view. docs/speed.md,
-    /// "Small frames", compares limits. All other steps of a first attempt take about 200,000
-    /// instructions.
+    /// Maximum total work for the sums over alternatives in one frame with a small view, over all
+    /// tested places. docs/speed.md, "Small frames", compares limits. All other steps of a first
+    /// attempt take about 200,000 instructions.
     static constexpr std::size_t kOfFrame = 510'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 77;
 constexpr int kDirections = 12;
-/// The image contains 24 rows of cells if nothing moves, and at least 9 rows with any motion of
-/// these tests.
+/// Spacing and size of the frames. A frame shows 24 rows of cells if nothing moves, and at least 9
+/// rows with any motion in these tests.
 constexpr ShotSize kSize{.spacing_px = 20, .width_px = 640, .height_px = 480};
 
 /// Returns a frame whose scene moves during the readout by `motion` times the height of the image,
@@ -109,7 +109,8 @@ TEST(RollingShutter, SmallFramesAreLocatedAtTheFirstAttemptIfTheirDotsCarryThePo
     for (int i = 0; i < kFrames; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i);
         Shot shot = shot_of(size, kSeed, static_cast<std::uint64_t>(i));
-        // Downwards within 45 degrees. The image then contains half of the usual cells or fewer.
+        // The motion is downwards, to within 45 degrees. The image then contains at most half of
+        // the usual number of cells.
         const double angle_rad = std::numbers::pi / 4 * (1 + 2 * (i + 0.5) / kFrames);
         shot.camera.readout_px = {0.6 * size.height_px * std::cos(angle_rad),
                                   0.6 * size.height_px * std::sin(angle_rad)};

@@ -1,4 +1,4 @@
-// Tests p_wrong, the upper bound of the probability that a fix of the first or tracked attempt is
+// Tests p_wrong, the upper bound on the probability that a fix of the first or tracked attempt is
 // wrong. The expected values are sums over all alternatives in double precision.
 #include "core/integrity/certainty.hpp"
 

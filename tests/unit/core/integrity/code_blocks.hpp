@@ -15,7 +15,8 @@
 
 namespace dotpose::core_test {
 
-/// Bits of a block of the code, starting at `place`. A bit is 1, 0, or -1 if it was not read.
+/// Bits of a block of the code, starting at `place`. Each element is 0 or 1, or -1 if the bit was
+/// not read.
 struct Block {
     CodeVariant code;
     Place place;

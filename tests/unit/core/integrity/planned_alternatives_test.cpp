@@ -1,5 +1,5 @@
 // Tests sum_of_planned_alternatives with lines that agree with the reading and, almost as well,
-// with one alternative. Also tests the work and the result of wrong_in_small_view.
+// with one alternative. Also tests the result and the work limit of wrong_in_small_view.
 #include "core/integrity/planned_alternatives.hpp"
 
 #include <array>
@@ -18,7 +18,7 @@ namespace dotpose::core_test::planned_alternatives_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 71;
-constexpr float kMaxRest = 0x1p-31F;  // maximum of the expected odds in the sum
+constexpr float kMaxRest = 0x1p-31F;  // maximum contribution of expected odds to the sum
 constexpr std::size_t kPlenty = 10'000'000;
 
 std::optional<float> planned(const RatiosCase& c, float max_odds, std::size_t most_work) {
@@ -85,8 +85,8 @@ TEST(SmallViews, EndAtTheWorkLimit) {
     int found = 0;
     for (int i = 0; i < 50; ++i) {
         const std::array axis{small_view(rng)};
-        // The limit leaves 5,000 instructions after the preparation. One set of lines takes more
-        // than 1,500.
+        // The limit leaves 5,000 instructions after the preparation, which takes 80,000. The search
+        // of one set of lines takes at least 1,500.
         EXPECT_GE(wrong_in(kernels(), axis, 0x1p-30F, 85'000), 1) << i;
         found += wrong_in(kernels(), axis, 0x1p-30F, kPlenty) < 0x1p-30F ? 1 : 0;
     }
@@ -102,7 +102,7 @@ TEST(SmallViews, UseOneLimitForBothAxes) {
         if (both >= 1) continue;
         ++found;
         EXPECT_LE(both, 0x1p-30F) << i;
-        // Each axis alone is within the limit as well.
+        // Each axis alone must also be within the limit.
         for (const RatiosCase& axis : axes)
             EXPECT_LE(wrong_in(kernels(), std::span(&axis, 1), 0x1p-30F, kPlenty), 0x1p-30F) << i;
     }

@@ -136,7 +136,7 @@ TEST(QuickAlternatives, AreNoFewerThanACloseLookShows) {
         const int counted = alternatives_log2(kernels(), c.ratios());
         // The exact sum may be up to four times too large, because it counts some alternatives
         // twice and is rounded up to a power of two. Small sums are not compared. They may consist
-        // largely of expectations multiplied by 32, which contribute up to 2^-32.
+        // largely of expected odds multiplied by 32, which contribute up to 2^-32.
         if (counted <= -31) continue;
         EXPECT_GE(quick, counted - 2) << "case " << i << ", seed " << kSeed;
         ++compared;
