@@ -12,7 +12,7 @@
 ///
 /// Memory: the constructor of a Locator allocates all memory, unless the caller provides it.
 /// Locating a frame does not allocate, print or throw. There are no global variables. Different
-/// locators may be used concurrently.
+/// locators may be used concurrently. A Locator uses up to 300 KB of the stack.
 #pragma once
 
 #include <concepts>

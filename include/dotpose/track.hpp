@@ -139,9 +139,10 @@ struct TrackedPose {
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
     /// The sighting is certain enough without the prior, and its pose is possible or confirmed. A
-    /// pose is possible if it is inside the gate or, while the robot is lost, if the robot can have
-    /// reached it. The pose of the first sighting is always possible. A pose is confirmed after
-    /// TrackOptions::confirmations sightings that are consistent with each other.
+    /// pose is possible if it is inside the gate. While the robot is lost, a pose is also possible
+    /// if the robot could have reached it. The pose of the first sighting is always possible. A
+    /// pose is confirmed after TrackOptions::confirmations sightings that are consistent with each
+    /// other.
     accepted,
     /// The sighting is weak, but certain enough together with the prior.
     with_prior,

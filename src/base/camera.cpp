@@ -67,7 +67,7 @@ void require_lens(const Camera& camera) {
 }
 
 void require_paper(const PaperScale& paper, const Camera& camera) {
-    // The limits allow microscopes as well as cameras under the ceiling of a hall.
+    // The limits cover everything from microscopes to cameras at the ceiling of a large hall.
     const auto is_length = [](double mm) { return mm >= 1e-6 && mm <= 1e3; };
     require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
             "must be from 0.000001 to 1000");

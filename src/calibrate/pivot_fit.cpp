@@ -101,7 +101,7 @@ Points robust_start(const std::vector<PivotView>& views) {
 /// Result of one improvement: a weighted fit to the views that agree with `start`.
 struct Step {
     Points points;
-    Matrix6d covariance;  ///< for independent poses
+    Matrix6d covariance;  ///< of `points`, if the errors of the poses are independent
     std::vector<bool> is_used;
     double squares = 0;  ///< sum of the normalised squared residuals of `start`
 };

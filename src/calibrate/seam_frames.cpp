@@ -32,8 +32,8 @@ struct Stretch {
 constexpr std::array kStretches = {Stretch{0, 1}, Stretch{0, 0.5}, Stretch{0.5, 0.5},
                                    Stretch{0, 0.66}, Stretch{0.34, 0.66}};
 
-/// Returns the fix with its position replaced by the intersection `step`, in spacings from
-/// `trace.decoding.place`.
+/// Returns the fix with its position replaced by the intersection at the offset `step` from
+/// `trace.decoding.place`, in spacings.
 Fix moved_to(const Fix& fix, const Trace& trace, FixedVec step) {
     const Place place = moved(trace.options.code, trace.decoding.place, step.x, step.y);
     Fix result = fix;

@@ -200,7 +200,7 @@ bool find_turn(Tracking& tracking) {
         agree = rounds.seen() < kMinMeasured ||
                 8 * rounds.agreeing() >= kMinFraction_q3 * rounds.seen();
         // Moves the cells only after rings 1, 2 and 4. `recentre` has already used ring 0, the
-        // middle dot, and ring 3 adds few dots to ring 2.
+        // middle dot. After ring 3, too few dots are new for another fit.
         const bool moves_cells = round % 2 == 0 ? round > 0 : round == 1;
         if (moves_cells && rounds.agreeing() > before) rounds.lay_cells();
     }

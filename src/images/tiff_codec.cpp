@@ -75,8 +75,8 @@ class TiffReader {
         TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), tmsize_t{8} * kMaxImagePixels);
         tiff_.reset(TIFFClientOpenExt("image", "r", &input_, on_read, on_write, on_seek, on_close,
                                       on_size, nullptr, nullptr, options.get()));
-        // libtiff treats a truncated directory as the last one without an error, so missing bytes
-        // are an error here.
+        // libtiff silently treats a truncated directory as the last directory, so missing bytes
+        // are reported as an error here.
         if (!tiff_ || input_.is_short) fail();
     }
 

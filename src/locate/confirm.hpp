@@ -58,9 +58,9 @@ struct Measurement {
     /// if `Hypothesis::is_certain` is true.
     int bits = 0;
     /// True if the frame shows too few cells for a reliable position, so further attempts are
-    /// skipped. `confirm` sets this flag only if its result is `too_few_bits`. In addition, the
-    /// view must be small, its cut dots must have been read, or `are_too_few_cells` must return
-    /// true.
+    /// skipped. `confirm` sets this flag only if its result is `too_few_bits` and at least one of
+    /// these conditions holds: the view is small, dots that the image border cuts were read, or
+    /// `are_too_few_cells` returns true.
     bool shows_too_few_cells = false;
     /// True if the result of the first attempt is `too_few_bits`, that is, its bits are clear but
     /// too few to make the position certain. In this case, the scene did not rotate during the

@@ -19,7 +19,7 @@ namespace dotpose::core {
 /// distortion.
 void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots);
 
-/// Returns the middle of a patch, in px relative to the image centre.
+/// Returns the centre of a patch, in px relative to the image centre.
 FloatVec middle_of(const Patch& patch, const ImageView& image);
 
 /// Places a patch around a point of the image, in px. The patch is `scale` times as wide and as

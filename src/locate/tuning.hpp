@@ -21,9 +21,9 @@ namespace patch_grid {
 /// none.
 inline constexpr float kMaxVariance = 0.0015F;
 /// Maximum number of dots in a patch for a thorough search for the place. With more dots, enough
-/// lines are long, and the brief search finds the place. Of 1,000 frames of 188 x 120 px whose
-/// scene moves by 60 % of the image height during the readout, 892 are located with a thorough
-/// search, and 845 without it.
+/// lines are long enough to determine their rolls, so the brief search finds the place. Of 1,000
+/// frames of 188 x 120 px whose scene moves by 60 % of the image height during the readout, 892 are
+/// located with a thorough search, and 845 without it.
 inline constexpr int kMaxDotsForThoroughSearch = 144;
 /// A place agrees with the bits if, on each axis, at most one bit in kMinBitsPerError is wrong.
 inline constexpr int kMinBitsPerError = 16;

@@ -25,14 +25,14 @@ namespace dotpose::core {
 /// the whole workspace. They pass parts of it to the stages. The base class is the memory of a
 /// DeviceLocator, which `Effort::device` uses.
 struct DesktopWorkspace : DeviceWorkspace {
-    Patch* patch = nullptr;   ///< first attempt, turning
+    Patch* patch = nullptr;   ///< first attempt, and search for a rotation
     Smoothing smoothing;      ///< second attempt
     Measurement measurement;  ///< `confirm`
     OtherCodes other_codes;   ///< odds of the codes in which the frame was not read
     EarlierBits earlier;
     WorkLimit work{WorkLimit::kOfFrame};  ///< see `PlaceEvidence::work`
     PushedImage pushed;
-    std::span<std::uint8_t> rolling_pixels;  ///< turning: the image without rotation
+    std::span<std::uint8_t> rolling_pixels;  ///< search for a rotation: the image without it
     bool is_mirrored = false;                ///< true if an attempt found the mirrored code
 
     /// Sets the known sheets. On known sheets, smaller images and patches can be located.

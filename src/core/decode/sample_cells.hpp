@@ -1,6 +1,7 @@
-// Sample cells: reads the bits of each cell from the grey levels at its four places. In the second
-// attempt, this stage replaces the projections of dot offsets (paper, equations 7 and 8). Unlike
-// the projections, it can use dots that blob detection missed. See docs/differs-from-paper.md.
+// Sample cells: reads the bits of each cell from the grey levels at its four possible dot
+// positions. In the second attempt, this stage replaces the projections of dot offsets (paper,
+// equations 7 and 8). Unlike the projections, it can use dots that blob detection missed. See
+// docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"

@@ -14,8 +14,9 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Returns the covariance that the whitened terms would have if each term had a variance of 1, in
-/// units of the noise variance.
+/// Returns L^T L / `variance` for the given terms, where L is the factor in `normal`. This is the
+/// covariance of the whitened terms, in units of the noise variance, if the terms themselves are
+/// independent and have a variance of 1.
 Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;

@@ -83,7 +83,7 @@ class BytesInWords {
   public:
     explicit BytesInWords(AnchorBytes bytes) {
         std::memcpy(halves_.data(), &bytes, sizeof bytes);
-        // The first byte must be the lowest byte of a word.
+        // The first byte must be the least significant byte of its word.
         if constexpr (std::endian::native == std::endian::big) {
             for (std::uint64_t& half : halves_)
                 half = __builtin_bswap64(half);

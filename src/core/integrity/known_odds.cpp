@@ -48,8 +48,9 @@ struct PositionAndRoll {
     std::size_t roll;
 };
 
-/// For each class and each added roll, the summed odds of all positions except `left_out`. The
-/// class of a position is the position modulo 63.
+/// Summed odds of the positions in a range, for each class and each value of
+/// `PositionAndRoll::roll`. The class of a position is the position modulo 63. The pair `left_out`
+/// is excluded.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,

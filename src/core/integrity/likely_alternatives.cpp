@@ -158,8 +158,8 @@ class Finder {
         return sum_ <= max_odds_;
     }
 
-    /// Sets `is_compared_` and `is_shared_`, which `add` compares with the lines that an
-    /// alternative shares.
+    /// Sets the masks `is_compared_` and `is_shared_`. `add` then accepts only alternatives that
+    /// share exactly the lines `shared`.
     void set_pattern(LineSet shared) {
         for (int line = 0; line < count_; ++line) {
             const auto n = static_cast<std::size_t>(line);

@@ -259,8 +259,8 @@ class SetSearch {
     const RankedLines& lines_;
     std::size_t count_;
     float max_odds_;
-    /// Minimum loss in the packed lines at which an alternative is skipped. The alternative loses
-    /// at least kSkippedBits in all lines, even with the maximum gain outside the packed lines.
+    /// An alternative is skipped if its loss in the packed lines is at least this value. Its total
+    /// loss is then at least kSkippedBits, even if all other lines have their maximum gain.
     int skipped_loss_;
     WorkLimit& work_;
     EqualPlaces equal_places_;

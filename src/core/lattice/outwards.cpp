@@ -117,8 +117,8 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // `with_x(sums.i)` returns the sums of i x x, i x y and i x, and `with_y(sums.i)` returns the
-    // sums of i y x, i y y and i y. For `sums.j`, j replaces i.
+    // `with_x(sums.i)` returns the sums of i * x^2, i * x * y and i * x. `with_y(sums.i)` returns
+    // the sums of i * x * y, i * y^2 and i * y. The results for `sums.j` contain j instead of i.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));

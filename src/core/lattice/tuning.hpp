@@ -11,9 +11,9 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// If at least this fraction of the dots, in 1/20, is near an intersection, the fit extends to
-/// farther dots without being repeated first. The fraction is less than 1, because some detected
-/// dots may be dirt.
+/// Minimum fraction of dots near an intersection, in units of 1/20, with which the fit extends to
+/// farther dots without another iteration. The fraction is less than 1, because some detected dots
+/// may be dirt.
 inline constexpr int kSettled_20th = 19;
 /// Minimum fraction of dots near an intersection in a grid, in 1/10. Half of randomly placed dots
 /// are near an intersection.

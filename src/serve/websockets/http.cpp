@@ -1,4 +1,4 @@
-// HTTP requests: decides which requests are answered, and sends the answers.
+// HTTP requests: decides which requests are accepted, and sends the responses.
 #include <algorithm>
 #include <array>
 #include <cstring>

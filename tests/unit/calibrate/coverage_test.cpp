@@ -52,7 +52,8 @@ CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
     return view;
 }
 
-/// Returns a lens with a standard deviation of `sigma_px` in the corner. Only k is uncertain.
+/// Returns a camera whose lens distortion has a standard deviation of `sigma_px` in the image
+/// corner. Only k is uncertain.
 Camera lens_known_to(double sigma_px) {
     Camera camera;
     camera.width_px = kWidth_px;

@@ -260,7 +260,8 @@ TEST(MinContrast, RefusesPaleFramesOnDevices) {
     const auto device = std::make_unique<DeviceMemory>();
     int frames = 0;
     for (std::uint64_t i = 0; i < 20 && frames < 5; ++i) {
-        // Devices track dots that are darker than three quarters of the paper level.
+        // A DeviceLocator tracks only dots that are darker than three quarters of the paper level,
+        // so the frame must not be too pale.
         const GreyImage image = paled(frame(i), 0.7);
         DeviceOptions options;
         const Fix fix = DeviceLocator(*device, options).locate(image.view());

@@ -19,7 +19,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBam_per_rad = 2147483648.0 / std::numbers::pi;
 
-/// Returns a getter for a number of a fix. The result is NaN unless the fix is ok.
+/// Returns a getter for a numeric field of a fix. The getter returns NaN if the status is not ok.
 template <typename Get>
 auto if_ok(Get get) {
     return [get](const SeenFix& self) { return self.is_ok() ? double{get(self.fix)} : kNaN; };

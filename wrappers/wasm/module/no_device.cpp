@@ -1,5 +1,5 @@
-// Replaces the attempts of microcontrollers. JavaScript cannot select these attempts, so they would
-// only make the download larger. Without src/device/{attempt,tracked}.cpp, the linker drops all
+// Stubs for the device attempts. JavaScript cannot select these attempts, so their code would only
+// make the download larger. Without src/device/{attempt,tracked}.cpp, the linker also drops all
 // code that only these sources call.
 #include "device/attempt.hpp"
 #include "device/tracked.hpp"
