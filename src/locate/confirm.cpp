@@ -68,12 +68,17 @@ bool shows_too_few_cells(const Frame& frame, CellsInView view, MeasuredDots& dot
     return are_too_few_cells(frame, dots.count);
 }
 
-/// Returns true if the image shows too few cells for a later attempt to succeed (see
-/// `tuned::kMinCellsForSecond`). Returns false for known sheets, for which fewer cells suffice.
-bool shows_few_cells(const Frame& frame, const Hypothesis& hypothesis) {
+/// Returns true if the image has fewer than `cells` cells.
+bool has_fewer_cells(const Frame& frame, const Hypothesis& hypothesis, float cells) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);
-    return !frame.known.any() && pixels < tuned::kMinCellsForSecond * spacing * spacing;
+    return pixels < cells * spacing * spacing;
+}
+
+/// Returns true if the image has too few cells for a second attempt to succeed. Returns false for
+/// known sheets, for which fewer cells suffice.
+bool is_too_small_for_second(const Frame& frame, const Hypothesis& hypothesis) {
+    return !frame.known.any() && has_fewer_cells(frame, hypothesis, tuned::kMinCellsForSecond);
 }
 
 /// Fits the plane and the displacement to the measured dots. Returns false if the dots do not
@@ -277,9 +282,10 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
             // bits. In small views, clean bits count as clear, because the few unread or misread
             // dots have little influence and further attempts take a long time. If a small view
             // shows too few cells for a further attempt, all bits count as clear.
-            const bool are_clear = hypothesis.is_small_view
-                                       ? is_clean(bits) || shows_few_cells(frame, hypothesis)
-                                       : bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
+            const bool are_clear =
+                hypothesis.is_small_view
+                    ? is_clean(bits) || is_too_small_for_second(frame, hypothesis)
+                    : bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
             if (!confirm_place(evidence, hypothesis, view, block, bits, fix)) {
                 if (!is_last || !are_clear) return Confirmation::uncertain;
                 measurement.shows_too_few_cells = hypothesis.reads_cut_dots ||
@@ -295,14 +301,6 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         if (is_last) return finish(frame, reader, view, bits, hypothesis, pose, measurement, fix);
         reach.grow();
     }
-}
-
-/// Returns true if the image contains few cells. In such an image, the position may be certain only
-/// if dots that are cut off by the image border are also read.
-bool has_few_cells(const Frame& frame, const Hypothesis& hypothesis) {
-    const float spacing = spacing_px(hypothesis.pattern_from_image);
-    const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);
-    return pixels < tuned::kMaxCellsWithCutDots * spacing * spacing;
 }
 
 }  // namespace
@@ -357,7 +355,7 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
         if (before) *evidence.others = *before;
         return {};
     };
-    const bool has_few = has_few_cells(frame, hypothesis);
+    const bool has_few = has_fewer_cells(frame, hypothesis, tuned::kMaxCellsWithCutDots);
     hypothesis.is_small_view =
         has_few && frame.image.width_px * frame.image.height_px <= tuned::kMaxPixelsOfSmallView;
     if (has_few && !hypothesis.is_partial_view && !hypothesis.is_certain) {

@@ -1,12 +1,11 @@
 #include "locate/place_evidence.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 
 #include "core/decode/exact_lines.hpp"
 #include "core/integrity/certainty.hpp"
 #include "core/integrity/coded_block.hpp"
+#include "core/integrity/known_lines.hpp"
 #include "core/integrity/known_places.hpp"
 #include "locate/on_sheets.hpp"
 #include "locate/tuning.hpp"
@@ -87,9 +86,7 @@ bool may_agree(const Lines& lines, int bits) {
 std::optional<TurnedPlace> find_agreeing_place(const PlaceEvidence& evidence, const BitBlock& block,
                                                int first_quarters) {
     const CodeVariant code = evidence.options.code;
-    int bits = 0;
-    for (const std::uint64_t valid : block.rows.valid)
-        bits += std::popcount(valid);
+    const int bits = number_of_bits(block.rows);
     for (int i = 0; i < 4; ++i) {
         TurnedPlace found{(first_quarters + i) % 4, {}};
         const BitBlock upright = turned(found.quarters, block);

@@ -182,8 +182,8 @@ inline constexpr float kMinSpacingForDirectSampling_px = 8;
 /// If the shorter side of a cell is below this limit, in spacings, the windows around intersections
 /// are made smaller (`window_reach`). A tilt of 30 degrees shortens this side to 0.93 spacings. If
 /// a scene moves by 60 % of the image height during the readout, the side is 0.6 to 0.9 spacings.
-/// Of 1,000 such frames of 188 x 120 px, 883 are located with windows of the usual size, 888 with a
-/// limit of 0.7, and 892 with a limit of 0.75 or 0.8.
+/// With windows of the usual size, 883 of 1,000 such frames of 188 x 120 px are located. A limit of
+/// 0.7 increases this number to 888, and a limit of 0.75 or 0.8 to 892.
 inline constexpr float kMinSideOfSquare = 0.75F;
 /// Radius of a centroid window, in dot radii. With this radius, the window includes the edge of the
 /// dot, and the result is nearly independent of the sub-pixel phase (`dotpose_tables alike`).
@@ -306,11 +306,11 @@ inline constexpr float kBetterOdds = 2;
 /// wrong bit. A dot has two bits, so at most one bit in a hundred is wrong. Misread bits can cause
 /// such an error rate even if the place is correct.
 inline constexpr int kMinDotsPerBitError = 50;
-/// A different place in another code is reported in addition to the fix if its odds relative to the
-/// fix are at least this number.
+/// A different place in another code is also reported if its likelihood is at least this fraction
+/// of the likelihood of the fix.
 inline constexpr float kNamedElsewhere = 0.99F;
-/// The same place in another code is reported in addition to the fix if its odds relative to the
-/// fix exceed this number.
+/// The place of the fix in another code is also reported if its likelihood is more than this many
+/// times the likelihood of the fix.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade
 

@@ -76,10 +76,7 @@ float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
 /// Returns an upper bound on the summed odds of the alternatives that share no line: the reading's
 /// position in other sections, and single alternatives at shifts without a shared line.
 float sharing_none(const LikelihoodRatios& ratios) {
-    int lost = 0;
-    for (int line = 0; line < ratios.count(); ++line)
-        lost += ratios.min_loss(line);
-    return (1 + kSingles) * kShifts * odds_of(ratios, lost);
+    return (1 + kSingles) * kShifts * odds_of(ratios, ratios.min_loss_of_all());
 }
 
 /// Loss caused by one wrong bit, in score units. All bits have the full weight, so losses are

@@ -80,6 +80,14 @@ class LikelihoodRatios {
     /// Returns the minimum loss of an alternative that does not share the line. The minimum is
     /// negative if another roll agrees better with the bits of the line.
     int min_loss(int line) const { return min_losses_[static_cast<std::size_t>(line)]; }
+    /// Returns the sum of the minimum losses of all lines: the minimum loss of an alternative that
+    /// shares no line.
+    int min_loss_of_all() const {
+        int sum = 0;
+        for (int line = 0; line < count_; ++line)
+            sum += min_loss(line);
+        return sum;
+    }
     std::span<const std::int16_t> min_losses(int first, int count) const {
         return std::span(min_losses_)
             .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));

@@ -340,10 +340,7 @@ int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
 /// Returns an upper bound on the odds of the reading's position in all other sections, as log2 in
 /// units of 2^-8. In these sections, no line has the roll of the reading.
 int other_sections_log2_q8(const LikelihoodRatios& ratios) {
-    int lost = 0;
-    for (int line = 0; line < ratios.count(); ++line)
-        lost += ratios.min_loss(line);
-    return kOtherRolls_q8 + ratios.log2_odds_q8(lost);
+    return kOtherRolls_q8 + ratios.log2_odds_q8(ratios.min_loss_of_all());
 }
 
 }  // namespace

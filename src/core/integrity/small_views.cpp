@@ -16,10 +16,7 @@ constexpr std::size_t kPreparation = 80'000;
 
 /// Returns an upper bound on the summed odds of the reading's position in all other sections.
 float bound_of_other_sections(const LikelihoodRatios& ratios) {
-    int lost = 0;
-    for (int line = 0; line < ratios.count(); ++line)
-        lost += ratios.min_loss(line);
-    return (kSections - 1) * ratios.odds(lost);
+    return (kSections - 1) * ratios.odds(ratios.min_loss_of_all());
 }
 
 /// Adds up the probabilities of all alternatives on one or two axes, including the seam
