@@ -2,8 +2,8 @@
 //
 //   dotpose_tables accuracy [--quick] [--update docs/accuracy.md] [--seed S] [FOLDER]
 //
-// Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER
-// (accuracy-out). --update also replaces the generated blocks of the document and its pictures.
+// Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER (default:
+// accuracy-out). --update also replaces the generated blocks of the document and its pictures.
 // --quick locates only a tenth of the frames, which is enough to test the program but too few for
 // accurate numbers.
 #include <array>
@@ -28,7 +28,7 @@ struct AccuracyOptions {
     int share(int frames) const { return is_quick ? frames / 10 : frames; }
 };
 
-/// A decoder, an effort, and the name of the combination in the tables.
+/// A combination of decoder and effort, with its name in the tables.
 struct Way {
     const char* name;
     Decoder decoder;

@@ -4,9 +4,9 @@
 //   dotpose_tables adversarial [--frames N] [--class NAME] [--code given|auto] [--seed S]
 //   [--threads N]
 //
-// Locates N frames, divided equally among the classes in tests/adversarial_frames.hpp, or all of
-// class NAME if it is given. The exit status is 1 if any fix is wrong. Ctrl-C ends the run early
-// and prints the results so far. Times are CPU times.
+// Locates N frames. They are divided equally among the classes in tests/adversarial_frames.hpp.
+// With --class, all frames are of class NAME. The exit status is 1 if any fix is wrong. Ctrl-C ends
+// the run early and prints the results so far. Times are CPU times.
 #include <algorithm>
 #include <array>
 #include <ctime>

@@ -11,7 +11,7 @@
 
 namespace dotpose::tables {
 
-/// A dot used by a calibration, with its true displacement and its true printing error.
+/// A dot used by a calibration, with its residual for the true parameters.
 struct TrueDot {
     int frame = 0;
     PixelPoint pixel;

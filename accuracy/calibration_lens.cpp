@@ -98,7 +98,7 @@ struct Series {
     }
 };
 
-/// Returns the length on the paper of the middle image row, in mm.
+/// Returns the length of the middle image row on the paper, in mm.
 double field_mm(const Camera& camera) {
     const double v = (camera.height_px - 1) / 2.0;
     const CameraPoint left = on_paper(camera, undistorted(camera, {0, v}));

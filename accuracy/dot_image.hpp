@@ -1,5 +1,5 @@
 /// Computes the image of a dot from its geometry and draws frames from such dots. This renderer
-/// shares no code with the simulator (`render`) or the core, so it can reveal errors of the
+/// shares no code with the simulator (`render`) or the core, so it can reveal errors in the
 /// simulator.
 #pragma once
 

@@ -94,8 +94,8 @@ bool holds(const Bin& bin) {
            poisson_at_least(bin.wrong, bin.predicted) > 1e-3;
 }
 
-/// Prints the counts of all readings in classes of p_wrong, each a factor of 8 wide. Returns true
-/// if all classes are consistent with p_wrong.
+/// Prints the counts of all readings, grouped by p_wrong into classes that are a factor of 8 wide.
+/// Returns true if all classes are consistent with p_wrong.
 bool print(std::string_view title, const IntegrityTally& tally) {
     constexpr std::size_t kWidth_log2 = 3;
     constexpr std::size_t kLast = 34;  // first bin of the last class, which has no lower limit

@@ -66,9 +66,9 @@ struct Noise {
     }
 };
 
-/// Draws the odds of a correct bit such that a reading with this number of cells is doubtful. Along
-/// one axis, there are 2^36.6 combinations of position, section and turn, so the decoder needs 36.6
-/// bits to distinguish them. With 30 more bits, p_wrong is about 2^-13.
+/// Draws random odds of a correct bit at which a reading with this number of cells is doubtful.
+/// Along one axis, there are 2^36.6 combinations of position, section and turn, so the decoder
+/// needs 36.6 bits to distinguish them. With 30 more bits, p_wrong is about 2^-13.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;
@@ -80,7 +80,7 @@ double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     return noise.odds_log2;
 }
 
-/// Draws the size, position and orientation of the grid.
+/// Draws a random size, position and orientation of the grid.
 void draw_frame(Rng& rng, Reading& reading) {
     core::Grid& grid = reading.grid;
     grid.storage = reading.cells;

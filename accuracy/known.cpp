@@ -32,7 +32,7 @@ struct ViewSize {
     int height_px;
 };
 
-/// Views of one size. `hide` hides some of their dots.
+/// A kind of view: its size, its description, and a function that hides some of its dots.
 struct HiddenView {
     ViewSize size;
     std::string what;
@@ -68,7 +68,7 @@ Setup setup_of(const ViewSize& size, std::uint64_t seed) {
     return setup;
 }
 
-/// Draws a view that is completely inside a page.
+/// Draws a random view that is completely inside a page.
 Shot draw_on_page(const ViewSize& size, std::uint64_t seed, std::uint64_t index,
                   std::span<const KnownRegion> sheets) {
     Shot shot = draw_shot(setup_of(size, seed), index);
@@ -106,8 +106,8 @@ void leave_strip(Shot& shot, const ViewSize& size, int rows) {
     shot.page.areas = {strip};
 }
 
-/// Returns the fraction of the dots that graphics touch, estimated as the fraction of pixel
-/// positions at which a dot would be touched.
+/// Estimates the fraction of the dots that graphics touch: the fraction of all pixel positions at
+/// which graphics would touch a dot.
 double fraction_hidden(const Shot& shot) {
     constexpr double kPaper = 255;
     constexpr int kDotRadius_px = 2;

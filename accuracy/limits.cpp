@@ -21,7 +21,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// Minimum number of frames of a condition, unless --frames is smaller.
+/// Minimum number of frames per condition, unless --frames is smaller.
 constexpr std::uint64_t kMinFrames = 4;
 
 /// Returns the number of images whose total number of pixels equals that of `frames` images of 320

@@ -94,7 +94,7 @@ ViewError error_in_view(const test::SolverInput& input, const std::vector<Vector
     return {(inverse * right).head<3>(), variance / dots * inverse.diagonal().head<3>()};
 }
 
-/// Returns the covariance at the node of the map nearest to `at_mm`.
+/// Returns the covariance at the map node nearest to `at_mm`.
 Matrix3d covariance_at(const test::SolverInput& input, const Vec2& at_mm) {
     const calibrate::MapErrorGrid& errors = input.start.errors;
     const Vector2d size =

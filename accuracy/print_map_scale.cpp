@@ -4,7 +4,7 @@
 //   dotpose_tables print_map_scale [--frames N] [--threads N]
 //
 // The processor time is the sum over all threads, so other programs on the machine hardly affect
-// it. The exit status is 1 unless the map corrects all of 50 test frames.
+// it. The exit status is 1 unless the map corrects all 50 test frames.
 #include <algorithm>
 #include <ctime>
 #include <thread>

@@ -41,8 +41,8 @@ Shot hand_shot(const Shot& first, double t_s, std::uint64_t seed) {
     return shot;
 }
 
-/// Sums of the errors of poses. Also contains the sums of the errors of velocities if
-/// `add_velocity` is called for each pose.
+/// Sums of pose errors. Also contains the sums of velocity errors if `add_velocity` is called for
+/// each pose.
 struct TrackErrors {
     std::uint64_t count = 0;
     double position = 0;             ///< sum of the squared errors, mm^2

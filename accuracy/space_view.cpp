@@ -57,8 +57,8 @@ Eigen::Matrix<double, 2, 6> by_pose(const Matrix3d& rotation, const Vector3d& pl
     return result;
 }
 
-/// Returns the Cramer-Rao bound of the covariance of a dot's centre in the image, for known blur,
-/// contrast and paper level. Treats the image of the dot as a Gaussian.
+/// Returns the Cramer-Rao bound for the covariance of a dot's image centre, given that blur,
+/// contrast and paper level are known. Treats the image of the dot as a Gaussian.
 Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
     const Imperfections& noise = shot.imperfections;
     const double radius_mm = shot.page.pattern.dot_mm / 2;
@@ -78,7 +78,7 @@ Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
     return variance / (peak * peak * std::numbers::pi / 2 * root) * shape;
 }
 
-/// Returns the options of a locator that records the trace that `space_pose` needs.
+/// Returns options for a locator that records the trace required by `space_pose`.
 DeviceOptions options_of(const Camera& camera) {
     DeviceOptions options;
     use_camera(camera, camera.width_px, camera.height_px, options);

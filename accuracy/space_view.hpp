@@ -35,7 +35,7 @@ struct TrueSpacePose {
 /// Returns the true pose of a shot, from the definitions in simulate.hpp.
 TrueSpacePose true_space_pose(const Shot& shot);
 
-/// Returns the camera file of a simulated camera, with the true lens distortion and focal length.
+/// Returns the parameters of a simulated camera: its true lens distortion and focal length.
 Camera space_camera(const CameraModel& model);
 
 using SpaceVector = Eigen::Matrix<double, 6, 1>;
@@ -50,8 +50,8 @@ SpaceMatrix matrix_of(const SpaceCovariance& covariance);
 /// covariance^-1 error.
 double normalised_square(const SpaceVector& error, const SpaceMatrix& covariance);
 
-/// Upper limit of the normalised squared error of a correct pose, over all six coordinates. By
-/// chance, a correct pose exceeds the limit once in 10^19.
+/// Upper limit of the normalised squared error of a correct pose, over all six coordinates. A
+/// correct pose exceeds the limit with a probability of only 2.5e-19.
 inline constexpr double kMaxNormalisedSquare = 100;
 
 /// A rendered frame, and the pose in space that dotpose finds in it.

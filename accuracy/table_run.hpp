@@ -86,7 +86,7 @@ class TableRun {
     const std::string& document() const { return document_; }
 
   private:
-    /// Runs `work(i, thread)` for all i on all threads.
+    /// Runs `work(i, thread)` for i from 0 to count - 1, distributed over all threads.
     Done on_threads(const std::string& what, std::uint64_t count,
                     const std::function<void(std::uint64_t, unsigned)>& work) const;
 

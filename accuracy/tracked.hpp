@@ -112,7 +112,7 @@ struct TrackedTallies {
     }
 };
 
-/// A table of a document, and its number of wrong fixes.
+/// A table for a document, and the number of wrong fixes in the measurement.
 struct TrackedTable {
     std::string text;
     std::uint64_t wrong = 0;

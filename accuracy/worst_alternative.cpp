@@ -81,8 +81,8 @@ Along worst(CodeVariant code, const Along& true_place, int lines) {
     Along alternative = true_place;
     alternative.position = code::position_at(basis, worst_places(basis, places, lines));
     alternative.section = likest_section(code, alternative.position, alternative.cross, rolls);
-    // The rolls of the perpendicular lines depend on both the position and the section of their
-    // axis. A new section compensates for the new position.
+    // The rolls of the perpendicular lines depend on `position` modulo 63 and on `cross_section`.
+    // A new `cross_section` compensates for the new position.
     const auto residue = [](std::uint32_t position) {
         return static_cast<int>(position % static_cast<std::uint32_t>(kSections));
     };

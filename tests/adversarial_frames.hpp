@@ -26,7 +26,7 @@ enum class Adversary : std::uint8_t {
     random_offsets,  ///< dots displaced by the nominal length in a random direction
     scattered_dots,
     seam,        ///< two sections that meet at a border anywhere in the frame
-    cut,         ///< two places of the pattern that meet at a border
+    cut,         ///< two distant parts of the pattern, joined at a border
     overlay,     ///< two patterns printed on top of each other
     mirrored,    ///< the mirrored pattern
     replaced,    ///< 30 to 60 % of the symbols are random
@@ -34,7 +34,7 @@ enum class Adversary : std::uint8_t {
     half_empty,  ///< a pattern that is printed on only one side of the frame
     few_lines,   ///< 5 to 8 columns or rows on blank paper
     slip,        ///< one column or row of dots is missing or occurs twice
-    other_code,  ///< a pattern printed in the code anoto and read in libdots, or vice versa
+    other_code,  ///< a pattern printed in the code anoto but decoded as libdots, or vice versa
 };
 inline constexpr std::array kAdversaries = {Adversary::noise,          Adversary::text,
                                             Adversary::halftone,       Adversary::texture,
@@ -72,7 +72,7 @@ enum class Verdict : std::uint8_t {
     refused,
     right,
     second,  ///< the pose of another part of the pattern, extrapolated to the image centre
-    twin,    ///< a place, in the code of the options, whose bits match the print (see `is_twin`)
+    twin,    ///< a wrong place whose bits in `options.code` match the print (see `is_twin`)
     wrong,
 };
 
@@ -86,9 +86,9 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
            std::abs(theta) < 0.1 && fix.section == answer.section;
 }
 
-/// Returns true if the pattern was printed in a code other than `frame.options.code`, but the print
-/// also agrees with the fix. It agrees if, around the fix, at least three quarters of the bits of
-/// `frame.options.code` equal the printed bits around the first answer.
+/// Returns true if the pattern was printed in a code other than `frame.options.code`, but also
+/// matches that code at the fix. It matches if at least three quarters of the bits that
+/// `frame.options.code` has around the fix equal the printed bits around the first answer.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();

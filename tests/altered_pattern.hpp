@@ -1,5 +1,5 @@
-/// Renders patterns with symbols that differ from the code. Everything else is rendered as the
-/// simulator does.
+/// Renders patterns with symbols that differ from the code. Everything else is rendered as in
+/// the simulator.
 #pragma once
 
 #include <cstdint>

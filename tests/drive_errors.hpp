@@ -26,8 +26,8 @@ struct DriveReading {
     double turn_rad_s = 0;
 };
 
-/// Errors of position (per axis), heading and velocities. Errors are counted from the third frame
-/// after the event `fix`, because a filter that has just started does not know the velocity.
+/// Errors of position (per axis), heading and velocities. The rms errors exclude the frame of each
+/// event `fix` and the next two frames, because a new filter does not yet know the velocity.
 class DriveErrors {
   public:
     void add(const DriveState& truth, const DriveReading& reading) {

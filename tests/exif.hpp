@@ -7,7 +7,7 @@
 
 namespace dotpose::test {
 
-/// Tags of the EXIF directory, to which the first directory refers.
+/// Tags of the EXIF directory, a second directory to which the first one refers.
 enum ExifTag : std::uint16_t {
     exposure_time = 33434,
     f_number = 33437,
@@ -49,7 +49,7 @@ inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endi
     add_entry(34665, kLong, kHeader + kFirst);
     add(0, 4);
     add(static_cast<std::uint32_t>(tags.size()), 2);
-    // All rational values refer to the eight bytes after the header, because the values do not
+    // All rational entries point to the eight bytes after the header, because their values do not
     // matter.
     for (const std::uint16_t tag : tags)
         add_entry(tag, tag == sensitivity ? kShort : kRational, kHeader);

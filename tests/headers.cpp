@@ -1,2 +1,2 @@
-// Empty source of the targets that own the precompiled headers of the tests. See
+// Empty source file for the targets that build the precompiled headers of the tests. See
 // tests/CMakeLists.txt.

@@ -104,7 +104,7 @@ class InkMlCheck {
     }
 
     void add_channel(const Attributes& attributes) {
-        // Reserved channel names, grouped by the units that they allow.
+        // Units that are allowed for each reserved channel name.
         static const std::set<std::string> kLengths = {"m", "cm", "mm", "in", "pt", "pc", "em"};
         static const std::set<std::string> kTimes = {"s", "ms"};
         static const std::set<std::string> kAngles = {"deg", "rad"};

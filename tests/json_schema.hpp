@@ -99,7 +99,7 @@ class JsonSchema {
         if (keyword == "type") return has_type(rule, value);
         if (keyword == "const") return value == rule;
         if (keyword == "enum") return std::ranges::find(rule, value) != rule.end();
-        // The remaining keywords apply only to values of their type.
+        // Bounds apply only to numbers. Values of other types satisfy them.
         const bool is_bound =
             keyword == "minimum" || keyword == "maximum" || keyword == "exclusiveMinimum";
         if (is_bound && !value.is_number()) return true;

@@ -19,7 +19,7 @@ struct Limit {
     std::string condition;
     std::function<void(Shot&)> worsen;
     CameraModel camera = {};
-    /// True if limits_test.cpp requires that almost all frames are located.
+    /// True if limits_test.cpp requires that all its frames are located.
     bool is_held = true;
     FixedLens lens = {};  ///< lens passed to `locate`
     bool is_white_on_black = false;
@@ -57,8 +57,8 @@ inline double covered_share(Shot shot) {
     return static_cast<double>(dark) / static_cast<double>(image.pixels.size());
 }
 
-/// Adds dirt or graphics in steps of `step` until the covered fraction of the frame is between
-/// `from` and `to`.
+/// Adds dirt or graphics in steps of `step` until they cover a fraction of the frame between `from`
+/// and `to`. If a step exceeds `to`, starts again with another seed.
 inline void cover(Shot& shot, int Imperfections::*count, int step, double from, double to) {
     for (std::uint64_t trial = 0;; ++trial) {
         shot.seed = Rng(shot.seed, trial).bits();
@@ -80,7 +80,8 @@ inline void add_light(std::vector<Limit>& limits) {
                               constexpr double kLeft = 0.3;
                               Imperfections& worse = shot.imperfections;
                               worse.fall = 2 * (1 - kLeft) / (1 + kLeft);
-                              worse.paper_level /= 1 + worse.fall / 2;  // level of the lighter side
+                              // The lighter side keeps the original paper level.
+                              worse.paper_level /= 1 + worse.fall / 2;
                               worse.vignetting = vignetting;
                           }});
     }
@@ -182,7 +183,7 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                  },
                  camera});
             // If the scene moves in the direction of the readout, the image contains fewer rows of
-            // cells. The small frames of devices may then contain too few.
+            // cells. The small frames of devices may then contain too few rows.
             limits.back().is_held = percent <= 30 || !is_device;
         }
         for (const int degrees : {2, 10, 20, 40, 60}) {

@@ -25,9 +25,8 @@ struct SolverInput {
 /// measured dots.
 SolverInput simulated_input(const MappedPrint& print, std::uint64_t frames, std::uint64_t seed);
 
-/// Returns the errors of a solution's offsets, in mm, for all dots. The mean shift, turn and scale
-/// of all dots that are in view of at least one frame are subtracted, because the frames do not
-/// determine them.
+/// Returns the error of each dot's offset in a solution, in mm. Subtracts the mean shift, rotation
+/// and scale of the dots that at least one frame shows, because the frames do not determine them.
 std::vector<Eigen::Vector2d> offset_errors_mm(const SolverInput& input,
                                               const calibrate::MapSolution& solution);
 

@@ -57,8 +57,8 @@ class MappedPrint {
     const SheetEntry& entry() const { return entry_; }
     const MappedPrintOptions& options() const { return options_; }
 
-    /// Returns the displacement of a dot at a position due to the wave. The wave displaces dots
-    /// along y, the direction of paper feed, and along x with a tenth of the amplitude.
+    /// Returns the displacement of a dot by the wave. Dots are displaced along y, the direction of
+    /// paper feed, and along x with a tenth of the amplitude.
     Vec2 wave(Vec2 at_mm) const {
         const double phase = 2 * std::numbers::pi * at_mm.y / options_.wavelength_mm;
         return {0.1 * options_.wave_mm * std::cos(phase), options_.wave_mm * std::sin(phase)};

@@ -1,6 +1,6 @@
 /// Frames of two adjacent sheets with a straight seam. Their renderer shares no code with the
 /// simulator and therefore cannot repeat its errors. Dots are discs that are cut off at the seam.
-/// The renderer samples them within each pixel, and then adds blur, light and noise.
+/// The renderer samples 6 x 6 points per pixel, and then adds blur, light and noise.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct SeamShot {
 
     double seam_px = 0;        ///< distance from the image centre to the seam
     double direction_rad = 0;  ///< direction from the image centre to the seam, in the image
-    double along_px = 0;       ///< position of the far side's centre of rotation along the seam
+    double along_px = 0;       ///< position along the seam of the far side's centre of rotation
     double turn_rad = 0;       ///< rotation of the far side
     double shift_x_px = 0;     ///< shift of the far side
     double shift_y_px = 0;
@@ -62,8 +62,8 @@ class InkMap {
           rows_(static_cast<std::size_t>(height_px) + 2 * kBorder),
           ink_(columns_ * rows_) {}
 
-    /// Adds ink at the points within `radius` of (x, y) for which `is_ink` returns true. All
-    /// lengths are in px.
+    /// Adds ink at the points for which `is_ink` returns true. Searches only pixels up to `radius`
+    /// from (x, y) along each axis. All lengths are in px.
     template <typename IsInk>
     void add(double x, double y, double radius, IsInk is_ink) {
         constexpr int kSamples = 6;

@@ -1,5 +1,5 @@
 /// Frames of sheets that are not planar: wrinkled paper, and sheets with two halves that are
-/// displaced relative to each other, as caused by a bad paper feed or by a seam between two sheets.
+/// displaced relative to each other, because of faulty paper feed or a seam between two sheets.
 /// The true pose is the pose of the shot. It refers to the part of the paper at the image centre.
 #pragma once
 
@@ -29,8 +29,8 @@ inline double half_extent_grid(const Shot& shot, double direction_rad) {
            shot.camera.mm_per_px / (2 * shot.page.pattern.spacing_mm);
 }
 
-/// Draws a slip whose line is anywhere in view, in any direction. The displacement is 0.05 to 0.5
-/// spacings in any direction, and the rotation is at most one degree.
+/// Draws a slip whose line is anywhere in view and has a random direction. The displacement is 0.05
+/// to 0.5 spacings in a random direction, and the rotation is at most one degree.
 inline Slip draw_slip(const Shot& shot) {
     Rng rng(shot.seed, 3);
     Slip slip;
@@ -58,7 +58,7 @@ inline void apply(const Slip& slip, Shot& shot) {
     };
 }
 
-/// Deforms the paper by three waves with wavelengths of 16 to 60 spacings, in any direction. Each
+/// Deforms the paper by three waves in random directions. Wavelengths are 16 to 60 spacings. Each
 /// wave displaces the dots by up to `amplitude_grid`.
 inline void wrinkle(double amplitude_grid, Shot& shot) {
     struct Wave {

@@ -23,7 +23,7 @@ inline constexpr double kSpaceFps = 10;  ///< frames per second of the runs
 /// Tilts of the frames. The camera leans towards +x.
 inline constexpr std::array kSpaceTilts_rad = {0.1, 0.25, 0.4, 0.55};
 
-/// Writes the frames as raw images, and the camera file.
+/// Writes the frames to the raw video space.raw, and the camera file camera.yaml.
 inline void write_space_frames(const std::filesystem::path& folder) {
     const Sheet sheet = drive_sheets().front().sheet;
     CameraModel camera;
@@ -45,8 +45,9 @@ inline void write_space_frames(const std::filesystem::path& folder) {
         << kSpaceDistance_mm / camera.mm_per_px << '\n';
 }
 
-/// Returns the true position in the world, in m. The optical axis intersects the paper at the pose
-/// point. The first sheet is 297 mm high, and its lower left corner is the origin of the world.
+/// Returns the true position of the camera in the world, in m. The optical axis intersects the
+/// paper at the cell that `write_space_frames` sets. The origin of the world is the lower left
+/// corner of the first sheet, which is 297 mm high.
 inline Eigen::Vector3d true_space_position(std::size_t frame) {
     const Sheet sheet = drive_sheets().front().sheet;
     const double mm = sheet.pattern.spacing_mm;
@@ -107,7 +108,7 @@ inline void expect_true_camera_odometry(const std::vector<nlohmann::json>& odome
         (true_space_position(last) - true_space_position(last - 1)) * kSpaceFps;
     const Eigen::Vector3d seen_m_s = true_space_rotation(last) * vector_of(twist["linear"]);
     EXPECT_LT((seen_m_s - velocity_m_s).norm(), 0.15 * velocity_m_s.norm());
-    // The camera rotates about the y axis of the world, which is -y of the image.
+    // The camera rotates about the y axis of the world, which is the negative y axis of the image.
     const double turn_rad_s = (kSpaceTilts_rad[last] - kSpaceTilts_rad[last - 1]) * kSpaceFps;
     EXPECT_LT((vector_of(twist["angular"]) - Eigen::Vector3d(0, -turn_rad_s, 0)).norm(), 0.2);
     for (std::size_t i = 0; i < 6; ++i)

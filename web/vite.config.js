@@ -10,7 +10,7 @@ function filesBelow(folder) {
     });
 }
 
-/** Returns the service worker with the list of all files of the build and their hash. */
+/** Returns the code of the service worker, which contains the list of all files of the build and their hash. */
 async function serviceWorker(paths, folder) {
     const hash = createHash("sha256");
     for (const path of paths) hash.update(path).update(readFileSync(path));

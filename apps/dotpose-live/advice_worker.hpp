@@ -1,5 +1,5 @@
-/// Determines why a frame was refused. The search runs in a separate thread, because it takes up to
-/// a second.
+/// Determines why a frame was refused. The analysis runs in a separate thread, because it takes up
+/// to a second.
 #pragma once
 
 #include <condition_variable>
@@ -25,16 +25,16 @@ class AdviceWorker {
         Record record;
     };
 
-    /// `take` is called in the worker thread after each search. Its argument contains the reason
-    /// why the frame was refused (see `reason` in locate_record.hpp) and the advice.
+    /// `take` is called in the worker thread after each analysis. Its argument is the reason why
+    /// the frame was refused (see `reason` in locate_record.hpp), including the advice.
     explicit AdviceWorker(std::function<void(const std::string&)> take);
-    /// Waits until the running search has finished.
+    /// Waits until the running analysis has finished.
     ~AdviceWorker();
     AdviceWorker(const AdviceWorker&) = delete;
     AdviceWorker& operator=(const AdviceWorker&) = delete;
 
-    /// Queues a search. If a search is already queued but has not started, replaces it, so at most
-    /// one frame is waiting.
+    /// Queues a refused frame for analysis. Replaces a frame that is still waiting, so at most one
+    /// frame waits.
     void ask(Job job);
 
   private:

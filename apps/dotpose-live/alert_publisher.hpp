@@ -16,7 +16,7 @@ class AlertPublisher {
     /// Publishes an alert for each condition that has changed since the previous call.
     void check(const FleetRobots& robots, const Now& now);
 
-    /// Waits up to 2 s until all alerts are sent, and reports the number of sent alerts.
+    /// Waits up to 2 s for all alerts to be sent, and reports how many were published and dropped.
     void finish();
 
   private:

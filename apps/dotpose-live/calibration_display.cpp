@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using TextLines = std::vector<std::string>;
 
-/// Maximum number of characters per line on the panel of the window.
+/// Maximum number of characters per line in the window's text panel.
 constexpr std::size_t kPanelColumns = 44;
 constexpr std::size_t kCaptions = 7;
 
@@ -43,7 +43,8 @@ TextLines captions_of(const CalibrationStatus& status) {
     return lines;
 }
 
-/// Returns a character map of the covered image blocks, with the gauges next to it.
+/// Returns the text for the terminal: a character map of the covered image blocks, with the gauges
+/// next to it, followed by the messages for the user.
 TextLines terminal_lines(const CalibrationStatus& status) {
     using Image = ImageCoverage;
     TextLines lines;

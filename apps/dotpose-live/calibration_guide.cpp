@@ -224,8 +224,8 @@ void CalibrationGuide::take(const capture::Frame& frame, const Reading& reading,
     show_guided();
 }
 
-/// Shows the progress of a step in which the robot moves, and ends the step when it is complete.
-/// `mutex_` must be locked.
+/// Updates the progress of a step other than `lens`, and ends the step when it is complete. The
+/// caller must hold `mutex_`.
 void CalibrationGuide::show_guided() {
     show(*guided_, state_);
     if (lost_ >= kManyLost)
@@ -239,7 +239,7 @@ void CalibrationGuide::show_guided() {
 }
 
 /// Queues a copy of a frame for the calibration thread, unless the thread is busy or the last frame
-/// was queued less than `kOfferPeriod` ago. `mutex_` must be locked.
+/// was queued less than `kOfferPeriod` ago. The caller must hold `mutex_`.
 void CalibrationGuide::offer(const capture::Frame& frame, ImageView image, double bits_per_px) {
     const Clock::time_point now = Clock::now();
     if (is_busy_ || !jobs_.empty() || now < next_offer_) return;

@@ -44,24 +44,24 @@ enum class GuidePhase {
     collecting,  ///< frames are being collected
     solving,     ///< the calibration is being computed
     solved,      ///< the result is ready to be saved
-    failed,      ///< there is no result, and `GuideState::problem` is the reason
+    failed,      ///< the step failed for the reason in `GuideState::problem`
     saved        ///< the result has been saved in the camera file
 };
 const char* name(GuidePhase phase);
 
 struct GuideOptions {
-    std::string file;  ///< camera file, the only file that may be written
+    std::string file;  ///< camera file, the only file that the guide writes
     CalibrateOptions calibrate;
     SpacingSource spacing = SpacingSource::assumed;
     /// Camera of the run. Each step changes only the values that it calibrates.
     std::optional<Camera> camera;
-    bool needs_focal_length = false;  ///< true if the run fits poses in space
-    bool flip = false;  ///< true if the source flips the frames, which the camera file records
+    bool needs_focal_length = false;  ///< true if the run computes poses in space (--pose space)
+    bool flip = false;  ///< true if the source flips the frames; saved in the camera file
 };
 
 struct GuideResult {
     Camera camera;
-    std::string report;                           ///< lines in the format of `dotpose calibrate`
+    std::string report;                           ///< report as printed by `dotpose calibrate`
     bool is_good = true;                          ///< false if the verdict is a warning
     std::optional<ResidualField> residuals = {};  ///< for the step `lens` only
     std::vector<SpinStation> stations = {};       ///< for the step `spin` only
@@ -75,11 +75,11 @@ struct GuideState {
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what the user should do now
     std::optional<CalibrationStatus> lens;  ///< coverage, for the step `lens` only
-    /// For each direction of a turning robot, or for each direction in which a pen is tilted: true
-    /// if there are enough frames.
+    /// One flag for each direction of the turning robot or of the pen's tilt: true if enough frames
+    /// in this direction have been collected.
     std::vector<bool> directions;
     std::vector<PenLean> leans;      ///< tilts of the pen
-    std::vector<std::string> needs;  ///< unmet requirements of a step in which the robot moves
+    std::vector<std::string> needs;  ///< unmet requirements, for all steps except `lens`
     std::string problem;             ///< reason why the step or the writing of the file failed
     std::optional<GuideResult> result;
     std::optional<Camera> camera;  ///< the given camera, or the camera that was saved last
@@ -102,7 +102,7 @@ class CalibrationGuide {
     /// Saves the result of the current step in the camera file. Does nothing if there is no result.
     void save();
 
-    /// Uses these sheets in all calculations that are started later.
+    /// Sets the sheets for all calibrations that are started later.
     void set_sheets(std::vector<SheetEntry> sheets);
 
     /// Collects a frame if the current step needs it. `image` is the image that was located.

@@ -1,5 +1,4 @@
-/// Calibrates a lens in a background thread, so the display of camera frames can continue
-/// meanwhile.
+/// Calibrates a lens in a background thread, so that camera frames can be displayed meanwhile.
 #pragma once
 
 #include <atomic>

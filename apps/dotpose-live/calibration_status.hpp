@@ -27,7 +27,7 @@ struct CalibrationStatus {
     std::optional<double> corner_sigma_px;
     std::optional<double> theta_rad;  ///< camera angle in the newest frame, if it was located
     std::vector<FrameTilt> tilts;     ///< tilts of the collected frames
-    std::string now;                  ///< text about the newest frame
+    std::string now;                  ///< message about the newest frame
     std::string remark;               ///< advice after the last calibration, or empty
     bool is_taken = false;            ///< true if the newest frame was accepted for calibration
 };

@@ -8,7 +8,7 @@
 
 namespace dotpose::cli {
 
-/// Estimates the offset as the minimum of (received - sent) over recent messages. Network and
+/// Estimates the offset as the minimum of (received - sent) over recent messages. The network and
 /// queues can delay a message, but no message arrives before it is sent, so the minimum is the best
 /// estimate. Only recent messages are used, because clocks drift.
 class ClockOffset {
@@ -23,7 +23,7 @@ class ClockOffset {
         current_us_ = std::min(current_us_, offset_us);
     }
 
-    /// Discards all messages so far. Must be called after the clock of the robot was set back.
+    /// Discards all messages so far. Must be called after the robot's clock has been set back.
     void reset() { *this = {}; }
 
     /// Returns the offset in us. At least one message must have been added.

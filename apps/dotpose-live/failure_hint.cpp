@@ -31,9 +31,9 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 }  // namespace
 
 /// Counts the failed frames of each status, and keeps a copy of one frame per status for the report
-/// at the end of the run. The 1st, 2nd, 4th, 8th and so on of these frames replaces the previous
-/// copy. Only a few frames are therefore copied, and the copy is always from the more recent half
-/// of the failed frames.
+/// at the end of the run. Only the 1st, 2nd, 4th, 8th and so on of these frames is copied, and
+/// replaces the previous copy. This limits the number of copies, and the stored copy is always from
+/// the more recent half of the failed frames.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

@@ -22,8 +22,8 @@ class FailureHint {
     std::string after(const Reading& reading, ImageView image, const DeviceOptions& options,
                       double bits_per_px);
 
-    /// Returns a sentence if more than half of the frames in the run failed, and an empty string
-    /// otherwise.
+    /// Returns a hint for the user if more than half of the frames in the run failed, and an empty
+    /// string otherwise.
     std::string at_end() const;
 
   private:
@@ -31,7 +31,7 @@ class FailureHint {
         std::int64_t time_us = 0;
         bool has_failed = false;
     };
-    /// Frames that failed with one status: their number, and a copy of one of them.
+    /// Number of frames that failed with one status, and a copy of one of these frames.
     struct Failures {
         std::int64_t count = 0;
         Record record;
@@ -46,7 +46,7 @@ class FailureHint {
     std::int64_t frames_ = 0;
     std::int64_t failed_ = 0;
     std::map<Status, Failures> failures_;
-    DeviceOptions options_;  ///< options with which the newest failed frame was located
+    DeviceOptions options_;  ///< locator options for the newest failed frame
     double bits_per_px_ = 0;
 };
 

@@ -1,4 +1,4 @@
-/// Detects the changes in the conditions of robots that require an alert.
+/// Detects changes of robot conditions, and returns an alert for each important change.
 #pragma once
 
 #include <map>

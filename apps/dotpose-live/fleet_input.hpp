@@ -15,13 +15,13 @@
 
 namespace dotpose::cli {
 
-/// Source of the times in Now. A single thread must call `observe`, but any thread may call `now`.
+/// Provides the times in Now. A single thread must call `observe`, but any thread may call `now`.
 class WatchedClock {
   public:
     WatchedClock();
 
-    /// Must be called regularly. While there is no connection to the broker, Now::watched_us does
-    /// not advance.
+    /// Must be called regularly with the current connection state. While there is no connection to
+    /// the broker, Now::watched_us does not advance.
     void observe(bool is_connected);
 
     Now now() const;
@@ -41,14 +41,14 @@ struct FleetInputOptions {
 /// Maintains the state of the fleet. The subscriber calls `take` in its own thread.
 class FleetInput {
   public:
-    /// `store` must outlive this object, or is null if the states are not stored. Throws Error if
-    /// the broker rejects the connection or the log cannot be created.
+    /// `store` is null if the states are not to be stored. Otherwise, it must outlive this object.
+    /// Throws Error if the broker rejects the connection or the log cannot be created.
     FleetInput(const FleetInputOptions& options, FleetStore* store);
 
     const FleetState& fleet() const { return fleet_; }
     Now now() const { return clock_.now(); }
 
-    /// Must be called regularly, see WatchedClock::observe.
+    /// Must be called regularly (see WatchedClock::observe).
     void observe() { clock_.observe(is_connected()); }
 
     bool is_connected() const { return subscriber_->is_connected(); }

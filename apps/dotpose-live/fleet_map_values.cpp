@@ -29,8 +29,8 @@ void append(std::string& bytes, const draw::Point& at, const draw::Point& origin
     append(bytes, static_cast<float>(at.y - origin.y));
 }
 
-/// Returns the first part of a message: the size in bytes of `head` as JSON (32 bits), followed by
-/// the JSON text.
+/// Returns the first part of a message: `head` as JSON, preceded by the length of the JSON text in
+/// bytes (32 bits).
 std::string message_with(const nlohmann::json& head) {
     const std::string text = head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     std::string bytes;

@@ -18,7 +18,8 @@ inline constexpr std::size_t kMaxTrailPoints = 20'000;
 std::string positions_value(const FleetSnapshot& snapshot, const FleetMap& map,
                             const serve::Command& request);
 
-/// Returns the trails of the same robots. A trail is the newest part of a path.
+/// Returns the trails of the robots in the requested part of a map. A trail is the newest part of a
+/// robot's path.
 std::string trails_value(const FleetSnapshot& snapshot, const FleetState& fleet,
                          const FleetMap& map, const serve::Command& request);
 

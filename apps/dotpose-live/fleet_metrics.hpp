@@ -10,7 +10,7 @@
 
 namespace dotpose::cli {
 
-/// State of the connections of `dotpose fleet`.
+/// States of the connections of `dotpose fleet` to the broker and the database.
 struct FleetServices {
     std::optional<bool> is_broker_connected;  ///< none if there is no broker
     Delivery delivery = Delivery::all;

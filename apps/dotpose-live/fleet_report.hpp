@@ -20,7 +20,7 @@ enum class Delivery { all, shared };
 
 /// The contents of the sheet file of a fleet.
 struct FleetMap {
-    std::string id;               ///< name of the map in the states, or empty without a sheet file
+    std::string id;               ///< name of the map, or empty if there is no sheet file
     std::set<std::string> names;  ///< names of all sheets
     std::vector<draw::MapSheet> outlines;  ///< outlines of the sheets that have a world pose
 

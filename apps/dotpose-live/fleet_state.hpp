@@ -38,7 +38,7 @@ struct FleetRobot {
     std::uint32_t id = 0;
     /// Newest state. If the robot is lost, the place and the sheet are the last known ones.
     RobotState newest;
-    bool has_place = false;  ///< true if `newest` contains a place, current or earlier
+    bool has_place = false;  ///< true if `newest` contains a current or earlier place
     publish::Presence presence = publish::Presence::online;
     /// Time at which the robot sent its newest message, on the clock of Now::watched_us. It is
     /// based on the time stamp of the message, because the message may have waited in a queue.
@@ -87,17 +87,17 @@ class FleetState {
 
     using Listener = std::function<void(std::string_view robot, const RobotState& state)>;
 
-    /// `listener` is called with each state that was not received before. The call is made in the
-    /// thread that calls `take`.
+    /// `listener` is called with each state that has not been received before, in the thread that
+    /// calls `take`.
     explicit FleetState(
         Listener listener = [](std::string_view, const RobotState&) {}, ConditionLimits limits = {})
         : listener_(std::move(listener)), limits_(limits) {}
 
     /// Processes a message. A state that is older than the newest state of its robot is counted as
-    /// late and otherwise ignored. However, if several such states arrive in ascending order of
-    /// time, the clock of the sender was set back, and the states are accepted. An empty message on
-    /// the connection topic removes the robot. Other invalid messages are counted as bad.
-    /// Thread-safe.
+    /// late. It is passed to the listener, but does not change the robot. However, if several late
+    /// states arrive in ascending order of time, the sender's clock was set back, and the states
+    /// are accepted. An empty message on the connection topic removes the robot. Other invalid
+    /// messages are counted as bad. Thread-safe.
     void take(std::string_view topic, std::string_view payload, const Now& now);
 
     /// Returns the robots and their conditions, sorted by name in natural order.
@@ -119,8 +119,8 @@ class FleetState {
   private:
     static constexpr std::size_t kLatencies = 1 << 17;
     static constexpr std::size_t kPath = 2000;
-    /// Maximum number of points of all paths together. Each path is limited to this number divided
-    /// by the number of robots.
+    /// Maximum total number of points in all paths. Each path is limited to this number divided by
+    /// the number of robots.
     static constexpr std::size_t kAllPaths = 1 << 21;
 
     struct Robot {

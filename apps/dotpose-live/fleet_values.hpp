@@ -14,9 +14,9 @@
 
 namespace dotpose::cli {
 
-/// The robots at one point in time, shared by the values for all clients.
+/// Snapshot of the robots at one point in time, used for all clients.
 struct FleetSnapshot {
-    FleetRobots robots;  ///< in natural order
+    FleetRobots robots;  ///< sorted by name in natural order
     Now now;
 };
 
@@ -26,9 +26,9 @@ inline constexpr std::size_t kMaxTableRows = 200;
 /// Maximum number of alerts that a client receives.
 inline constexpr std::size_t kMaxAlerts = 200;
 
-/// Returns the map, the sheets of the sheet file, and the limits of the conditions. `device` is the
-/// name of the robot for `dotpose listen`, and is empty for a fleet. `has_history` is true if the
-/// page can read stored states.
+/// Returns the map, the sheets of the sheet file, and the time limits for `silent` and `gone`.
+/// `device` is the name of the robot for `dotpose listen`, and is empty for a fleet. `has_history`
+/// is true if the page can read stored states.
 std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
                         const std::string& device, bool has_history);
 

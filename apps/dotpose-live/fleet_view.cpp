@@ -46,7 +46,7 @@ void FleetView::refresh(const FleetState& fleet, const Now& now) {
     if (screen_) show_page(fleet, now);
     const auto begun = Clock::now();
     if (drawing_.empty() || begun < next_map_) return;
-    // A failure is only reported, because the next attempt to draw the map may succeed.
+    // Reports a failure but continues, because the next attempt to draw the map may succeed.
     try {
         draw(fleet, now);
         is_failing_ = false;

@@ -22,7 +22,7 @@ namespace dotpose::cli {
 struct FleetWebOptions {
     serve::ServerOptions server;
     ConditionLimits limits = {};
-    std::string store = {};   ///< database of `--store` to read from, or empty for none
+    std::string store = {};   ///< database of --store to read states from, or empty
     std::string device = {};  ///< name of the robot for `dotpose listen`, or empty for a fleet
     // The following functions may be called from any thread.
     std::function<Now()> now;
@@ -52,8 +52,8 @@ class FleetWeb {
     };
 
     void run();
-    /// Returns true if the period of the topic has passed and a client is ready to receive it. If
-    /// so, starts the next period.
+    /// Returns true if the topic's period has passed and a client is ready for a new value. If so,
+    /// starts the next period.
     static bool is_due(TimedTopic& timed, Clock::time_point now);
     /// Returns the current robots. All topics share one snapshot per tick.
     const Snapshot& snapshot();

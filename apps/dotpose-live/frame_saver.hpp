@@ -13,7 +13,7 @@
 namespace dotpose::cli {
 
 struct SaveOptions {
-    std::string folder;  ///< folder of the saved frames, or empty to save none
+    std::string folder;  ///< folder for the saved frames, or empty to save none
     /// If greater than 0, every `every`-th frame is saved. If 0, the frames that show a new place
     /// (NewPlaces) are saved.
     std::int64_t every = 0;
@@ -25,10 +25,10 @@ class FrameSaver {
     /// Creates the folder, whose parent must exist. Throws Error if the folder cannot be created.
     explicit FrameSaver(SaveOptions options);
 
-    /// Saves the frame if it is selected by its number or place. The files are named
-    /// frame_000000.png and so on, with the file extension of the format. Numbering continues after
-    /// the highest number in the folder, and existing files are never overwritten. Throws Error if
-    /// the image cannot be written.
+    /// Saves the frame if SaveOptions::every selects it. The files are named frame_000000.png and
+    /// so on, with the file extension of the format. Numbering continues after the highest number
+    /// in the folder, and existing files are never overwritten. Throws Error if the image cannot be
+    /// written.
     void take(ImageView image, const Fix& fix);
 
     std::int64_t saved() const { return saved_; }

@@ -18,7 +18,7 @@ constexpr double kStep_mm = 1.5;
 /// Required length of a straight drive. Over this length, an error of 0.01 mm at one end changes
 /// the direction by 0.01 degrees.
 constexpr double kWantedLength_mm = 60;
-/// Number of consecutive frames that completes a fast drive.
+/// Number of consecutive frames after which a fast drive is complete.
 constexpr std::size_t kWantedRun = 40;
 /// Minimum number of consecutive frames for a fast drive that ends early.
 constexpr std::size_t kMinRun = 15;
@@ -29,14 +29,14 @@ constexpr double kMinMotion = 0.5;
 /// after kMaxPivots frames in any case.
 constexpr std::size_t kWantedPivots = 30;
 constexpr std::size_t kMaxPivots = 80;
-/// A frame is collected only if its tilt differs from the tilts of all collected frames by at least
-/// this, as a tangent.
+/// Minimum distance between the tilts (PenLean) of two collected frames. A frame whose tilt is
+/// closer to an earlier tilt is not collected.
 constexpr double kMinLeanStep = 0.08;
 /// A direction is covered if at least kMinLeans frames are tilted towards it by kMinLean_deg or
 /// more.
 constexpr double kMinLean_deg = 10;
 constexpr int kMinLeans = 2;
-/// At least one frame must be tilted by this angle.
+/// At least one frame must be tilted by this angle or more.
 constexpr double kWantedLean_deg = 20;
 constexpr std::array<const char*, PivotFrames::kDirections> kSides = {
     "right edge", "lower right corner", "bottom edge", "lower left corner",

@@ -1,4 +1,5 @@
-/// Selects the frames of a turn on the spot, a straight drive, a fast drive and a pivoting pen.
+/// Selects the frames for four calibration steps: a turn on the spot, a straight drive, a fast
+/// drive and a pivoting pen.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ struct GuidedFrame {
     Fix fix;
     double spacing_mm = 0;
     std::int64_t time_us = 0;
-    std::int64_t index = 0;  ///< number of the frame, counting dropped frames
+    std::int64_t index = 0;  ///< frame number; dropped frames are also counted
     ImageView image;
 };
 
@@ -54,7 +55,7 @@ class GuidedFrames {
 /// A turn on the spot: collects one frame in each direction.
 class SpinFrames : public GuidedFrames {
   public:
-    /// Number of directions in a full turn.
+    /// Number of sectors into which a full turn is divided. One frame is collected in each sector.
     static constexpr int kDirections = 24;
 
     void take(const GuidedFrame& frame) override;
@@ -128,8 +129,8 @@ PenLean lean_in(const Fix& fix, double focal_px);
 /// A pen that pivots about its tip: collects frames with different tilts.
 class PivotFrames : public GuidedFrames {
   public:
-    /// Number of directions in which a pen can be tilted. Direction 0 is towards the right edge of
-    /// the sheet, and direction 2 towards the bottom edge.
+    /// Number of directions in which the pen must be tilted. Direction 0 is towards the right edge
+    /// of the sheet, and direction 2 towards the bottom edge.
     static constexpr int kDirections = 8;
 
     explicit PivotFrames(double focal_px) : focal_px_(focal_px) {}

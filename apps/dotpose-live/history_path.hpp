@@ -1,4 +1,4 @@
-/// Path of a robot, based on stored states, for a drawing.
+/// Builds a drawing of a robot's path from its stored states.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@ namespace dotpose::cli {
 
 class HistoryPath {
   public:
-    /// `map` contains the sheets to draw. If it contains none, the first map of the robot is drawn.
+    /// `map` is the map to draw. If its id is empty, the map of the robot's first located state is
+    /// drawn.
     explicit HistoryPath(FleetMap map) : map_(std::move(map)) {}
 
     /// Adds a state. States must be added in chronological order.
@@ -40,7 +41,7 @@ class HistoryPath {
     std::size_t points_ = 0;
     double step_mm_ = 0.1;                          ///< minimum distance between points
     store::State newest_;                           ///< newest state on the map
-    std::map<std::string, std::size_t> elsewhere_;  ///< numbers of states on the other maps, by map
+    std::map<std::string, std::size_t> elsewhere_;  ///< number of states on each other map
 };
 
 }  // namespace dotpose::cli

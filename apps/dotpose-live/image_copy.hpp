@@ -1,4 +1,4 @@
-/// Copies the image of a frame, which is valid only until the next frame is read.
+/// Copies the image of a frame. The original is valid only until the next frame is read.
 #pragma once
 
 #include <cstddef>

@@ -14,8 +14,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of collected frames. More frames would only take longer, without improving the
-/// result.
+/// Maximum number of collected frames. More frames would increase the computing time without
+/// improving the result.
 constexpr std::size_t kMaxFrames = 50;
 /// A camera is steady if the image moves more slowly than this, in px/s. During an exposure or
 /// readout of up to 1/30 s, the image then moves by less than one pixel.
@@ -23,8 +23,8 @@ constexpr double kSteady_px_s = 30;
 /// Time without a steady frame after which frames of a moving camera are also accepted, in case the
 /// robot never stops.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// A frame of a place that was already seen is accepted if it covers at least this number of image
-/// blocks that no collected frame covers.
+/// Minimum number of new image blocks for a frame of a known place. The frame is accepted only if
+/// its dots cover at least this number of blocks that no collected frame covers.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {
@@ -208,7 +208,7 @@ bool LensCollector::finish(const std::function<bool()>& goes_on) {
     return true;
 }
 
-/// Describes the requirements that are not met.
+/// Returns a message that describes the unmet requirements.
 std::string LensCollector::shortage() const {
     std::string text = fmt::format(
         "not enough was seen, and no file was written: of {} frames, {} were located and {} taken "

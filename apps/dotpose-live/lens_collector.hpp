@@ -30,8 +30,8 @@ namespace dotpose::cli {
 /// Measures the speed at which the image moves between located frames.
 class ImageMotion {
   public:
-    /// Returns the speed of the image since the previous located frame in px/s, or infinity if it
-    /// is unknown.
+    /// Returns an upper bound of the image speed within `reach_px` of the image centre, in px/s
+    /// since the previous located frame. Returns infinity if the speed is unknown.
     double speed_px_s(const Fix& fix, std::int64_t time_us, double reach_px);
     void forget() { newest_.reset(); }
 
@@ -61,7 +61,7 @@ class LensCollector {
     /// images.
     Outcome take(capture::Frame& frame);
 
-    /// Returns the progress after the frame with this outcome.
+    /// Returns the progress after a frame. `outcome` is the result of `take` for this frame.
     CalibrationStatus status(const Outcome& outcome) const;
 
     /// Returns the trace of the newest frame.
@@ -79,7 +79,7 @@ class LensCollector {
     bool is_full() const;
 
     /// Calibrates with all frames, if there are enough, and waits for the result. Meanwhile, calls
-    /// `goes_on` repeatedly. Returns false if `goes_on` has returned false, and true otherwise.
+    /// `goes_on` repeatedly. If it returns false, stops waiting and returns false.
     bool finish(const std::function<bool()>& goes_on);
 
     /// Returns the last calibration. Must be called after `finish`. If the frames are not
@@ -122,7 +122,7 @@ class LensCollector {
     ImageMotion motion_;
     std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, or of the first frame
     Tally tally_;
-    GreyImage failed_;  ///< newest frame that could not be located, until a frame is located
+    GreyImage failed_;  ///< newest frame without a fix; not updated after the first fix
     Status failure_ = Status::ok;
     double bits_per_px_ = 0;
 };

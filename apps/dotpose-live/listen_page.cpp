@@ -24,7 +24,7 @@ class ListenPage : public ReadingSink {
                 .services = [] { return FleetServices{}; }},
                fleet_, map_) {}
 
-    /// Passes on the state as the message that a fleet would receive from a broker.
+    /// Passes the state to the fleet as a message, as if it had been received from a broker.
     void take(const Reading& reading) override {
         const auto state = states_.next(reading);
         fleet_.take(topic_of(state->robot, Subject::visualization), json_of(*state), clock_.now());

@@ -39,7 +39,7 @@ class LiveCalibration {
         } catch (const BadArgument&) {
             throw;
         } catch (const Error& error) {
-            // A failure is only reported, because the frames collected before it may be enough.
+            // Reports the failure but continues, because the frames collected so far may be enough.
             say(error.what());
         }
     }

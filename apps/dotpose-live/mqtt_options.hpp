@@ -1,4 +1,4 @@
-/// Converts command-line options to options for the connection to the MQTT broker.
+/// Converts command-line options to MQTT connection options.
 #pragma once
 
 #include <optional>

@@ -31,8 +31,8 @@ struct NaturalOrder {
     }
 
   private:
-    /// Removes the digits at the start of a string and returns them without leading zeros. The
-    /// result has at least one digit.
+    /// Removes the digits at the start of a string and returns them without leading zeros. Returns
+    /// "0" if all digits are zeros, and an empty string if there are no digits.
     static std::string_view take_number(std::string_view& text) {
         const std::size_t size = std::min(text.find_first_not_of("0123456789"), text.size());
         std::string_view number = text.substr(0, size);

@@ -1,5 +1,5 @@
 /// Stores the path of a robot in a limited amount of memory. Whenever the memory is full, every
-/// second point is removed, and from then on points are added at half the rate.
+/// second point is removed, and later points are added at half the previous rate.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace dotpose::cli {
 
 class PathMemory {
   public:
-    /// Takes the track after a frame. Adds a point only if the robot is tracked in this frame.
+    /// Adds the position of the robot after a frame. Ignores frames in which the robot is lost.
     void add(const Track& track);
 
     const std::vector<video::PathMark>& marks() const { return marks_; }

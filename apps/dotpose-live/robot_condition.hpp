@@ -22,7 +22,7 @@ inline constexpr int kConditionCount = 5;
 /// Returns the identifier of a condition, such as "moving".
 std::string_view name_of(Condition condition);
 
-/// Returns true if the pose of the robot is known.
+/// Returns true if the current pose of the robot is known.
 inline bool is_fine(Condition condition) {
     return condition == Condition::moving || condition == Condition::still;
 }

@@ -22,7 +22,7 @@ struct RobotOutputOptions {
     std::string robot;
     std::string frame_prefix;      ///< prefix for the names of the robot's coordinate frames
     std::optional<Camera> camera;  ///< provides the mount and the exposure time
-    /// True if the run fits poses of the camera in space. The mount of the camera is then not sent.
+    /// True if the run computes camera poses in space. If so, the camera mount is not sent.
     bool has_space_pose = false;
 
     bool is_wanted() const { return !mcap.empty() || dds; }
@@ -39,7 +39,7 @@ class Stamps {
   private:
     std::int64_t half_exposure_ns_;
     std::optional<std::int64_t>
-        system_from_monotonic_ns_;  ///< constant, which preserves the intervals between frames
+        system_from_monotonic_ns_;  ///< computed once, to preserve the intervals between frames
 };
 
 class RobotOutput {

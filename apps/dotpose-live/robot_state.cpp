@@ -19,8 +19,8 @@ std::string lost_reason(const Record& record) {
     return record.has_sheets && !has_place ? std::string(kNoPlace) : std::string();
 }
 
-/// Rotates the axes of a pose by half a turn about x, after which y points down instead of up, and
-/// z points into the paper instead of out of it.
+/// Rotates the axes of a pose by half a turn about x, so that y points down instead of up, and z
+/// points into the paper instead of out of it.
 CameraInWorld with_y_down(const CameraInWorld& camera) {
     const auto [w, x, y, z] = camera.rotation;
     const double sign = x > 0 ? -1 : 1;  // keeps the w component positive
@@ -37,8 +37,8 @@ CameraInWorld with_y_down(const CameraInWorld& camera) {
     return down;
 }
 
-/// Returns the pose of the camera in space, along the axes of the track. Returns none if the pose
-/// is unknown or ambiguous.
+/// Returns the pose of the camera in space, with axes parallel to those of the track. Returns none
+/// if the pose is unknown or ambiguous.
 std::optional<CameraInWorld> camera_pose_of(const Reading& reading) {
     const auto& space = reading.record.space;
     if (reading.plane == Plane::sheet_world) return certain_in_world(space, reading.record.place);
@@ -46,7 +46,7 @@ std::optional<CameraInWorld> camera_pose_of(const Reading& reading) {
     return with_y_down(in_world(space->camera, space->covariance, WorldPose{}));
 }
 
-/// Returns the motion of the tracked camera, along the axes of the robot's track.
+/// Returns the motion of the tracked camera, with axes parallel to those of the robot's track.
 std::optional<CameraMotion> camera_track_of(const Reading& reading) {
     if (!reading.space_track) return std::nullopt;
     auto motion = motion_of(*reading.space_track);

@@ -54,12 +54,13 @@ class SheetEdits {
     /// removal appends the sheet to the file, without the keys that are unknown to dotpose.
     void remove(const Target& target);
 
-    /// Replaces the places and print scales of several sheets with the values in `measured`, as one
-    /// edit. `targets` are the sheets, with their revisions at the start of the measurement.
+    /// Replaces the places and print scales of several sheets with the values in `measured`, as a
+    /// single edit. `targets` are the sheets, with their revisions at the start of the measurement.
     void change_all(const std::vector<Target>& targets, const std::vector<SheetEntry>& measured,
                     const std::string& what);
 
-    /// Marks a reserved sheet as made because its page now exists. This change cannot be undone.
+    /// Clears the reserved mark of a sheet, because its page now exists. This change cannot be
+    /// undone.
     void confirm(const std::string& name);
 
     /// Returns a description of the edit that `undo` or `redo` would apply, such as "move 'table'",
@@ -84,7 +85,8 @@ class SheetEdits {
         std::array<double, 2> origin_mm{};
         bool operator==(const Values&) const = default;
     };
-    /// A change to one sheet. `after` is none if the sheet was removed.
+    /// A change to one sheet. `before` is none if the sheet was added, and `after` is none if it
+    /// was removed.
     struct SheetStep {
         std::optional<SheetEntry> before;
         std::optional<SheetEntry> after;

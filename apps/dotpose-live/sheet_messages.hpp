@@ -1,4 +1,4 @@
-/// Values of the topics about sheets, see docs/web.md.
+/// Values of the topics about sheets. docs/web.md describes the topics.
 #pragma once
 
 #include <deque>

@@ -56,11 +56,11 @@ inline constexpr std::string_view kNoPlace = "no_place";
 /// Numbers of refused frames, indexed by Status. The last element is for Status::other.
 using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
 
-/// Counts of the camera frames of a robot since its program was started.
+/// Camera frame counts of a robot since the start of its program.
 struct CameraReport {
     double rate_hz = 0;  ///< mean frame rate since the previous report
     std::uint64_t frames = 0;
-    RefusedFrames refused{};  ///< frames without a fix (the element of Status::ok is 0)
+    RefusedFrames refused{};  ///< frames without a fix; the element for Status::ok is 0
 };
 
 /// Conversion factor from metres, the unit of the messages, to millimetres, the unit of the
@@ -78,7 +78,7 @@ struct RobotState {
     std::string sheet;                   ///< name of the sheet in view, or empty if unknown
     std::optional<CameraReport> camera;  ///< included about once per second
     bool is_localized = false;           ///< true if the members below are valid
-    std::string map_id;                  ///< name of the map, which is the plane of x and y
+    std::string map_id;                  ///< name of the map in which x and y are given
     double x_m = 0;
     double y_m = 0;
     double theta_rad = 0;
@@ -86,10 +86,10 @@ struct RobotState {
     double vx_m_s = 0;
     double vy_m_s = 0;
     double omega_rad_s = 0;
-    /// Pose of the camera in space, along the axes of x and y. In a parsed message, this is the
-    /// pose of the tracked camera if there is one, and it has no covariance.
+    /// Pose of the camera in space, in the frame of the map. In a parsed message, this is the pose
+    /// of the tracked camera if there is one, and it has no covariance.
     std::optional<CameraInWorld> camera_pose;
-    /// Motion of the tracked camera, along the axes of x and y. Not set by `parse_state`.
+    /// Motion of the tracked camera, in the frame of the map. Not set by `parse_state`.
     std::optional<CameraMotion> camera_track;
 };
 

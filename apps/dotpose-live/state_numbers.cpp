@@ -27,8 +27,8 @@ StateNumbers::Arrival StateNumbers::take(const RobotState& state, StateCounts& c
         counts.missed = std::max<std::int64_t>(counts.missed - 1, 0);
         return Arrival::late;
     }
-    // A gap between the numbers of the previous state and of this state is due to missing states. A
-    // lower number is due to a restart of the robot, in which case no states are missing.
+    // If numbers are skipped between the previous state and this state, states are missing. A lower
+    // number means that the robot was restarted, so no states are missing.
     if (!is_first && sent.number > newest_.number) {
         constexpr std::uint64_t kMax = 1'000'000'000;
         counts.missed +=

@@ -13,9 +13,9 @@ namespace dotpose::cli {
 struct StateCounts {
     std::int64_t messages = 0;
     std::int64_t missed = 0;  ///< number of missing states, based on gaps in the sequence numbers
-    std::int64_t late = 0;    ///< number of states that arrived after newer ones, not in `missed`
-    /// Number of states received more than once. With QoS 1, some states are sent again after a
-    /// connection was broken.
+    std::int64_t late = 0;    ///< number of states that arrived after newer ones; not in `missed`
+    /// Number of states received more than once. With QoS 1, some states are sent again after the
+    /// connection breaks.
     std::int64_t repeated = 0;
 
     StateCounts& operator+=(const StateCounts& more);
@@ -25,12 +25,13 @@ class StateNumbers {
   public:
     enum class Arrival { news, late, repeated };
 
-    /// Counts a state and classifies it. A state is `repeated` if it is among the states received
-    /// last. Otherwise, it is `late` if its time is earlier than the time of the newest state and
-    /// its number is not higher. All other states are `news`. If the number of a state that is
-    /// `news` is lower than before, the robot was restarted. Several late states in ascending order
-    /// of time indicate that the robot was restarted with an earlier clock. From the fifth such
-    /// state on, they are `news`.
+    /// Counts a state and classifies it:
+    /// - `repeated`: the same state was received recently,
+    /// - `late`: the state is older than the newest state, and its number is not higher,
+    /// - `news`: any other state. A lower number than before means that the robot was restarted.
+    ///
+    /// Late states in ascending order of time indicate that the clock of the robot was set back.
+    /// The fifth consecutive state of this kind is `news`, and becomes the newest state.
     Arrival take(const RobotState& state, StateCounts& counts);
 
   private:

@@ -69,8 +69,8 @@ std::string optional_name_in(const object& values, std::string_view key) {
     return values[key].error() == simdjson::NO_SUCH_FIELD ? std::string() : name_in(values, key);
 }
 
-/// Returns the index in RefusedFrames for the name of a status. The index of an unknown name is
-/// that of Status::other.
+/// Returns the index in RefusedFrames for the name of a status. Returns the index of Status::other
+/// if the name is unknown.
 std::size_t refused_index(std::string_view text) {
     std::size_t i = 0;
     while (i < static_cast<std::size_t>(kStatusCount) && name(static_cast<Status>(i)) != text)
@@ -91,7 +91,7 @@ std::optional<CameraReport> camera_in(const object& message) {
     return camera;
 }
 
-/// Returns a rotation as a unit quaternion. Throws OutOfRange unless its norm is approximately 1.
+/// Returns a rotation as a unit quaternion. Throws OutOfRange if its norm is not close to 1.
 Quaternion rotation_in(const object& values) {
     constexpr double kMaxError = 1e-3;
     const Quaternion q{bounded(values, "w", 1), bounded(values, "x", 1), bounded(values, "y", 1),

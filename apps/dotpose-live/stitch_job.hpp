@@ -1,4 +1,4 @@
-/// Measures the relative places of sheets in a separate thread, using the frames of a running
+/// Measures the relative positions of sheets in a separate thread, using the frames of a running
 /// camera.
 #pragma once
 
@@ -27,7 +27,7 @@ class StitchJob {
     struct Progress {
         int tried = 0;             ///< number of frames that were examined
         std::size_t used = 0;      ///< number of frames with two sheets in view
-        bool is_complete = false;  ///< true if the maximum number of frames has been used
+        bool is_complete = false;  ///< true if no further frames will be used
         std::string problem;       ///< reason why there is no result yet, or empty
         std::optional<Stitching> result;
     };

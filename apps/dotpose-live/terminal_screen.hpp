@@ -1,4 +1,4 @@
-/// Displays lines of text on the full terminal, and reads keys.
+/// Displays lines of text on the whole terminal screen, and reads keys.
 #pragma once
 
 #include <optional>

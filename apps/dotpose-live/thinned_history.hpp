@@ -21,7 +21,7 @@ class ThinnedHistory {
 
     std::int64_t states() const { return states_; }
 
-    /// Returns an array for each member of the points, and the number of states for each motion.
+    /// Returns one array for each member of Point, and the number of states for each motion.
     /// docs/fleet.md describes the value.
     nlohmann::json value() const;
 
@@ -35,7 +35,7 @@ class ThinnedHistory {
         double y_mm = 0;
         std::size_t map = 0;  ///< index into `maps_`
     };
-    /// The states in a time span.
+    /// Summary of the states in one time span.
     struct Point {
         std::int64_t span = 0;       ///< index of the time span
         std::int64_t time_us = 0;    ///< time of the first state

@@ -156,7 +156,7 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
     return images > 0 ? images : source.length();
 }
 
-/// Applies changes of the sheets, made on the page or by another program, to the following frames.
+/// Applies changes to the sheets, made on the page or by another program, to the following frames.
 void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     std::optional<std::vector<SheetEntry>> sheets = outputs.take_changed_sheets();
     if (!sheets) return;
@@ -170,7 +170,7 @@ void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     outputs.use_sheets(was_in_world);
 }
 
-/// Uses a camera that was calibrated on the page for the following frames.
+/// If a camera was calibrated on the page, uses it for the following frames.
 void use_calibrated_camera(WatchOutputs& outputs, Follower& follower) {
     const std::optional<Camera> camera = outputs.take_camera();
     if (!camera) return;

@@ -25,7 +25,7 @@ struct OutputOptions {
     LineArguments lines;
     // An output with an empty path is not written.
     std::string log;              ///< path of a CSV file with all frames
-    std::string map;              ///< path of an SVG of the robot's path, written at the end
+    std::string map;              ///< path of an SVG drawing of the robot's path
     std::string packets;          ///< path of a file or device for pose packets
     RobotOutputOptions messages;  ///< ROS messages
     PublishArguments publish;     ///< the MQTT broker and the name of the robot

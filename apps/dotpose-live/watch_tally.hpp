@@ -1,4 +1,4 @@
-/// Numbers of frames, fixes and events in a run.
+/// Counts the frames, fixes and events of a run.
 #pragma once
 
 #include <cstdint>

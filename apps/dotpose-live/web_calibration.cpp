@@ -62,7 +62,8 @@ json json_of(const CalibrationStatus& status) {
             {"is_taken", status.is_taken}};
 }
 
-/// Returns the mean residual of each image block as lists of alternating u and v components.
+/// Returns the mean residuals of the image blocks before and after the calibration. Each list
+/// contains alternating u and v components.
 json json_of(const ResidualField& field) {
     json before = json::array();
     json after = json::array();
@@ -80,7 +81,7 @@ json json_of(const ResidualField& field) {
             {"after", std::move(after)}};
 }
 
-/// Returns the rows of a report (calibrate_report.hpp), each with a label and a text.
+/// Returns the rows of a report (calibrate_report.hpp), each consisting of a label and a text.
 json rows_of(std::string_view report) {
     constexpr std::size_t kLabelColumns = 12;
     json rows = json::array();

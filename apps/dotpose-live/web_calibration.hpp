@@ -14,8 +14,8 @@ namespace dotpose::cli {
 
 class WebCalibration {
   public:
-    /// Adds the topic to the server, which must not have been started. If `options` is none, the
-    /// page explains how to enable calibration, and all commands are rejected.
+    /// Adds the topic to the server. Must be called before the server is started. If `options` is
+    /// none, the page explains how to enable calibration, and all commands are rejected.
     WebCalibration(std::optional<GuideOptions> options, serve::Server& server);
 
     /// Executes {"do": "calibrate", "action": "start", "step": NAME}, or a command with the action

@@ -41,9 +41,9 @@ constexpr std::size_t kMaxQueries = 8;
 constexpr std::size_t kMaxHistories = 16;
 constexpr std::size_t kMaxRobotName = 400;
 constexpr double kMaxSpan_s = 31 * 86'400.0;
-/// Maximum time in a request: the year 2100.
+/// Maximum time in a request, in seconds since 1970 (the end of 2099).
 constexpr double kMaxTime_s = 4.1e9;
-/// Maximum number of states that a query reads: 23 days of a robot at 10 Hz.
+/// Maximum number of states that a query reads, equal to 23 days of one robot at 10 Hz.
 constexpr std::int64_t kMaxReadStates = 20'000'000;
 
 double seconds_of(const serve::Command& request, std::string_view key, double max) {
@@ -53,7 +53,8 @@ double seconds_of(const serve::Command& request, std::string_view key, double ma
     throw BadArgument(fmt::format("{} must be a number from 0 to {:.0f}", key, max));
 }
 
-/// Returns the request, or none if it names no robot. Throws BadArgument if the request is invalid.
+/// Returns the request, or none if the command does not name a robot. Throws BadArgument if the
+/// request is invalid.
 std::optional<HistoryRequest> request_of(const serve::Command& command) {
     const auto* robot = command.argument<std::string>("robot");
     if (robot == nullptr) return std::nullopt;
@@ -97,7 +98,7 @@ struct WebHistory::Queries {
     std::mutex mutex;  ///< protects the following members
     std::condition_variable changed;
     bool ends = false;
-    std::deque<HistoryRequest> waiting;  ///< queued requests, the first of which is being read
+    std::deque<HistoryRequest> waiting;  ///< queued requests; the first one is being read
     std::deque<std::pair<HistoryRequest, std::string>> results;
 
     bool is_ending() {
@@ -181,7 +182,7 @@ WebHistory::~WebHistory() {
     thread_.join();
 }
 
-/// Sends the result of its request to each client, if the result is available.
+/// Sends each client the result of its request, or a notice that the request is still waiting.
 void WebHistory::publish() {
     server_.publish_for_each(topic_, [queries = queries_](const serve::Command& request) {
         return queries->value_for(request);

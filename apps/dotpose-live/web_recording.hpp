@@ -18,7 +18,7 @@ namespace dotpose::cli {
 class WebRecordings {
   public:
     /// `messages` describes the robot. Its MCAP file and its DDS publisher are ignored. `empty` is
-    /// a record without a fix that has the fields of the run.
+    /// a record without a fix, whose fields determine the columns of the log.
     WebRecordings(std::filesystem::path folder, RobotOutputOptions messages, Record empty);
 
     /// Starts a recording unless one is already running. Creates new files, which are named after

@@ -282,7 +282,8 @@ void WebSheets::offer_pdf(const SheetEntry& entry, SheetAnswer& answer) {
     answer.message = fmt::format("The PDF of {} is ready.", printable(entry.name));
 }
 
-/// Starts a measurement of the current sheets if `is_on` is true. Discards a running measurement.
+/// Discards the running measurement, if there is one. Then starts a measurement of the current
+/// sheets if `is_on` is true.
 void WebSheets::measure(bool is_on) {
     std::shared_ptr<StitchJob> job;
     {

@@ -32,7 +32,7 @@ struct WebSheetsOptions {
 /// Topics about sheets. They exist even without a sheet file, because pages always subscribe to
 /// them.
 struct SheetTopics {
-    /// Adds the topics to the server, which must not have been started.
+    /// Adds the topics to the server. Must be called before the server is started.
     explicit SheetTopics(serve::Server& server);
 
     serve::Topic& sheets;
@@ -45,12 +45,12 @@ class WebSheets {
     /// Reads the sheet file. `server` must outlive this object. Throws Error if the file cannot be
     /// read.
     WebSheets(WebSheetsOptions options, serve::Server& server, const SheetTopics& topics);
-    /// Aborts running work, but completes a change of the sheet file that has already begun.
+    /// Aborts running work, but completes a change to the sheet file that has already begun.
     ~WebSheets();
     WebSheets(const WebSheets&) = delete;
     WebSheets& operator=(const WebSheets&) = delete;
 
-    /// Publishes the sheets. Must be called after the server was started.
+    /// Publishes the sheets. Must be called after the server has been started.
     void start();
 
     /// Uses this camera in later measurements.
@@ -86,7 +86,7 @@ class WebSheets {
     serve::Server& server_;
     SheetTopics topics_;
 
-    // Used only by the thread.
+    // Used only by `thread_` after `start`.
     SheetEdits edits_;
     std::deque<std::string> pdf_paths_;         ///< paths of the downloadable PDFs
     std::int64_t taken_version_ = 0;            ///< version of the sheets in `changed_`

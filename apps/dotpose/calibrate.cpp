@@ -50,7 +50,7 @@ constexpr const char* kCalibrateExamples =
     "taken until they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not determine\n"
     "the requested values.\n";
 
-/// Frame sources of each part of the calibration, or none if the part is skipped.
+/// Frame sources of each part of the calibration. A part without sources is skipped.
 struct Series {
     std::optional<Sources> lens;
     std::optional<Sources> spin;
@@ -89,8 +89,8 @@ Series series_of(const CalibrateArguments& arguments) {
     return series;
 }
 
-/// Calls `work(number of frames, frame_at, options)` with the frames of the sources and shows the
-/// progress. If the camera has a flat field, `frame_at` returns frames with flat-field correction.
+/// Returns the result of `work(frame_count, frame_at, options)` for the frames of the sources, and
+/// shows a progress line. If the camera has a flat field, `frame_at` corrects the frames with it.
 template <typename Work>
 auto with_progress(const CalibrateArguments& arguments, Sources& sources,
                    const std::optional<Camera>& camera, const std::string& what, Work work) {
@@ -117,8 +117,8 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources,
     }
 }
 
-/// Returns the path for the picture of the spin calibration: the path of --draw. If the picture of
-/// the lens is also drawn, "-spin" is inserted before the extension.
+/// Returns the path of the spin calibration picture. It is the path of --draw, with "-spin" before
+/// the extension if the lens picture is also drawn.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;
@@ -149,8 +149,8 @@ Camera pivot_camera(const std::optional<Camera>& camera, const std::string& path
 }
 
 /// Calibrates the flat field, the lens, the mount, the heading, the pen tip and the readout, in
-/// this order. Skips each part for which there are no frames. Writes the camera file and the
-/// pictures. Returns a report.
+/// this order. Skips parts without frames. Writes the camera file and the pictures, and returns a
+/// report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;
@@ -241,7 +241,7 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
                      out));
 }
 
-/// Takes the code and the spacing from the sheet file of --sheets.
+/// Reads the code and the spacing from the sheet file given to --sheets.
 void use_sheets(CalibrateArguments& arguments) {
     if (arguments.sheets.empty() || arguments.stitch) return;
     arguments.spacing = SpacingSource::sheets;

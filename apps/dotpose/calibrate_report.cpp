@@ -21,8 +21,8 @@ void add(std::string& text, fmt::format_string<Values...> format, Values&&... va
     text += '\n';
 }
 
-/// Returns the displacement of the farthest image corner by the lens distortion, as a percentage of
-/// the corner's distance from the distortion centre.
+/// Returns how far undistortion moves the farthest image corner away from the distortion centre, as
+/// a percentage of the corner's distance from this centre.
 double corner_displacement(const Camera& camera) {
     const PixelPoint corner = farthest_corner(camera);
     const PixelPoint straight = undistorted(camera, corner);
@@ -87,8 +87,8 @@ std::string lens_report(const LensCalibration& calibration, SpacingSource source
         calibration.px_per_spacing, 100 * calibration.dot_width, 100 * calibration.coverage);
     add(text, "residual    {:.4f} px before, {:.4f} px after (rms per axis)",
         calibration.residual_before_px, calibration.residual_px);
-    // The spacing affects only the view of a mounted camera, so the report omits it for other
-    // cameras.
+    // The spacing affects only the scale of a mounted camera. For other cameras, the report omits
+    // the spacing.
     const bool is_assumed = calibration.is_mounted && source == SpacingSource::assumed &&
                             calibration.verdict == CalibrationVerdict::good;
     if (calibration.is_mounted) {
@@ -183,7 +183,8 @@ std::string print_scale_text(double scale, double sigma) {
                        is_scale_known(sigma) ? "" : " (UNKNOWN)");
 }
 
-/// Appends the print scales of the sheets, and names the sheet or camera that they are relative to.
+/// Appends the print scales of the sheets and the reference of these scales, which is a sheet or
+/// the camera.
 void add_print_scales(std::string& text, const Stitching& stitching) {
     bool are_all_scales_known = true;
     std::string fixed;

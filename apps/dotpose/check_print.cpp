@@ -63,8 +63,8 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Returns true if the scale along x and y is within 25 % of 1, a deviation that a printer driver
-/// may cause. A larger deviation is probably due to an incorrect scan resolution or spacing.
+/// Returns true if the scales along x and y are both within 25 % of 1. Printer drivers may cause
+/// such deviations. Larger ones are probably due to an incorrect scan resolution or spacing.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
@@ -117,8 +117,8 @@ std::string offset_remark(const SheetEntry& entry) {
         shift_mm(entry.print_scale_y, sheet.origin_y_mm, sheet.height_mm));
 }
 
-/// Saves the scale of each field of dots in the entry of its sheet and returns a report.
-/// `field.sheet` is an index into `sheets`.
+/// Writes the measured print scale of each sheet on the scan to its entry in the sheet file, and
+/// returns a report. `PrintField::sheet` is an index into `sheets`.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
     SheetFile file(system::path_of(path), {.tell = tell, .stop = interrupted});

@@ -75,8 +75,8 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
 }
 
 /// Returns the prefix that names a field: "sheet 'table': ", or "from cell X,Y on: " if the field
-/// is not on a known sheet. Returns an empty string if there is only one field or if `index` is
-/// none.
+/// is not on a known sheet. Returns an empty string if there is only one field or if `index` has no
+/// value.
 std::string about(const CheckedScan& scan, const PrintCheck& check,
                   std::optional<std::size_t> index) {
     if (!index || check.fields.size() == 1) return "";

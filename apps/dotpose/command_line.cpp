@@ -103,9 +103,9 @@ std::pair<std::string, std::string> split(const std::string& text, std::string_v
     return {text.substr(0, at), text.substr(at + separator.size())};
 }
 
-/// Returns a user-friendly message for a CLI11 error. The original messages contain type names and
-/// counts. They are parsed only for the name of the option and its value, which CLI11 does not
-/// provide separately.
+/// Returns a user-friendly message for a CLI11 error, to replace the original message, which
+/// contains type names and counts. Parses the original message to extract the option and its value,
+/// because CLI11 does not provide them separately.
 std::string message_of(const CLI::ParseError& error) {
     const std::string text = error.what();
     if (text == "A subcommand is required") return "no command given";
@@ -133,7 +133,7 @@ std::string message_of(const CLI::ParseError& error) {
 }
 
 /// Calls `parse` and translates the exceptions of CLI11. Returns false if the help or the version
-/// was printed. Throws UsageError on any other exception.
+/// was printed. Throws UsageError if the command line is invalid.
 bool parsed(CLI::App& app, const std::function<void()>& parse) {
     try {
         parse();

@@ -33,8 +33,7 @@ class ValidationError : public UsageError {
         : UsageError(option + ": " + why) {}
 };
 
-/// Parses a number in the format of option values. Returns false unless the whole string is a
-/// number.
+/// Parses a number in the format of option values. Returns true if the whole string is a number.
 bool parse_number(const std::string& text, double& number);
 bool parse_number(const std::string& text, int& number);
 
@@ -90,8 +89,7 @@ class Option {
     std::vector<std::string> get_lnames() const;  ///< long names, without the hyphens
     bool get_positional() const;
     int get_items_expected_max() const;  ///< maximum number of values, or 0 for a flag
-    /// Returns all values that the validators accept, or an empty list if the validators accept
-    /// more than a few values.
+    /// Returns the valid values if there are only a few, and an empty list otherwise.
     const std::vector<std::string>& choices() const { return choices_; }
 
   private:
@@ -138,8 +136,8 @@ class Command {
     /// Returns false if the help or the version was printed. Throws UsageError if the arguments are
     /// invalid.
     bool parse(int argc, const char* const* argv);
-    /// Like the first overload, for a list of words in reverse order that does not include the
-    /// program name.
+    /// Like the first overload, but takes a list of words, in reverse order and without the program
+    /// name.
     bool parse(std::vector<std::string> words);
 
     std::string get_name() const;

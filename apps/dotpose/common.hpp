@@ -1,4 +1,4 @@
-/// Options with the same names and help texts in several subcommands.
+/// Options that several subcommands have in common, and helpers for them.
 #pragma once
 
 #include <cstdint>
@@ -122,7 +122,7 @@ struct FrameSize {
     int width_px = 0;
     int height_px = 0;
 };
-/// Parses "WIDTHxHEIGHT". Throws ValidationError, with `flag` as the name of the option.
+/// Parses "WIDTHxHEIGHT". If the text is invalid, throws ValidationError for the option `flag`.
 FrameSize parse_frame_size(const std::string& flag, const std::string& text);
 
 /// Makes all numeric options of all subcommands reject values that are not finite, such as nan, inf
@@ -144,7 +144,7 @@ std::string command_line(const std::set<std::string>& without = {});
 /// Returns a description of the page and of the region of the code plane that it covers.
 std::string region_text(const Sheet& sheet);
 
-/// Returns the name of a code variant that --code accepts.
+/// Returns the name of a code variant, as in --code.
 const char* code_name(CodeVariant code);
 
 }  // namespace dotpose::cli

@@ -49,7 +49,7 @@ constexpr const char* kEvaluateExamples =
     "wrong; errors are computed from the other fixes. Exit status 1 if truth.csv or an image\n"
     "cannot be read, 2 for wrong usage.\n";
 
-/// The value of `--protocol`, which selects the experiment of section IV of the paper.
+/// The only value of `--protocol`: the published experiment (paper, section IV).
 struct PaperProtocol {};
 constexpr std::array kProtocols = {PaperProtocol{}};
 const char* name(PaperProtocol) {
@@ -91,7 +91,7 @@ Progress progress_on(ProgressLine& line) {
     };
 }
 
-/// Returns the score as JSON. Statistics of zero frames are NaN in `score` and null in JSON.
+/// Returns the score as JSON. A statistic over zero frames is NaN in `score` and null in JSON.
 nlohmann::ordered_json json_of(const Score& score) {
     nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
     for (std::size_t i = 1; i < score.by_status.size(); ++i) {
@@ -134,7 +134,7 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
 }
 
 /// Evaluates the frames in batches. After Ctrl-C, returns the outcomes of the completed batches,
-/// but only of the first `readable_frames()` frames.
+/// limited to the first `readable_frames()` frames.
 std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line,
                                        const std::function<std::size_t()>& readable_frames) {
     const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

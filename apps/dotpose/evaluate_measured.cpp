@@ -17,9 +17,9 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the place of the reference point in the world or, if `is_in_world` is false, on its
-/// sheet. Returns none if the frame is not on a sheet of the file, or if the world place is
-/// requested and the sheet has no world pose.
+/// Converts a place to world coordinates or, if `is_in_world` is false, to coordinates on its
+/// sheet. Returns none if there is no place, or if world coordinates are requested and the sheet
+/// has no world pose.
 std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPlace>& place) {
     if (!place) return std::nullopt;
     const std::string& sheet = place->entry->name;
@@ -29,8 +29,9 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
     return FoundPlace{sheet, 1000 * world->x_m, 1000 * world->y_m, world->yaw_rad};
 }
 
-/// Throws Error unless all true places are in one frame of reference and the poses of the sheets in
-/// this frame are known. Returns true if the frame of reference is the world.
+/// Returns true if the true places are in the world, and false if they are on sheets. Throws Error
+/// for places in the pattern, on unknown or unspecified sheets, or on several sheets that would
+/// have to be aligned. Also throws if the places are in the world and no sheet has a world pose.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;

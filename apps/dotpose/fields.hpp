@@ -11,9 +11,9 @@ namespace dotpose::cli {
 /// Format of output lines. Only `locate` supports text.
 enum class RecordFormat { json, csv, text };
 
-/// Version of the JSON lines and value of their first field. docs/schema/lines-VERSION.json
-/// describes the lines. Within a version, keys may be added, but existing keys are never removed
-/// and keep their meaning.
+/// Version of the format of JSON lines, which is also the value of their first field.
+/// docs/schema/lines-VERSION.json describes the format. Within a version, keys may be added, but
+/// existing keys are never removed and keep their meaning.
 inline constexpr const char* kSchemaVersion = "1";
 
 struct Field {

@@ -23,7 +23,7 @@ struct FollowerArguments {
     /// region.
     void fit_to(SourceArguments& sources);
 
-    /// Registers the input files.
+    /// Registers the input files of these options.
     void add_files(RunFiles& files) const;
 
     /// Reads the sheet file and the print map. Throws Error if a file cannot be read, if the sheet

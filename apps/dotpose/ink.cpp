@@ -105,7 +105,7 @@ void set_sizes(const std::string& sheets, std::vector<InkPage>& pages) {
     }
 }
 
-/// Returns the output path of a page: the path of -o, with the name of the page inserted before the
+/// Returns the output path of a page. It is the path of -o, with the page name inserted before the
 /// extension if there are several pages.
 std::string path_of_page(const std::string& out, const std::string& page, bool is_only) {
     if (is_only) return out;

@@ -14,7 +14,7 @@ namespace dotpose::cli {
 
 struct KnownFrames {
     std::vector<TruthRow> rows;  ///< true poses, where `file` is the path or name of the frame
-    /// Returns a frame. If the frame cannot be read, `problem` of the result is the reason.
+    /// Returns a frame. If the frame cannot be read, `problem` in the result contains the reason.
     dotpose::FrameSource frame_at;
     /// Returns the number of frames. If the run was interrupted, returns the number of frames read
     /// before the interruption.
@@ -26,7 +26,7 @@ struct KnownFrames {
 
 /// Returns the frames of the sources with their poses, which are read from `poses` or, if `poses`
 /// is empty, from truth.csv next to the images or the video. A folder contributes the frames listed
-/// in its truth.csv. Any other image has the pose of the row whose `file` is the name of the image.
+/// in its truth.csv. The pose of any other image is in the row whose `file` is the image name.
 /// If the sources include a video, a camera or a raw stream, row N is the pose of frame N, counted
 /// over all sources. Throws Error if there are no poses, or if an image has no pose.
 KnownFrames known_frames(const SourceArguments& arguments, const std::string& poses,

@@ -201,8 +201,8 @@ void run(const ListenArguments& arguments) {
     files.reads("--web-token-file", arguments.page.token_file);
     files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
     files.writes("--log", arguments.log, Content::csv);
-    // Opens the sinks before all other outputs, because opening them may replace `dotpose` with
-    // dotpose-live.
+    // Opens the sinks before all other outputs, because opening a sink may replace this process
+    // with dotpose-live.
     Sinks sinks = open_sinks(arguments);
     catch_interrupts();
     ByteSource source(arguments);

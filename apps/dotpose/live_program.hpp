@@ -9,8 +9,8 @@ namespace dotpose::cli {
 /// with the value of errno.
 int become_live();
 
-/// Returns text that completes a sentence about the need for dotpose-live: the name of the program
-/// and the reason why it cannot be started.
+/// Returns the end of an error message such as "--web needs ...": the name of the program
+/// dotpose-live and the reason why it cannot be started.
 std::string live_program_text(int error_number);
 
 }  // namespace dotpose::cli

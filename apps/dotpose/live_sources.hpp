@@ -17,12 +17,12 @@ void hand_over();
 /// Like `hand_over`, but returns if dotpose-live is missing.
 void hand_over_if_possible();
 
-/// Opens a camera or a video. In `dotpose`, throws Error, which names the missing program.
+/// Opens a camera or a video. In `dotpose`, throws Error, because this requires dotpose-live.
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
 /// Creates a video file: H.264 if the name ends in .mp4, and Motion JPEG if it ends in .avi. In
-/// `dotpose`, throws Error, which names the missing program.
+/// `dotpose`, throws Error like `open_live`.
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

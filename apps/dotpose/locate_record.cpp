@@ -35,7 +35,7 @@ double sigma(const Fix& fix, std::size_t axis) {
     return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
 }
 
-/// Converts a pose with y down, as on the paper, to the axes that `units` implies.
+/// Converts a pose with y down, as on the paper, to the axis directions of `units`.
 std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>& pose) {
     return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
 }

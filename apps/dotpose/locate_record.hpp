@@ -16,7 +16,7 @@ namespace dotpose::cli {
 struct Record {
     std::string file;
     Fix fix;
-    CodeReading reading;         ///< code and alternative places, relative to the image centre
+    CodeReading reading;         ///< code variant and the alternative to it, see Located
     bool code_is_given = false;  ///< true if the user or the sheet file specifies the code
     double spacing_mm = 0;       ///< NaN if unknown; fields in mm are then empty
     /// Spacing computed from the fix and the camera file, see Located.
@@ -75,9 +75,9 @@ enum class Columns {
 /// Returns the fields that are columns of the CSV output, in their original order.
 std::vector<Field> columns_of(std::vector<Field> fields, Columns columns);
 
-/// Returns the CSV header, including the line break, of a run that has the options of `follower`.
+/// Returns the CSV header, including the line break, for a run with the options of `follower`.
 std::string csv_header(const Follower& follower, Units units, Columns columns);
-/// Returns an empty record with the fields of a run that has the options of `follower`.
+/// Returns an empty record with the fields of a run with the options of `follower`.
 Record empty_record(const Follower& follower);
 
 /// Returns one line of text: file, sheet, x, y and angle with their standard deviations, and the

@@ -125,8 +125,8 @@ std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::strin
                     WorldPose{});
 }
 
-/// Returns the camera pose in space that was computed from the frame alone. Returns none if the
-/// pose is unknown or ambiguous.
+/// Returns the camera pose in space that was computed from this frame only, without the track.
+/// Returns none if the pose is unknown or ambiguous.
 std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     if (row.text("camera_is_ambiguous") != "false") return std::nullopt;
     return space_pose_in(row, "camera_", is_in_world);
@@ -158,8 +158,8 @@ std::int64_t time_ns_in(const LogCells& row) {
     if (!(t_s >= 0 && t_s <= double{std::numeric_limits<std::int32_t>::max()})) {
         throw Error(fmt::format("t_s {} is no time of a message, which is 0 to 2^31 - 1", t_s));
     }
-    // The times in the log are integer microseconds in decimal text, which rounding recovers
-    // exactly.
+    // The log contains times in seconds with six decimals. Rounding recovers the exact number of
+    // microseconds.
     return std::llround(t_s * 1e6) * 1000;
 }
 
@@ -173,8 +173,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // A row without a plane is from a robot that is lost. Its fix is in the world if the row
-    // contains x_m, because only logs of sheets with world poses have this column.
+    // A row without a plane is from a robot that is lost. If such a row has a value for x_m, its
+    // fix is on a sheet with a world pose.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

@@ -15,8 +15,8 @@ std::string bare(std::string_view word) {
     return result;
 }
 
-/// Returns the only name that begins with `word`. Returns an empty string if there are none or
-/// several, or if `word` has fewer than kMinCharacters characters.
+/// Returns the only name that begins with `word`. Returns an empty string if no name or more than
+/// one name begins with it, or if `word` has fewer than kMinCharacters characters.
 std::string only_continuation(const std::string& word, const std::vector<std::string>& names) {
     constexpr std::size_t kMinCharacters = 2;
     if (word.size() < kMinCharacters) return {};
@@ -55,8 +55,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
     const std::string asked = bare(word);
     std::string nearest;
-    // Longer words are not compared. No name is long enough to be similar, and the distance table
-    // would need too much memory.
+    // Maximum length of a word that is compared with the names. No name is similar to a longer
+    // word, and the distance table of a long word would need too much memory.
     constexpr std::size_t kMaxCharacters = 64;
     if (asked.size() > kMaxCharacters) return nearest;
     int min_distance = static_cast<int>(kMaxCharacters);

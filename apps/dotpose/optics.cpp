@@ -29,7 +29,7 @@ struct OpticsArguments {
     double exposures_per_s = 7684;
 };
 
-/// Text that explains how the numbers in section III-A of the paper are rounded.
+/// Text that explains how the paper rounds its numbers (paper, section III-A).
 constexpr const char* kRounding =
     "\nThe paper's numbers, and where it rounds:\n"
     "  5.39 mm    sqrt(2) x 0.508 x 7.5 = 5.388\n"

@@ -16,8 +16,8 @@
 
 namespace dotpose::cli {
 
-/// Thread `i` of `n` processes the items i, i + n, i + 2n, and so on, and emits one result per
-/// item.
+/// Calls `work` in n threads. In thread i, `work` must process the items i, i + n, i + 2n, and so
+/// on, and emit one result per item.
 template <typename Result>
 class OrderedThreads {
   public:

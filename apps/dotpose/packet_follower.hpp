@@ -1,4 +1,4 @@
-/// Follows a robot based on the pose packets from its device.
+/// Tracks a robot from the pose packets that its device sends.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ inline bool is_late(int packets) {
 
 class PacketFollower {
   public:
-    /// `spacing_mm` is the spacing of the pattern. It is used only if `sheets` is empty, in which
-    /// case the robot is followed in the pattern frame.
+    /// `spacing_mm` is the spacing of the pattern. It is used only if `sheets` is empty. The robot
+    /// is tracked in the world if any sheet has a world pose, and in the pattern frame otherwise.
     PacketFollower(std::vector<SheetEntry> sheets, double spacing_mm);
 
     bool has_sheets() const { return !sheets_.empty(); }

@@ -129,8 +129,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             const GreyImage straight = stretched_middle(image, kMiddle_px, stretch);
             const Fix fix = Locator(scratch, once).locate(straight.view());
             if (fix.status != Status::ok) continue;
-            // Maps a pixel of the original image to a cell: first the stretch, then the fitted
-            // plane.
+            // Maps an offset in the original image, in px, to an offset in cells: first the
+            // stretch, then the fitted plane.
             const double c = std::cos(stretch.angle_rad);
             const double s = std::sin(stretch.angle_rad);
             const PlaneFromImage& plane = fix.pattern_from_image;
@@ -289,7 +289,7 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
             *tilt_degrees);
     }
     // In videos with sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel
-    // (docs/live.md). The limit has a margin.
+    // (docs/live.md). The limit below includes a margin.
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(
@@ -323,8 +323,8 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
     if (is_inverted(image, options, scratch)) {
         return "the dots are white on black: locate with --inverted";
     }
-    // Minimum grey level of the paper. The contrast of a dot is at most as large as this level.
-    // Blur may reduce the contrast to a quarter, which must still be at least min_contrast.
+    // Minimum grey level of the paper. The contrast of a dot cannot exceed the grey level of the
+    // paper. Blur may reduce the contrast to a quarter, which must still be at least min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(

@@ -146,7 +146,7 @@ void run(const PrintArguments& arguments) {
     const SheetPrint print = print_of(arguments);
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        catch_interrupts();  // before `require_writable` creates a file
+        catch_interrupts();  // must precede `require_writable`, which creates a file
         if (arguments.out != kStandardOutput) require_writable(system::path_of(arguments.out));
         const auto enter_all = [&](SheetFile& file) {
             for (std::size_t i = 0; i < sheets.size(); ++i)

@@ -28,9 +28,9 @@ PlanePose plane_pose(const TrackedPose& pose) {
     return result;
 }
 
-/// Returns the fields of the velocities and their standard deviations. In mm and degrees, also
+/// Returns the fields of the velocities and their standard deviations. With `Units::mm`, also
 /// returns the standard deviations of the pose. `is_flipped` is true if y points down in the track
-/// and up in the output, which changes some signs.
+/// and up in the output. The y velocity and the turn rate are then negated.
 std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_flipped) {
     const double sign = is_flipped ? -1 : 1;
     const double vx_mm_s = static_cast<double>(pose.vx_mm_s);

@@ -12,8 +12,8 @@ namespace dotpose::cli {
 
 std::vector<Field> fields(const Reading& reading, Units units);
 
-/// Returns the CSV header of a run. `empty` is a record without a fix that has the fields of the
-/// run.
+/// Returns the CSV header of a run. `empty` is a record without a fix. Its flags, such as
+/// `has_sheets`, select the fields of the run.
 std::string csv_header_of_readings(const Record& empty, Units units);
 
 }  // namespace dotpose::cli

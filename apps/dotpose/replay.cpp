@@ -54,7 +54,7 @@ double share(std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-/// Lists the frames of reference of the poses, with advice if they are not in the world frame.
+/// Lists the frames of reference of the poses. Adds advice if any pose is in the pattern frame.
 std::string frames_of_poses(const RunStatistics& run) {
     std::string text;
     for (const std::string& plane : run.planes)
@@ -107,7 +107,7 @@ std::string json_report(const RunStatistics& run) {
            '\n';
 }
 
-/// Records the messages that the robot would have published during the logged run.
+/// Writes an MCAP file with the messages that the robot would have published during the run.
 void record(const ReplayArguments& arguments) {
     LogReader log(system::path_of(arguments.log));
     ros::RobotMessenger messenger(arguments.robot, ros::with_prefix(arguments.frame_prefix));

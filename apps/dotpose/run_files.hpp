@@ -38,7 +38,7 @@ struct FileIdentity {
 std::optional<FileIdentity> identity_of(const std::string& path);
 
 /// The files of a run. Empty paths are ignored. If a file is rejected, the functions throw
-/// BadArgument with a message that contains the names of both options.
+/// BadArgument. The message names the options of the files involved.
 class RunFiles {
   public:
     /// Registers an input. `option` is the flag, or empty for a positional argument. The path "-"

@@ -46,7 +46,7 @@ class LogCells {
 /// valid log. An incomplete last line, which a power failure may cause, is ignored.
 class LogReader {
   public:
-    /// Columns that `log_row` needs. The logs of `watch --log` contain all of them.
+    /// Columns that `read_log` needs. The logs of `watch --log` contain all of them.
     static constexpr std::array<const char*, 13> kWatchColumns = {
         "frame",   "t_s",   "status",     "dots_seen",  "p_wrong", "state",  "events",
         "verdict", "plane", "track_x_mm", "track_y_mm", "vx_mm_s", "vy_mm_s"};
@@ -78,7 +78,7 @@ class LogReader {
     int line_ = 0;
     bool is_json_ = false;
     std::size_t width_ = 0;
-    LogCells::Columns columns_;  ///< columns of the file or, for JSON lines, of the newest row
+    LogCells::Columns columns_;  ///< columns of the file or, for JSON lines, of the current row
 };
 
 struct LogRow {
@@ -91,8 +91,7 @@ struct LogRow {
     std::string plane;  ///< pattern or world, or empty if the robot is lost
     int dots_seen = 0;
     std::optional<double> p_wrong;
-    // Pose of the track in mm and degrees, and speed in mm/s. There is no pose if the robot is
-    // lost.
+    // Position and speed of the track. There is no position if the robot is lost.
     std::optional<double> x_mm;
     std::optional<double> y_mm;
     double speed_mm_s = 0;
@@ -114,7 +113,7 @@ struct RunStatistics {
     double longest_gap_s = 0;
     double stationary_s = 0;
     double distance_mm = 0;      ///< length of the path, excluding jumps
-    double mean_speed_mm_s = 0;  ///< mean speed over the time in which the robot is moving
+    double mean_speed_mm_s = 0;  ///< mean speed while the robot is moving
     double largest_speed_mm_s = 0;
     double largest_p_wrong = 0;
     std::set<std::string> planes;  ///< frames of reference of the poses: pattern, world, or both

@@ -17,7 +17,7 @@ class SheetEntryArguments {
     /// Adds the options. The option --origin must already have been added to the command.
     void add_to(Command& command);
 
-    /// Returns true if a sheet file is given. All functions below require one.
+    /// Returns true if a sheet file is given. `reserve`, `enter` and `confirm` require one.
     bool given() const { return !path_.empty(); }
     const std::string& path() const { return path_; }
     const std::string& name() const { return name_; }
@@ -40,11 +40,12 @@ class SheetEntryArguments {
     /// function appends. Returns the sheet with its new origin.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page, SheetPrint print) const;
 
-    /// Appends --origin to `command`, which makes it print the dots of this page again.
+    /// Returns `command` with --origin appended. The result reprints the page with this origin.
     static std::string with_origin(const std::string& command, Cell origin);
 
-    /// Returns the options to omit from a command that reprints a page. These options would make
-    /// the command add the page to the sheet file again, under a name that is already in use.
+    /// Returns the options to omit from a command that reprints a page: the options of the sheet
+    /// file, which would add the page again under a name that is already in use, and the options
+    /// --pages and --origin, which are set for each page separately.
     static std::set<std::string> options_of_entering();
 
     /// Records that the reserved pages have been written to `out`. Throws Error if the sheet file

@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the default margin in mm. The margin of a PDF is wider than the printer requires,
-/// because it contains labels and rulers.
+/// Returns the default margin in mm. Unless the page is small, a PDF has a wider margin than other
+/// formats, because the margin contains labels and rulers.
 double default_margin_mm(PrintFormat format, const Paper& paper);
 
 /// Returns the file name for the PDF of a sheet, without special characters.

@@ -8,13 +8,13 @@
 
 namespace dotpose::cli {
 
-/// Returns the options for reprinting the page of a sheet. If an earlier version wrote the entry,
-/// these are the most likely options. Throws Error if the dots were printed over a document,
-/// because the entry does not contain the document.
+/// Returns the options for reprinting the page of a sheet. If an earlier version of dotpose wrote
+/// the entry without these options, returns the most likely ones. Throws Error if the dots were
+/// printed over a document, because the entry does not contain the document.
 PrintOptions reprint_options(const SheetEntry& entry);
 
-/// Reprints the page of a sheet from its entry. If an earlier version wrote the entry, warns about
-/// the print options that are missing from it. Throws like `reprint_options` and `write_sheet`.
+/// Reprints the page of a sheet from its entry. Warns if the entry does not contain the print
+/// options. Throws like `reprint_options` and `write_sheet`.
 void reprint_sheet(const SheetEntry& entry, const std::string& out);
 
 }  // namespace dotpose::cli

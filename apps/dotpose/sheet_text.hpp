@@ -9,8 +9,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the entry with the given name. `file` is the path of the sheet file. If there is no such
-/// entry, throws BadArgument, whose message lists the names in the file.
+/// Returns the entry with the given name. Throws BadArgument if there is none. The error message
+/// contains `file`, the path of the sheet file, and the names in the file.
 const SheetEntry& named_sheet(const std::vector<SheetEntry>& sheets, const std::string& name,
                               const std::string& file);
 

@@ -177,7 +177,7 @@ void add_out_option(Command& command, const Arguments& arguments, const std::str
     command.add_option("-o,--out", arguments->out, help)->type_name("FILE")->required();
 }
 
-/// Adds a subcommand with the options that all subcommands share.
+/// Adds a subcommand with the options that are common to all subcommands.
 Command& add_command(Command& sheets, const Arguments& arguments, const char* name,
                      const char* what, void (*run)(const SheetsArguments&)) {
     Command* command = sheets.add_subcommand(name, what)->group("Commands");
@@ -186,7 +186,7 @@ Command& add_command(Command& sheets, const Arguments& arguments, const char* na
     return *command;
 }
 
-/// Adds a subcommand that operates on a single sheet, whose name is an argument.
+/// Adds a subcommand that takes the name of a single sheet as a positional argument.
 Command& add_command_of_one(Command& sheets, const Arguments& arguments, const char* name,
                             const char* what, void (*run)(const SheetsArguments&)) {
     Command& command = add_command(sheets, arguments, name, what, run);

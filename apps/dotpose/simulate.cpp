@@ -146,9 +146,9 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
     return shot;
 }
 
-/// True pose of a simulated frame, and the pattern that it shows.
+/// True pose of a simulated frame, and the pattern that the frame shows.
 struct Truth {
-    std::optional<CameraPose> pose;  ///< none for scenes, and between the sheets
+    std::optional<CameraPose> pose;  ///< none for a scene, or if the camera is between sheets
     Pattern pattern;
 };
 

@@ -77,7 +77,7 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
 
 void SimulatedDrive::lay_path() {
     constexpr double kMargin_mm = 5;
-    constexpr double kMinFraction = 0.25;  // minimum amplitude, relative to the side of the area
+    constexpr double kMinFraction = 0.25;  // minimum amplitude / side of the bounding rectangle
     Vec2 low{1e9, 1e9};
     Vec2 high{-1e9, -1e9};
     for (const SheetEntry& entry : sheets_) {

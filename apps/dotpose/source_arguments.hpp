@@ -67,8 +67,8 @@ class Sources {
     /// Error if a folder or glob cannot be read, and BadArgument if a source is not an image.
     std::vector<std::string> all_images();
 
-    /// Returns the number of images, or 0 if it is unknown because of a pipe or a source other than
-    /// images.
+    /// Returns the number of images. Returns 0 if the number is unknown: if names come from a pipe,
+    /// or if a source cannot be read or does not consist of images.
     std::int64_t number_of_images() const;
 
     /// Opens all sources as one sequence of frames. `*this` must outlive the result.

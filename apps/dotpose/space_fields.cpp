@@ -17,7 +17,7 @@ namespace {
 constexpr std::array kAxes = {"x", "y", "z"};
 constexpr std::array kComponents = {"x", "y", "z", "w"};
 
-/// Fields of the CSV format `Columns::brief`.
+/// Fields that `Columns::brief` selects.
 constexpr std::array<std::string_view, 19> kBrief = {
     "camera_x_mm",        "camera_y_mm",       "camera_z_mm",        "camera_tilt_deg",
     "camera_azimuth_deg", "camera_turn_deg",   "camera_x_pattern_m", "camera_y_pattern_m",
@@ -41,7 +41,7 @@ OutputPose in_units(Units units, const CameraInSpace& camera, const SpaceCovaria
     return {{up.x_m, up.y_m, up.z_m}, up.rotation, up.covariance};
 }
 
-/// Appends the fields PREFIXxSUFFIX to PREFIXzSUFFIX.
+/// Appends the fields PREFIXxSUFFIX, PREFIXySUFFIX and PREFIXzSUFFIX.
 void append_position(const std::string& prefix, const std::string& suffix, Units units,
                      const OutputPose& pose, std::vector<Field>& fields) {
     for (std::size_t i = 0; i < kAxes.size(); ++i) {
@@ -58,7 +58,7 @@ void append_rotation(const std::string& name, const Quaternion& q, std::vector<F
     }
 }
 
-/// Appends the 36 fields of a covariance. `angle` is the size of a radian in output units.
+/// Appends the 36 fields of a covariance. `angle` is the number of output units per radian.
 void append_covariance(const std::string& name, double angle, const SpaceCovariance& covariance,
                        std::vector<Field>& fields) {
     for (std::size_t i = 0; i < 6; ++i) {
@@ -217,7 +217,7 @@ bool is_brief_space_field(const std::string& name) {
 std::string space_text(const SpacePose& pose, const std::optional<SheetPlace>& place, Units units) {
     const bool is_ros = units == Units::ros;
     const CameraInSpace camera = place ? on_sheet(pose.camera, *place->entry) : pose.camera;
-    const double sign = is_ros ? -1 : 1;  // y and z point in opposite directions in ROS output
+    const double sign = is_ros ? -1 : 1;  // in ROS output, y and z have the opposite sign
     const std::array values = {camera.x_mm, sign * camera.y_mm, sign * camera.z_mm};
     const double per_mm = is_ros ? 1e-3 : 1;
     std::string text = "camera";

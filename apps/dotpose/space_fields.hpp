@@ -20,14 +20,14 @@ std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 const std::optional<SheetPlace>& place, bool has_sheets,
                                 Units units);
 
-/// Returns the fields of the track of a camera in space. The result includes the pose in the world
-/// only if `has_sheets` is true. If `is_in_world` is true, only the pose in the world has values.
-/// Otherwise, only the pose in the pattern frame has values. While the camera is lost, only the
-/// verdict has a value.
+/// Returns the fields of the track of a camera in space: the verdict, the pose in the pattern
+/// frame, the pose in the world (only if `has_sheets` is true), and the velocities. The pose in the
+/// pattern frame is empty if `is_in_world` is true, and the pose in the world is empty otherwise.
+/// While the camera is lost, only the verdict has a value.
 std::vector<Field> space_track_fields(const SpaceTrack& track, bool is_in_world, bool has_sheets,
                                       Units units);
 
-/// Returns true if the CSV format `Columns::brief` contains the field.
+/// Returns true if `Columns::brief` selects the field.
 bool is_brief_space_field(const std::string& name);
 
 /// Returns the position and the angles as text, such as "camera x 65.61 ± 0.002 mm, ...".

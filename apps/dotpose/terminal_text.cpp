@@ -33,7 +33,7 @@ constexpr std::array kBeginnings = {
     Beginning{"verdict", kRed},
 };
 
-/// Returns the line. If it starts with one of kBeginnings, this prefix is coloured.
+/// Returns the line. If it starts with one of kBeginnings, colours this prefix.
 std::string coloured(std::string_view line) {
     for (const Beginning& beginning : kBeginnings) {
         if (!line.starts_with(beginning.text)) continue;

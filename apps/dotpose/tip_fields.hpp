@@ -23,7 +23,7 @@ struct TipRecord {
 std::vector<Field> tip_fields(const TipRecord& record, const std::optional<SheetPlace>& place,
                               bool has_sheets, Units units);
 
-/// Returns true if the CSV format `Columns::brief` contains the field.
+/// Returns true if `Columns::brief` selects the field.
 bool is_brief_tip_field(const std::string& name);
 
 /// Returns the position of the tip as text, such as "tip x 65.61 ± 0.002 mm, ...". The record must

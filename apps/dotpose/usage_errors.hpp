@@ -14,9 +14,9 @@ inline constexpr const char* kHelpCommand = "help";
 /// Otherwise, a misspelt `--out` would be reported as "--out is required".
 std::string usage_error(const Command& app, const UsageError& error);
 
-/// Throws UsageError if an option with a short form is written with a single hyphen: `-out
-/// sheet.pdf` would be parsed as the option `-o` with the file name "ut". `argc` and `argv` are the
-/// arguments of `main`.
+/// Throws UsageError if the long name of an option that also has a short name is written with a
+/// single hyphen. For example, `-out sheet.pdf` would be parsed as the option `-o` with the file
+/// name "ut". `argc` and `argv` are the arguments of `main`.
 void require_two_hyphens(const Command& command, int argc, const char* const* argv);
 
 /// Returns "dotpose COMMAND --help" for the parsed command, or "dotpose --help" if no command was

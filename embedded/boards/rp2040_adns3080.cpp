@@ -5,7 +5,7 @@
 // The sensor sees about 5 x 5 cells. This is enough for a fix only if sheets are known, and even
 // then rarely in a single frame. Add `locator_.set_known(kSheets, OtherSheets::impossible)` to
 // PoseSender, with the regions of your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36
-// -DDOTPOSE_FRAME_HEIGHT_PX=36. A lens must show the pattern at 5 to 6 px per spacing
+// -DDOTPOSE_FRAME_HEIGHT_PX=36. The lens must image the pattern at 5 to 6 px per spacing
 // (docs/hardware.md). Link with pico_stdlib hardware_spi.
 //
 //     ADNS-3080   SCLK   MOSI   MISO   NCS   RESET   NPD   line   TX

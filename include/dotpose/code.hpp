@@ -121,7 +121,8 @@ Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noe
 
 /// Decodes an upright window in which all symbols are correct. Sets `place` only if the window
 /// occurs exactly once in the code. Errors:
-/// - bad_window: not 6 to 32 columns and rows, or fewer than columns * rows symbols.
+/// - bad_window: the number of columns or rows is outside [6, 32], or there are fewer than
+///   columns * rows symbols.
 /// - not_in_code: the code does not contain the window.
 /// - ambiguous: the window occurs at several places. Possible only for `libdots` windows smaller
 ///   than 8 x 8.
@@ -134,9 +135,9 @@ Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexce
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Returns the section in which the column (or row) at `position` has a given roll: `Section::u`
-/// for a column, and `Section::v` for a row. `roll_seen` is the index in the main sequence of the
-/// bit at which this column (or row) crosses row (or column) `cross_position`.
+/// Computes `Section::u` from the column at `position`, or `Section::v` from the row at `position`.
+/// `roll_seen` is the main-sequence index of the bit at which this column (or row) crosses row (or
+/// column) `cross_position`.
 int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

@@ -28,16 +28,15 @@ namespace dotpose {
 
 /// Odds for each code variant of a sheet, given all frames so far.
 ///
-/// Consecutive frames at one place show the same dots with the same defects. They are not
-/// independent, so all of them together have the weight of a single frame. For each variant, a
-/// frame yields a likelihood ratio: the likelihood of its bits in the variant that explains them
-/// best, divided by their likelihood in the given variant. The odds of the given variant are
-/// divided by the mean likelihood ratio of all consecutive frames at one place. A frame is at the
-/// same place as the preceding frames if it is less than 64 cells from the first of them along both
-/// axes.
+/// Consecutive frames at one place show the same dots with the same defects, so they are not
+/// independent. Together, they have the weight of a single frame: the odds of a variant are divided
+/// by the mean of its likelihood ratios in these frames. The likelihood ratio of a variant is the
+/// likelihood of the frame's bits in the variant that explains them best, divided by their
+/// likelihood in this variant. A frame is at the same place as the preceding frames if it is less
+/// than 64 cells from the first of them along both axes.
 class CodeEvidence {
   public:
-    /// log2 of the likelihood or of the odds of each code variant, in units of 2^-8.
+    /// log2 of the likelihood or odds of each code variant, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
     /// Upper limit, as log2, of the odds of the likeliest code variant relative to any other
@@ -67,7 +66,7 @@ class CodeEvidence {
   private:
     LogOdds sum() const;
 
-    LogOdds before_log2_q8_{};  ///< log2 odds from all frames before the newest place
+    LogOdds before_log2_q8_{};  ///< log2 odds from the frames at all earlier places
     /// Sum of the likelihood ratios of all frames at the newest place, for each code variant.
     /// `sum()` uses their mean.
     std::array<float, kCodeVariantCount> factors_here_{};
@@ -84,12 +83,12 @@ struct CodeReading {
     CodeEvidence evidence;                  ///< evidence including this frame
     /// True if a place in another code variant also explains the frame. The members below describe
     /// that place. `Locator::locate_in_any_code` sets the flag only with the status ambiguous_code.
-    /// `Locator::locate_in_code` also sets it in other cases, which its comment lists. If the fix
-    /// is ok, `Fix::p_wrong_log2` does not include the probability that the other place is correct.
+    /// `Locator::locate_in_code` also sets it in other cases (see there). If the fix is ok,
+    /// `Fix::p_wrong_log2` does not include the probability that the other place is correct.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
-    Cell other_cell{};  ///< `Fix::cell` of the other place. Fractions and angle are equal to those
-                        ///< of `fix`
+    Cell other_cell{};  ///< `Fix::cell` of the other place; the fractions and the angle are the
+                        ///< same as in `fix`
     Section other_section{};
 };
 

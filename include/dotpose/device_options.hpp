@@ -57,11 +57,11 @@ struct BlobOptions {
     /// Minimum area of a dot, in pixels. With a value of 1 or less, salt-and-pepper noise is not
     /// removed. [0 to 2^20]
     int min_area_px = 2;
-    /// Minimum mass (summed darkness) of a dot, in 1/256 of the upper quartile of the masses of all
-    /// blobs. Blobs with less mass are noise. [0 to 256]
+    /// Minimum mass (summed darkness) of a dot, in 1/256 of the upper quartile of all blob masses.
+    /// Blobs with less mass are noise. [0 to 256]
     int min_mass_q8 = 64;
-    /// Maximum area of a dot, as a multiple of the upper quartile of the areas of all blobs. Larger
-    /// blobs are graphics. [1 to 1024]
+    /// Maximum area of a dot, as a multiple of the upper quartile of all blob areas. Larger blobs
+    /// are graphics. [1 to 1024]
     int max_area_ratio = 5;
 };
 

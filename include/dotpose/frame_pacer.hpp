@@ -43,7 +43,7 @@ struct PacerOptions {
     bool lost_is_moved = true;
 };
 
-/// The state of motion of the device, determined from the frames so far.
+/// Motion state of the device, determined from the frames so far.
 enum class Motion : std::uint8_t { moving, stationary };
 
 /// Schedules frames. Reduces the frame rate while the device is stationary.
@@ -55,7 +55,7 @@ class FramePacer {
     /// on any monotonic clock. Returns the earliest time for the next frame.
     std::int64_t next_frame_us(const Fix& fix, std::int64_t time_us);
 
-    /// Returns the current state of motion. Initially `moving`.
+    /// Returns the current motion state. Initially `moving`.
     Motion motion() const { return motion_; }
 
   private:
@@ -67,7 +67,7 @@ class FramePacer {
     /// Reference for detecting movement: the result of the newest frame that counted as movement,
     /// with or without a fix. The first frame always counts as movement.
     Fix rest_;
-    std::int64_t rest_since_us_ = 0;  ///< time of the frame of `rest_`
+    std::int64_t rest_since_us_ = 0;  ///< frame time of `rest_`
 };
 
 }  // namespace dotpose

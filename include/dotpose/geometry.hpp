@@ -32,8 +32,8 @@ struct PlaneFromImage {
     FixedVec at_centre_q16;  ///< plane point at `centre`, in 2^-16 spacings
     FixedVec du_q24;  ///< displacement in the plane per pixel to the right, in 2^-24 spacings
     FixedVec dv_q24;  ///< displacement in the plane per pixel down, in 2^-24 spacings
-    FixedVec perspective_q30;   ///< perspective, in 2^-30 / px
-    std::int32_t lens_q40 = 0;  ///< lens distortion, in 2^-40 / px^2
+    FixedVec perspective_q30;   ///< perspective coefficients, in 2^-30 / px
+    std::int32_t lens_q40 = 0;  ///< lens distortion coefficient, in 2^-40 / px^2
 };
 
 }  // namespace dotpose

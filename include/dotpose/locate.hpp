@@ -60,15 +60,14 @@ class RowLocator {
         : workspace_(workspace), options_(options) {}
     ~RowLocator() = default;
 
-    /// Stores the status that `begin` returns, and the number of rows of the frame. Returns
-    /// `status`.
+    /// Stores the status that `begin` returns, and the height of the frame. Returns `status`.
     Status note_begin(Status status, int height_px);
     /// Counts a pushed row. Returns false if all rows of the frame have already been pushed.
     bool takes_row();
     /// Returns true if a frame was begun. Otherwise, sets the status of the fix to the status of
     /// `begin`, or to bad_argument if `begin` was not called.
     bool has_rows();
-    /// Ends the frame. Adds the spacing from the options to its fix, and returns the fix.
+    /// Ends the frame. Sets the spacing of its fix from the options, and returns the fix.
     Fix finished();
 
     core::Workspace* workspace_;
@@ -141,12 +140,12 @@ class Locator : public RowLocator {
     /// previous image was located, first searches near the place that the motion predicts.
     ///
     /// Successive images that are located with a motion form a series, which may include images
-    /// without a pattern. If the position is not certain from this image alone, combines the bits
-    /// of this image with those of the previous images of the series. A moving camera can therefore
-    /// obtain a fix from views that are individually too small or too dirty. `Fix::frames` is the
-    /// number of images whose bits were combined. Locating an image with another function ends the
-    /// series. An unusable motion (see `MeasuredMotion::is_usable`) or an unknown spacing of the
-    /// printed grid also ends the series, and the image is located alone.
+    /// without a pattern. If this image alone does not make the position certain, combines its bits
+    /// with those of the previous images in the series. A moving camera can therefore obtain a fix
+    /// from views that are individually too small or too dirty. `Fix::frames` is the number of
+    /// images whose bits were combined. Locating an image without a motion ends the series. An
+    /// unusable motion (see `MeasuredMotion::is_usable`) or an unknown spacing of the printed grid
+    /// also ends the series, and the image is located without the previous images.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
     /// Locates an image whose code variant is not known. Considers places in all code variants,
@@ -199,9 +198,9 @@ class Locator : public RowLocator {
     Fix locate_one(const ImageView& image, const Prediction* prediction);
     CodeReading read_one(const ImageView& image, const Prediction* prediction,
                          const CodeEvidence& evidence);
-    /// Adds the motion `since_last` to the series, and returns the prediction for the next image.
-    /// Returns nullopt if the previous image was not located. If the motion is not usable or the
-    /// spacing is unknown, ends the series and returns nullopt.
+    /// Adds the motion `since_last` to the series, and returns the prediction for the image that is
+    /// about to be located. Returns nullopt if the previous image was not located. If the motion is
+    /// not usable or the spacing is unknown, ends the series and returns nullopt.
     std::optional<Prediction> begin_motion(const MeasuredMotion& since_last);
     CodeReading finished(CodeReading reading);
     using RowLocator::finished;
@@ -232,7 +231,7 @@ class DeviceLocator : public RowLocator {
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
-    /// Locates the pattern in an image, in the code of the options.
+    /// Locates the pattern in an image, using the code `options().code`.
     Fix locate(const ImageView& image);
     /// Locates the pattern by measuring the dots at their predicted positions. If the image does
     /// not confirm the prediction, locates the image without the prediction.

@@ -1,4 +1,4 @@
-/// OptionFault: finds the option that causes Status::bad_argument.
+/// OptionFault: the option that causes Status::bad_argument, and its valid range.
 #pragma once
 
 #include <cstdint>

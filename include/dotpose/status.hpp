@@ -43,7 +43,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     not_tracked,     ///< the pattern is not where it was predicted
     ambiguous_code,  ///< places of two codes explain the dots about equally well; name the code, or
                      ///< show more dots
-    // Read only from packets.
+    // Occurs only in packets that a newer version of dotpose has sent.
     other = 255,  ///< a newer version of dotpose has added this status
 };
 

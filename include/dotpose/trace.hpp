@@ -36,8 +36,8 @@ struct DetectedDot {
     std::uint16_t area_px = 0;
 };
 
-/// Edge between two seeds that are among the four nearest neighbours of each other. Seeds are the
-/// dots from which the lattice is found.
+/// Edge between two seeds, each of which is among the four nearest neighbours of the other. Seeds
+/// are the dots from which the lattice is found.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
@@ -112,7 +112,8 @@ struct Decoding {
     /// `pattern_from_grid`.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits that were compared with the code at `place`; two per dot
-    /// Upper bounds on the probability that the position is wrong along x and y, as log2 times 256.
+    /// Upper bounds on the probability that the position is wrong along x and along y, as log2 in
+    /// units of 2^-8.
     std::array<int, 2> p_wrong_log2_q8{};
 };
 

@@ -13,7 +13,7 @@
 /// `predict` returns the expected pose in the next frame. examples/follow_robot.cpp shows its use.
 ///
 /// Coordinates: all poses are in the plane of the sightings, which is the pattern frame or, for a
-/// robot that drives from sheet to sheet, the world of a sheet file. Positions are integers in
+/// robot that drives between sheets, the world frame of a sheet file. Positions are integers in
 /// nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary angles, measured
 /// from +x towards +y. 2^31 is half a turn. Velocities are in mm/s along x and y. Angular
 /// velocities are in rad/s.
@@ -225,8 +225,8 @@ class Tracker {
     /// Updates the state with a frame and the motion since the previous update, measured by
     /// odometry. `right_mm` is along the direction theta of the sightings, which is the image x
     /// axis or, with a camera file, the robot's heading. The motion advances the pose, and the
-    /// uncertainty of the motion increases the covariance of the pose. If there is a sighting, it
-    /// then corrects both.
+    /// uncertainty of the motion increases the covariance of the pose. An accepted sighting then
+    /// corrects the pose and reduces its covariance.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 

@@ -1,5 +1,5 @@
-// Implements the geometry of a camera: checks, lens distortion, scale on the paper, crops, and the
-// options of `locate`.
+// Camera geometry: validation, lens distortion, the map from the image to the paper, crops, and
+// locator options.
 #include "dotpose/files/camera.hpp"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ constexpr double kMaxFocal_px = 1e6;
 constexpr double kMinStretch = 0.5;
 constexpr double kMaxStretch = 2;
 
-/// Position along an axis with equidistant points: the index of a point, and the fraction of the
-/// distance to the next point.
+/// Position on an axis of equidistant sample points, for linear interpolation between the two
+/// adjacent points.
 struct Between {
     std::size_t first;  ///< index of the point at or before the position, in [0, `count` - 2]
     double part;        ///< fraction of the distance from this point to the next one, in [0, 1]
@@ -67,7 +67,7 @@ void require_lens(const Camera& camera) {
 }
 
 void require_paper(const PaperScale& paper, const Camera& camera) {
-    // The limits cover everything from microscopes to cameras at the ceiling of a large hall.
+    // The limits cover everything from microscopes to cameras on the ceiling of a large hall.
     const auto is_length = [](double mm) { return mm >= 1e-6 && mm <= 1e3; };
     require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
             "must be from 0.000001 to 1000");
@@ -167,7 +167,8 @@ PixelPoint undistorted(const Camera& camera, PixelPoint pixel) {
 PixelPoint distorted(const Camera& camera, PixelPoint point) {
     const double du = point.u - camera.centre_px.u;
     const double dv = point.v - camera.centre_px.v;
-    // Solves equation 2 of the paper for r_d and takes the root that equals r_u if k is 0.
+    // Solves the lens model (paper, equation 2) for r_d. The equation is quadratic, and the result
+    // is the root that equals r_u if k is 0.
     const double root = std::sqrt(std::max(1 - 4 * camera.k_per_px2 * (du * du + dv * dv), 0.0));
     const double stretch = 2 / (1 + root);
     return {camera.centre_px.u + stretch * du, camera.centre_px.v + stretch * dv};
@@ -282,7 +283,7 @@ void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions
     options.lens = FixedLens::from_k(camera.k_per_px2);
     options.lens.centre_dx_q8 = q8(camera.centre_px.u - middle.u);
     options.lens.centre_dy_q8 = q8(camera.centre_px.v - middle.v);
-    if (camera.paper) options.show_stages = true;  // with_camera needs the dots of the trace
+    if (camera.paper) options.show_stages = true;  // with_camera needs the dots in the trace
     if (camera.reference_px) {
         options.reference_dx_q8 = q8(camera.reference_px->u - middle.u);
         options.reference_dy_q8 = q8(camera.reference_px->v - middle.v);

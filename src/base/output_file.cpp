@@ -79,8 +79,8 @@ void OutputFile::commit() {
     require_good();
     std::FILE* stream = stream_;
     stream_ = nullptr;
-    // Checks the result of fclose, because network file systems report a full disk only when the
-    // file is closed.
+    // Checks the result of fclose, because some network file systems report a full disk only when
+    // the file is closed.
     std::error_code error;
     if (std::fclose(stream) != 0) {
         error.assign(errno, std::generic_category());

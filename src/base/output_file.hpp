@@ -1,5 +1,5 @@
-/// Writes a file incrementally. A failed write never leaves an incomplete file under the name of
-/// the target. To write a whole text in one call, use write_file.hpp.
+/// Writes a file incrementally. A failed write never leaves an incomplete file under the target's
+/// name. To write a whole text in one call, use write_file.hpp.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
-/// Writes to a temporary file in the folder of the target. `commit` renames the temporary file to
-/// the target. Without `commit`, the destructor removes the temporary file. Follows symbolic links
-/// and keeps the mode of an existing target.
+/// Writes to a temporary file in the target's folder. `commit` renames the temporary file to the
+/// target. Without `commit`, the destructor removes the temporary file. Follows symbolic links and
+/// keeps the mode of an existing target.
 class OutputFile : public ByteSink {
   public:
     /// Creates the temporary file. Throws Error if this fails or if the target is not a regular

@@ -9,9 +9,9 @@ namespace dotpose {
 
 /// PlaneFromImage in double precision:
 ///
-///   place = at_centre + (du q_u + dv q_v) / (1 + perspective . q + lens q^2)
+///   plane = at_centre + (du q_u + dv q_v) / (1 + perspective . q + lens q^2)
 ///
-/// where q = pixel - centre_px. Places are in spacings.
+/// where q = pixel - centre_px. The plane point is in spacings.
 struct PlaneMap {
     using Vector = std::array<double, 2>;
 

@@ -22,9 +22,10 @@ void validate_paper(double width_mm, double height_mm);
 /// section is invalid.
 void validate_pattern(const Pattern& pattern);
 
-/// Throws BadArgument unless `count` rows or columns, beginning with `first`, are enough for a
-/// sheet and are inside the code plane. `what` and `axis` name the rows or columns in messages.
-/// `count` is a double because it is checked before it is converted to an integer.
+/// Checks a range of `count` rows or columns that begins at position `first`. Throws BadArgument if
+/// the range is too small for a sheet, or extends beyond the code plane. `what` and `axis` name the
+/// rows or columns in the message. `count` is a double because it is checked before it is converted
+/// to an integer.
 void validate_region(const char* what, char axis, std::uint32_t first, double count);
 
 }  // namespace dotpose::base

@@ -23,8 +23,8 @@ struct Offset {
     double y = 0;
 };
 
-/// Returns the position of a fix relative to a sheet. Returns an empty optional if their sections
-/// differ.
+/// Returns the position of a fix relative to a sheet. Returns nullopt if the fix is not in the
+/// section of the sheet.
 std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
     const std::int32_t dx = steps(sheet.origin.x, fix.cell.x);
     const std::int32_t dy = steps(sheet.origin.y, fix.cell.y);
@@ -45,7 +45,7 @@ double wrapped(double angle_rad) {
     return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// Scales a pose covariance: multiplies each coordinate by its factor.
+/// Returns the pose covariance after multiplying the pose coordinates by `factors`.
 PoseCovariance scaled(const auto& covariance, const std::array<double, 3>& factors) {
     PoseCovariance result{};
     for (std::size_t i = 0; i < 3; ++i) {

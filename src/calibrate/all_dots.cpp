@@ -8,21 +8,21 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Maximum distance between a dot and its expected place: kReach_sigmas standard deviations of the
-/// fit, clamped to [kMinReach, kMaxReach] spacings. The limit exceeds the errors of the print and
-/// of the fit. It is smaller than the distance to any other dot, which is at least 2/3 of a
-/// spacing. The subsequent fit rejects outliers.
+/// Maximum distance between a dot and its expected position: kReach_sigmas times the rms residual
+/// of the fit, clamped to [kMinReach, kMaxReach] spacings. The limit exceeds the errors of the
+/// print and of the fit. It is smaller than the distance to any other dot, which is at least 2/3 of
+/// a spacing. The subsequent fit rejects outliers.
 constexpr double kReach_sigmas = 6;
 constexpr double kMinReach = 0.1;
 constexpr double kMaxReach = 1.0 / 3;
 
 struct Candidate {
-    double off;  ///< distance from the expected place, in spacings
+    double off;  ///< distance from the expected position, in spacings
     LocatedDot dot;
 };
 
 /// Returns the candidate that assigns the blob at `pixel` to the nearest intersection. (`x`, `y`)
-/// is the place of the blob on the paper, in spacings from `start`.
+/// is the position of the blob on the paper, in spacings from `start`.
 Candidate candidate(PixelPoint pixel, const Place& start, double x, double y, double displacement,
                     CodeVariant code) {
     const FixedVec step{static_cast<std::int32_t>(std::lround(x)),

@@ -7,7 +7,7 @@
 
 namespace dotpose::calibrate {
 
-/// Replaces the dots that `locate` read with all blobs at the places where `fit` predicts a dot.
+/// Replaces the dots that `locate` read with all blobs at positions where `fit` predicts a dot.
 /// Keeps the dots of a frame if fewer than half as many blobs are found.
 ///
 /// `locate` reads only the dots that a pose needs. In the corners of the image of a slightly tilted

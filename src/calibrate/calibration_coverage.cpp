@@ -11,8 +11,8 @@
 namespace dotpose {
 namespace {
 
-/// Boundaries of 3 x 3 regions, in columns and rows of ImageCoverage. The advice to the user names
-/// these regions: corners, edges and the middle.
+/// Boundaries of the 3 x 3 regions, in columns and rows of ImageCoverage. The advice to the user
+/// names these regions: corners, edges and the middle.
 constexpr std::array kRegionColumns = {0, 4, 8, ImageCoverage::kColumns};
 constexpr std::array kRegionRows = {0, 3, 5, ImageCoverage::kRows};
 constexpr std::size_t kRegions = 3;

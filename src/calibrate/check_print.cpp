@@ -180,9 +180,9 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If more than kSuspicious of the bits of a field disagree with the code, checks whether the page
-/// has a different code variant. If so, the wrong variant is reported instead of all other
-/// findings, because it causes them.
+/// If more than a fraction kSuspicious of the bits of a field disagrees with the code, checks
+/// whether the page uses a different code variant. If it does, reports only the wrong variant,
+/// because it causes all other findings.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;

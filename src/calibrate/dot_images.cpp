@@ -24,7 +24,7 @@ constexpr double kDotRadius = 1.0 / 12;
 /// Radius of the image region in which a dot is fitted, in spacings. The nearest dots are at least
 /// 2/3 of a spacing away.
 constexpr double kFitRadius = 0.36;
-/// Maximum distance of a dot from its expected place, in spacings.
+/// Maximum distance of a dot from its expected position, in spacings.
 constexpr double kMaxOffset = 0.25;
 constexpr int kPasses = 4;
 /// Initial value of the variance that blur and the area of a pixel add to the image of a dot, in
@@ -32,11 +32,12 @@ constexpr int kPasses = 4;
 constexpr double kUsualBlur_px2 = 0.5;
 constexpr double kMinBlur_px2 = 0.1;
 constexpr double kMaxBlur_px2 = 4;
-/// Minimum contrast of a dot relative to the median of all dots.
+/// Minimum contrast of a dot, relative to the median contrast of all dots.
 constexpr double kMinContrast = 0.4;
 
 /// Model of the image of a dot: level - contrast * exp(-d^T shape^-1 d / 2). d is the vector from
-/// the centre, in px. shape is the covariance of the dot and the blur in the image (see sums_of).
+/// the centre, in px. shape is the covariance of the dot plus that of the blur, in px^2 (see
+/// sums_of).
 struct DotImage {
     double contrast = 0;
     double level = 0;
@@ -138,7 +139,7 @@ DotSums sums_of(const ImageView& image, const ExpectedDot& expected, const DotIm
 }
 
 /// Returns the first estimate of a dot, from the darkest and the lightest pixel near the expected
-/// place.
+/// position.
 DotImage first_image(const ImageView& image, const ExpectedDot& expected) {
     DotImage dot;
     dot.centre = expected.pixel;

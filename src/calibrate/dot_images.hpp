@@ -15,12 +15,12 @@ namespace dotpose::calibrate {
 /// A dot that the code predicts in an image.
 struct ExpectedDot {
     Eigen::Vector2d pixel;
-    /// Derivative of the pixel with respect to the place on the paper, per spacing.
+    /// Derivative of the pixel with respect to the position on the paper, in px per spacing.
     Eigen::Matrix2d px_per_spacing;
 };
 
-/// Minimum spacing in the image, in px, along the direction of the smallest spacing. At smaller
-/// spacings, the images of neighbouring dots overlap.
+/// Minimum spacing in the image, in px, measured in the direction in which it is smallest. At
+/// smaller spacings, the images of neighbouring dots overlap.
 inline constexpr double kMinSpacing_px = 4;
 
 /// Returns true if a dot is entirely inside the image and its spacing is at least kMinSpacing_px.

@@ -20,7 +20,7 @@ Vector2d vector_of(PixelPoint point) {
     return {point.u, point.v};
 }
 
-/// Returns the distorted pixel of a place on the paper, which must be in front of the camera.
+/// Returns the distorted pixel of a point on the paper. The point must be in front of the camera.
 Vector2d pixel_of(const PatternView& view, const SpaceState& state, const Vector2d& place_mm) {
     const Vector3d seen =
         state.rotation.transpose() * (Vector3d(place_mm.x(), place_mm.y(), 0) - state.position_mm);
@@ -43,8 +43,8 @@ struct Cells {
     FixedVec last{INT32_MIN, INT32_MIN};
 
     void add(double x, double y) {
-        // The margin includes dots that are displaced into the image. It also includes cells where
-        // the curved outline of the image on the paper bulges between the sampled points.
+        // The margin covers dots that are displaced into the image. It also covers cells between
+        // the sampled border points, where the border of the image is curved outwards on the paper.
         constexpr int kMargin = 2;
         const auto i = static_cast<std::int32_t>(std::lround(x));
         const auto j = static_cast<std::int32_t>(std::lround(y));
@@ -80,7 +80,7 @@ Cells cells_in_view(const PatternView& view, const SpaceState& state) {
     return cells;
 }
 
-/// A dot of the code, with its expected image.
+/// A dot of the code and its expected image.
 struct CodedDot {
     CodeDot dot;
     ExpectedDot expected;
@@ -181,7 +181,7 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
     }
     if (read.size() < kMinDots) return std::nullopt;
     const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
-    // Maximum number of dots in the first fit. This fit only needs to predict the places of all
+    // Maximum number of dots in the first fit. This fit only needs to predict the positions of all
     // dots.
     constexpr std::size_t kPart = 300;
     std::vector<SpaceDot> part;
@@ -191,7 +191,7 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
     if (!first) return std::nullopt;
     const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
     // If `dots_in_view` measures fewer than half as many dots as `locate` read, the dots are too
-    // small in the image. In this case, the fit uses the dots of `locate`.
+    // small in the image. In this case, the fit uses the dots read by `locate`.
     return fit_space(2 * all.size() < read.size() ? read : all, focal_px);
 }
 

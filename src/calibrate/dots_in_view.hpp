@@ -33,7 +33,7 @@ struct CodeDot {
 /// has a map in which the dot has no views.
 std::optional<CodeDot> code_dot(const PatternView& view, const Trace& trace, FixedVec step);
 
-/// Returns the place of a dot on the paper, together with the undistorted pixel at which it was
+/// Returns the position of a dot on the paper, together with the undistorted pixel at which it was
 /// seen.
 SpaceDot space_dot(const PatternView& view, const CodeDot& dot, PixelPoint undistorted);
 
@@ -43,8 +43,8 @@ std::vector<SpaceDot> dots_in_view(const ImageView& image, const PatternView& vi
                                    const Trace& trace, const SpaceState& state);
 
 /// Fits the pose to the dots in the trace, measures all dots that this pose predicts, and fits the
-/// pose again. Places are in mm from `trace.decoding.place`. Returns nullopt if the trace has fewer
-/// than 12 dots.
+/// pose again. Positions on the paper are in mm from `trace.decoding.place`. Returns nullopt if the
+/// trace has fewer than 12 dots.
 std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& view,
                                      const Trace& trace);
 

@@ -7,7 +7,7 @@
 
 namespace dotpose::calibrate {
 
-/// Map from a pixel to a place: at + linear q / (1 + perspective . q + lens q^2), where
+/// Map from a pixel to a position: at + linear q / (1 + perspective . q + lens q^2), where
 /// q = pixel - centre_px.
 struct FixPlane {
     FixPlane() = default;
@@ -20,7 +20,7 @@ struct FixPlane {
         lens = map.lens;
     }
 
-    /// Returns the place of a pixel, given relative to centre_px.
+    /// Returns the position to which the pixel centre_px + q is mapped.
     Eigen::Vector2d place(const Eigen::Vector2d& q) const {
         return at + linear * q / (1 + perspective.dot(q) + lens * q.squaredNorm());
     }

@@ -37,7 +37,7 @@ class NormalEquations {
 /// The scales of the rows may differ by orders of magnitude.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& symmetric);
 
-/// Returns the lower triangular matrix that transforms errors with this covariance to independent
+/// Returns the lower triangular matrix that transforms errors with this covariance into independent
 /// errors of variance 1.
 Eigen::MatrixXd whitening_of(const Eigen::MatrixXd& covariance);
 

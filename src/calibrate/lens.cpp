@@ -26,8 +26,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Maximum distance between the places of two frames, in spacings. Closer frames are considered
-/// views of the same dots.
+/// Maximum distance between two frames on the sheet, in spacings, for which the frames are treated
+/// as views of the same dots.
 constexpr double kSamePlace = 1.5;
 
 /// Reads the frames given to `calibrate_lens`. Rejects frames of different sizes and detects
@@ -77,9 +77,9 @@ class Series {
     std::vector<std::uint64_t> hashes_;
 };
 
-/// Returns the decrease of a frame's sum of squared residuals if the frame is fitted with its own
-/// scale, shear and perspective. The decrease is divided by the variance of the residuals. If all
-/// frames have the same view, the expected value is 5, the number of these parameters.
+/// Returns by how much a frame's sum of squared residuals decreases, in units of the residual
+/// variance, if the frame is fitted with its own scale, shear and perspective. If height and tilt
+/// are the same in all frames, the expected value is 5, the number of these parameters.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,
@@ -90,8 +90,8 @@ double gain_of_own_view(const LocatedFrame& frame,
         if (is_outlier[k]) continue;
         const double a = (frame.dots[k].pixel.u - (setting.width_px - 1) / 2.0) / reach_px;
         const double b = (frame.dots[k].pixel.v - (setting.height_px - 1) / 2.0) / reach_px;
-        // To first order, the parameters are place (2), rotation, scale, shear (2) and perspective
-        // (2).
+        // To first order, the parameters are position (2), rotation, scale, shear (2) and
+        // perspective (2).
         equations.add(std::array{1.0, 0.0, -b, a, a, b, a * a, a * b}, residuals[k][0]);
         equations.add(std::array{0.0, 1.0, a, b, -b, a, a * b, b * b}, residuals[k][1]);
     }
@@ -154,7 +154,7 @@ Camera camera_of(const LensFit& fit, const FitSetting& setting) {
     return camera;
 }
 
-/// Returns true if the places of all frames are within kSamePlace of the first place.
+/// Returns true if all frames are within kSamePlace of the first frame on the sheet.
 bool is_same_place(const std::vector<LocatedFrame>& located, const LensFit& fit,
                    double spacing_mm) {
     for (std::size_t i = 1; i < located.size(); ++i) {
@@ -204,7 +204,7 @@ void judge(bool is_same, LensCalibration& result) {
     }
 }
 
-/// Sets residuals, counts, scale, dots and coverage of the calibration.
+/// Sets the residuals, counts, scale, dots and coverage of the calibration.
 void describe(const std::vector<LocatedFrame>& located, const Fits& fits, LensCalibration& result) {
     result.is_mounted = fits.after.stand != Stand::by_hand;
     result.residual_before_px = fits.before.residual_px;

@@ -16,11 +16,11 @@ constexpr int kLensRounds = 3;
 constexpr double kOutlier_sigmas = 4;
 /// Assumed standard deviation of the residuals before the first fit.
 constexpr double kFirstSigma_px = 0.3;
-/// Priors of the camera. The distortion centre is within about 5 % of the image diagonal from the
-/// image centre, the field of view is about 55 degrees, and pixels are square to within 2 %. The
-/// priors only matter for parameters that the frames do not determine: the centre of a lens without
-/// distortion, the focal length without tilt, and the shape of the pixels if the tilt never
-/// changes.
+/// Priors of the camera: the distortion centre is near the image centre (standard deviation 5 % of
+/// the image diagonal), the field of view is about 55 degrees, and pixels are square to within 2 %.
+/// The priors only matter for parameters that the frames do not determine: the distortion centre if
+/// there is no distortion, the focal length if the camera is not tilted, and the shape of the
+/// pixels if the tilt never changes.
 constexpr double kCentrePrior = 0.1;  // in units of half the image diagonal
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
@@ -42,7 +42,7 @@ struct Seen {
     std::array<T, 2> undistorted(const T* lens) const {
         const T x = u - lens[1] / reach_px;
         const T y = v - lens[2] / reach_px;
-        const T stretch = reach_px / (1.0 + lens[0] * (x * x + y * y));  // equation 2
+        const T stretch = reach_px / (1.0 + lens[0] * (x * x + y * y));  // paper, equation 2
         return {stretch * x, stretch * y};
     }
     /// Returns the printed position of the dot in the coordinate frame of the pose, in mm.
@@ -83,7 +83,7 @@ struct MountedResidual {
 };
 
 /// Residual of a hand-held camera: the difference between the measured and the printed position of
-/// a dot, in px. The camera model is the model of simulate.hpp, extended by non-square pixels.
+/// a dot, in px. The camera model is that of simulate.hpp, extended to non-square pixels.
 struct HandheldResidual {
     Seen seen;
 
@@ -155,7 +155,7 @@ Seen seen_of(const LocatedDot& dot, const LocatedFrame& frame, const FitSetting&
 }
 
 /// Returns the initial pose of a frame, which is the best-fitting similarity transform from
-/// undistorted px to mm. The elements are place, rotation, mm per px, and two tilts of 0.
+/// undistorted px to mm. The elements are position (2), rotation, mm per px, and two tilts of 0.
 std::array<double, 6> first_pose(const LocatedFrame& frame, const FitSetting& setting,
                                  const SharedModel& camera) {
     using Complex = std::complex<double>;

@@ -18,7 +18,7 @@ enum class Stand {
 };
 
 /// Parameters that all frames share. The value of `Stand` determines which parameters are fitted.
-/// Lengths in the image are in px from the image centre. `reach` is half the diagonal of the image.
+/// Image positions are in px from the image centre. `reach` is half the diagonal of the image.
 struct SharedModel {
     std::array<double, 3> lens{};  ///< k reach^2, and the distortion centre in px
     /// Members of PaperScale, with the perspective multiplied by `reach`.
@@ -54,12 +54,12 @@ struct FitSetting {
     double reach_px() const;
 };
 
-/// Fits the camera and the poses. Starts from `start` unless it is null. Excludes dots with
+/// Fits the camera and the poses. Starts from `start` if it is not null. Excludes dots with
 /// residuals above four standard deviations.
 LensFit fit_lens(const std::vector<LocatedFrame>& frames, const FitSetting& setting, Stand stand,
                  const LensFit* start = nullptr);
 
-/// Returns the place on the paper that the fit assigns to a pixel of a frame, in mm from
+/// Returns the position on the paper that the fit assigns to a pixel of a frame, in mm from
 /// `LocatedFrame::place`.
 std::array<double, 2> place_on_paper(const LensFit& fit, std::size_t frame, PixelPoint pixel,
                                      const FitSetting& setting);

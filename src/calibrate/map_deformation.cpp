@@ -21,8 +21,8 @@ constexpr std::size_t kMaxNodes = 800;
 constexpr int kNodeTerms = 3;
 using NodeBlock = Eigen::Matrix<double, kNodeTerms, kNodeTerms>;
 
-/// Returns the derivatives of the offset of a dot with respect to the terms of a node with weight
-/// 1.
+/// Returns the derivatives of a dot's offset with respect to the terms of a node, for an
+/// interpolation weight of 1.
 Eigen::Matrix<double, 2, kNodeTerms> offset_terms(const MapGrid& grid, std::size_t dot) {
     const auto& [dx, dy] = grid.directions[dot];
     Eigen::Matrix<double, 2, kNodeTerms> terms;
@@ -156,8 +156,8 @@ void MapDeformation::add_dots(const MapGrid& grid, const EarlierOffsets& earlier
 }
 
 void MapDeformation::add_smoothness(const MapField& field, MatrixXd& matrix) const {
-    // A difference depends on at most 4 nodes of the field, and each node of the field depends on 4
-    // coarse nodes.
+    // A second difference depends on at most 4 nodes of the field, and each node of the field
+    // depends on 4 coarse nodes.
     field.for_each_difference([&](const auto& fine, const auto& coefficients) {
         std::array<std::pair<Eigen::Index, double>, 16> terms;
         std::size_t count = 0;
@@ -206,7 +206,8 @@ void MapDeformation::add_solution(const MapUnknowns& residual, MapUnknowns& resu
 
 Eigen::Matrix3d MapDeformation::covariance_of(
     const Eigen::Matrix<double, 3, Eigen::Dynamic>& functions) const {
-    // The matrix of the equations is L L^T, so the covariance is the square of L^-1 functions^T.
+    // The matrix of the equations is L L^T, so the covariance is half^T half, where half = L^-1
+    // functions^T.
     const Eigen::Matrix<double, Eigen::Dynamic, 3> half =
         equations_.matrixL().solve(functions.transpose());
     return half.transpose() * half;

@@ -19,9 +19,9 @@ namespace dotpose::calibrate {
 
 /// The equations for slow deformations. A deformation consists of shifts along x and y, and of a
 /// change of the displacement of the dots. These three values are interpolated bilinearly between
-/// coarse nodes and determine all unknowns. The field is equal to the shifts. The offset of a dot
-/// is the shift plus the change of its displacement. The terms of a frame are the least-squares fit
-/// to the offsets of its dots.
+/// coarse nodes. They determine all unknowns of the map: the field is equal to the shifts, the
+/// offset of a dot is the shift plus the change of its displacement, and the terms of a frame are a
+/// least-squares fit to the offsets of its dots.
 class MapDeformation {
   public:
     MapDeformation(const MapGrid& grid, const EarlierOffsets& earlier,
@@ -44,14 +44,14 @@ class MapDeformation {
   private:
     using Following = Eigen::Matrix<float, kFrameTerms, Eigen::Dynamic>;
 
-    /// Response of a frame to a deformation: the terms of the frame for a unit value at each coarse
-    /// node around its dots.
+    /// Response of a frame to a deformation: the terms of the frame for a unit value of each
+    /// unknown of the coarse nodes around its dots.
     struct Follower {
         std::vector<std::uint32_t> nodes;
-        Following terms;  ///< columns: shifts and displacement of each node
+        Following terms;  ///< columns: shift x, shift y and displacement of each node
     };
-    /// Response of a frame, and the contribution of the frame to the matrix. The rows of the
-    /// contribution belong to the nodes of the response.
+    /// Response of a frame, and its contribution to the matrix. The rows and columns of the
+    /// contribution are in the order of the nodes of the response.
     struct FrameEquations {
         Follower follower;
         Eigen::MatrixXd matrix;

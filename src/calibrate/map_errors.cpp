@@ -21,7 +21,7 @@ using SimilarityBlock = Eigen::Matrix<double, kSimilarityTerms, kSimilarityTerms
 /// Derivatives of the terms of a similarity with respect to the shifts of all coarse nodes.
 using SimilarityRows = Eigen::Matrix<double, kSimilarityTerms, Eigen::Dynamic>;
 
-/// Returns the derivatives of a shift at a place with respect to the terms of a similarity.
+/// Returns the derivatives of the shift at a point with respect to the terms of a similarity.
 Eigen::Matrix<double, 2, kSimilarityTerms> shift_terms(const Vector2d& from_centre) {
     Eigen::Matrix<double, 2, kSimilarityTerms> terms;
     terms << 1, 0, -from_centre.y(), from_centre.x(),  //
@@ -64,7 +64,7 @@ Vector2d middle_of(const MapGrid& grid) {
 }
 
 /// Returns the similarity fitted to all dots that were seen, as a linear function of the shifts of
-/// the nodes. This similarity is not part of the map.
+/// the nodes. If the gauge is fixed, the map does not contain this similarity.
 SimilarityRows page_similarity(const MapGrid& grid, const MapSolution& solution,
                                const MapDeformation& deformation) {
     SimilarityOfShifts fit(deformation, grid, middle_of(grid));
@@ -95,7 +95,8 @@ SimilarityRows view_similarity(const MapGrid& grid, double reach_mm, const Vecto
     return fit.rows();
 }
 
-/// Returns an empty grid with about kTypicalNodes nodes, at nearly equal distances along both axes.
+/// Returns a grid over the page with about kTypicalNodes nodes, or fewer if views are large. The
+/// distances between nodes are nearly equal along both axes. The covariances are not computed yet.
 MapErrorGrid grid_over(const MapGrid& grid, double reach_mm) {
     constexpr double kTypicalNodes = 200;
     const Vector2d size = 2 * middle_of(grid);

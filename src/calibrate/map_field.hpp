@@ -18,8 +18,8 @@ class MapField {
     };
 
     MapField() = default;
-    /// Creates a field with the value 0 for a page with `columns` x `rows` dots at a distance of
-    /// `pitch_mm`.
+    /// Creates a field with the value 0 for a page of `columns` x `rows` dots that are `pitch_mm`
+    /// apart.
     MapField(int columns, int rows, double pitch_mm);
 
     Around around(int column, int row) const;
@@ -35,15 +35,15 @@ class MapField {
     /// Adds the diagonal of the matrix of the smoothness prior to `diagonal`.
     void add_prior_diagonal(std::vector<double>& diagonal) const;
 
-    /// Returns a field with the value 0, with at most `max_nodes` nodes, that covers all nodes of
-    /// this field.
+    /// Returns a field with the value 0 and at most `max_nodes` nodes that covers all nodes of this
+    /// field.
     MapField coarser(std::size_t max_nodes) const;
     /// Returns, for each node of this field, the nodes of a coarser field that surround it.
     std::vector<Around> nodes_in(const MapField& coarse) const;
 
-    /// Prior standard deviation of the second differences of adjacent nodes, in mm. The value is
-    /// approximately the maximum second difference of a feed wave with an amplitude of 40 µm and a
-    /// wavelength of 50 mm.
+    /// Prior standard deviation of the second differences between adjacent nodes, in mm. The value
+    /// is approximately the maximum second difference of a feed wave with an amplitude of 40 µm and
+    /// a wavelength of 50 mm.
     static constexpr double kDifference_mm = 0.016;
     /// Weight of a squared second difference.
     static constexpr double kDifferenceWeight = 1 / (kDifference_mm * kDifference_mm);
@@ -54,7 +54,7 @@ class MapField {
     void for_each_difference(Use use) const;
 
   private:
-    int cells_ = 1;  ///< number of cells between nodes
+    int cells_ = 1;  ///< number of cells between adjacent nodes
     int columns_ = 0;
     int rows_ = 0;
     std::vector<Eigen::Vector2d> values_;

@@ -1,4 +1,4 @@
-// The residuals of the observations of a frame, and their derivatives.
+// The residuals of a frame's observations, and their derivatives.
 #pragma once
 
 #include <cmath>
@@ -18,25 +18,24 @@ class MapView {
 
     const Eigen::Matrix2d& page_from_camera() const { return rotation_; }
 
-    /// Returns the observed place of a dot minus the place expected from the pose and the
-    /// displacement of the frame. The view terms and the offset of the dot are not taken into
-    /// account.
+    /// Returns the observed position of a dot minus the position expected from the pose and the
+    /// displacement of the frame. Ignores the view terms and the offset of the dot.
     Eigen::Vector2d residual(const MapObservation& seen) const {
         const Eigen::Vector2d target = grid_.place_mm(seen.index(), frame_.displacement_mm);
         return Eigen::Vector2d(seen.x_mm, seen.y_mm) -
                rotation_.transpose() * (target - frame_.place_mm);
     }
 
-    /// Place of an observation, in units of the reach, and direction of the displacement of its
-    /// dot. The derivatives of the residual are functions of the place and the direction.
+    /// Position (x, y) of an observation, in units of the reach, and the direction in which its dot
+    /// is displaced. The derivatives of the residual depend only on these values.
     struct Terms {
         double x;
         double y;
         Eigen::Vector2d direction;
 
         /// Returns the change of the residual for changes of the parameters. `frame` contains the
-        /// changes of place, angle and displacement. `shared` is the sum of the view terms of the
-        /// frame and the terms of the camera.
+        /// changes of position, angle and displacement. `shared` is the sum of the view terms of
+        /// the frame and the terms of the camera.
         Eigen::Vector2d change(const FrameVector& frame, const CameraVector& shared) const {
             const double scale =
                 shared[0] + shared[3] * x + shared[4] * y + shared[5] * (x * x + y * y);
@@ -45,7 +44,7 @@ class MapView {
                     frame[1] + frame[2] * x + y * (scale - shared[1]) + x * shared[2] -
                         frame[3] * direction.y()};
         }
-        /// Multiplies the transposed derivatives by `g`, and adds the elements for the frame to
+        /// Multiplies the transposed derivatives by `g`. Adds the elements for the frame to
         /// `frame`, and the element for the lens distortion to `distortion`.
         void add_transposed(const Eigen::Vector2d& g, FrameVector& frame,
                             double& distortion) const {

@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Number of linearisations. After each of them, the variances are estimated and the outliers are
-/// marked again.
+/// Number of linearisations. After each linearisation, the variances are estimated and the outliers
+/// are marked again.
 constexpr int kRounds = 3;
 /// Conjugate gradients stop when the mean square of the preconditioned residual is at most this
 /// value, in units of the variance of an unknown. Smaller values do not change the errors of the
@@ -40,12 +40,12 @@ constexpr double kFirstJitter = 0.02;
 
 /// Statistics of the residuals of all frames, given the offsets and views of a solution.
 struct Statistics {
-    double squares = 0;  ///< sum over the observations that are not outliers
+    double squares = 0;  ///< sum of the squared residuals without outliers
     std::array<double, kViewTerms> view_sigma{};
 };
 
-/// View terms of a frame, estimated from this frame alone with all other unknowns fixed, and their
-/// variances.
+/// View terms of a frame and their variances, from a fit of the frame terms to this frame only. All
+/// unknowns that do not belong to the frame are fixed.
 struct FreeView {
     Eigen::Matrix<double, kViewTerms, 1> terms;
     Eigen::Matrix<double, kViewTerms, 1> variance;
@@ -98,8 +98,8 @@ double typical_square(const std::vector<float>& squares) {
     return upper_median(std::move(samples));
 }
 
-/// Computes the squared residuals of a frame, and adds the residuals that are not outliers to
-/// `sum`. Returns the view terms estimated from this frame alone.
+/// Computes the squared residuals of a frame, and adds the squares that are not outliers to `sum`.
+/// Returns the view terms fitted to this frame only.
 FreeView measure_frame(const MapGrid& grid, const MapSolution& solution, const MapFrame& frame,
                        const std::vector<MapObservation>& observations, std::vector<float>& squares,
                        double& sum) {
@@ -176,10 +176,10 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
 }
 
 /// Removes the mean offset, scale and turn of the seen dots from the offsets, because views of the
-/// page do not determine them. Applies the inverse similarity to the complete places of the dots
-/// and not only to their nominal places, because the offsets and the displacements of the code turn
-/// with the page. For example, a turn by 0.003 rad changes the offsets of a feed wave of 40 µm by
-/// 0.13 µm, and the place of a dot that is displaced by 85 µm by 0.26 µm.
+/// page do not determine them. Applies the inverse similarity to the complete positions of the
+/// dots, not only to their intersections, because offsets and displacements turn with the page. For
+/// example, a turn by 0.003 rad changes the 40 µm offsets of a feed wave by 0.13 µm, and moves a
+/// dot that is displaced by 85 µm by 0.26 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;

@@ -16,8 +16,8 @@
 
 namespace dotpose::calibrate {
 
-/// Observation of a dot in one frame: the index of the dot on the page, and its place on the paper
-/// in mm, in the camera frame.
+/// Observation of a dot in one frame: the index of the dot on the page, and its position on the
+/// paper in mm, in the camera frame.
 struct MapObservation {
     /// Bit that marks an observation as an outlier. Outliers are not used.
     static constexpr std::uint32_t kOutlier = 1U << 31;
@@ -29,12 +29,13 @@ struct MapObservation {
     std::uint32_t index() const { return dot & ~kOutlier; }
 };
 
-/// Number of view terms: scale, two shears and two perspectives. The values of these terms may
-/// differ between frames.
+/// Number of view terms: scale, two shear terms and two perspective terms. Their values may differ
+/// between frames.
 inline constexpr int kViewTerms = 5;
 /// Number of terms that all frames share: the view terms and the lens distortion.
 inline constexpr int kCameraTerms = kViewTerms + 1;
-/// Parameters of a frame: place (2), angle, displacement of the dots, and the view terms.
+/// Number of parameters of a frame: position (2), angle, displacement of the dots, and the view
+/// terms.
 inline constexpr int kFrameTerms = 4 + kViewTerms;
 using FrameVector = Eigen::Matrix<double, kFrameTerms, 1>;
 using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
@@ -68,7 +69,7 @@ struct MapGrid {
         const auto [column, row] = cell_of(dot);
         return {pitch_mm.x() * column, pitch_mm.y() * row};
     }
-    /// Returns the place of a dot without its offset: the intersection plus the displacement.
+    /// Returns the position of a dot without its offset: the intersection plus the displacement.
     Eigen::Vector2d place_mm(std::size_t dot, double displacement_mm) const {
         return place_mm(dot) +
                displacement_mm * Eigen::Vector2d(directions[dot][0], directions[dot][1]);
@@ -94,7 +95,7 @@ struct MapSolution {
     std::vector<MapFrame> frames;
     CameraVector camera = CameraVector::Zero();  ///< terms that all frames share
     double reach_mm = 1;                         ///< unit of lengths in the view terms
-    MapField field;                              ///< mean offset around each place
+    MapField field;                              ///< slowly varying part of the offsets
     std::vector<Eigen::Vector2f> offset_mm;      ///< offset of each dot
     std::vector<std::uint32_t> views;            ///< number of views of each dot
     double noise_mm = 0;                         ///< see MapPage::noise
@@ -103,11 +104,10 @@ struct MapSolution {
     std::array<double, kViewTerms> view_sigma{};
     MapErrorGrid errors;
     std::size_t outliers = 0;
-    int iterations = 0;  ///< iterations of conjugate gradients in all rounds
+    int iterations = 0;  ///< conjugate gradient iterations of all rounds
 };
 
-/// Called after each step of the work with the completed fraction of the work. May throw to cancel
-/// the work.
+/// Called after each step with the completed fraction of the work. May throw to cancel the work.
 using MapProgress = std::function<void(double share)>;
 
 /// Computes the offsets of the dots, refines the poses of the frames, and marks outliers.

@@ -20,13 +20,13 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// Returns the place in mm of an observation whose coordinates are still in px.
+/// Returns the position in mm of an observation whose coordinates are still in px.
 Vector2d place_of(const FixPlane& view, const MapObservation& seen) {
     return view.place(Vector2d(double(seen.x_mm), double(seen.y_mm)) - view.centre_px);
 }
 
-/// Returns the view of a frame in mm, without its place and its rotation. Without rotation,
-/// `linear` is symmetric.
+/// Returns the view of a frame in mm, with position and rotation removed. `linear` is then
+/// symmetric.
 FixPlane view_of(const PlaneFromImage& plane, const Vector2d& pitch_mm) {
     FixPlane view(plane);
     const Matrix2d linear = pitch_mm.asDiagonal() * view.linear;
@@ -57,7 +57,7 @@ FixPlane median_view(const std::vector<FixPlane>& views) {
 }
 
 /// Returns true if `linear` of at least half of the views differs from that of `typical` by more
-/// than kMaxMedianChange, relative to its norm. The camera was then hand-held.
+/// than kMaxMedianChange, relative to its norm. This means that the camera was hand-held.
 bool differ(const std::vector<FixPlane>& views, const FixPlane& typical) {
     constexpr double kMaxMedianChange = 0.01;
     return median_of(views, [&](const FixPlane& view) {

@@ -13,7 +13,7 @@
 
 namespace dotpose::calibrate {
 
-/// Returns the dots of a page at their nominal places, scaled by the print scales of the sheet.
+/// Returns the dots of a page at their nominal positions, scaled by the print scales of the sheet.
 MapGrid grid_of(const SheetEntry& entry);
 
 /// A frame of a page, and its view computed from the fix.
@@ -24,17 +24,17 @@ struct MapSighting {
 };
 
 /// Adds the dots of a fix that are on the page. Their coordinates are undistorted pixels, until
-/// `start_map` converts them to mm. Returns false, without adding dots, if there are fewer than
-/// `min_dots` such dots.
+/// `start_map` converts them to mm. Returns false and adds nothing if fewer than `min_dots` dots
+/// are on the page.
 bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::size_t min_dots,
                   std::vector<MapSighting>& frames, std::vector<MapObservation>& observations);
 
-/// Converts the observations to places on the paper in the frame of the camera, and sets the
-/// approximate poses of the frames of `solution`. All frames use the view of the camera file. If
-/// the camera file has no view, all frames use their median view. If their views differ because the
-/// camera was hand-held, each frame uses its own view instead. All places are scaled such that the
-/// median scale between the frames and the page, including the offsets of the earlier map, is 1.
-/// Returns the maximum distance between a dot and the origin of the camera frame, in mm.
+/// Converts the observations to positions on the paper in the camera frame, and sets the
+/// approximate poses of the frames of `solution`. All frames use the view in the camera file. If
+/// the file has no view, all frames use their median view or, if the camera was hand-held, each
+/// frame uses its own view. Scales all positions so that the median scale between the frames and
+/// the page is 1, with the dots of the page at their offsets in the earlier map. Returns the
+/// maximum distance between a dot and the origin of the camera frame, in mm.
 double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
                  const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
                  std::vector<MapObservation>& observations, MapSolution& solution);

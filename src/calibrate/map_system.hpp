@@ -13,7 +13,7 @@
 
 namespace dotpose::calibrate {
 
-/// Equations of a map, linearised at the frames of a solution.
+/// Equations of a map, linearised at the frame poses of a solution.
 class MapSystem {
   public:
     MapSystem(const MapGrid& grid, const EarlierOffsets& earlier,

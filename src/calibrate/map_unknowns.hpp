@@ -7,8 +7,8 @@
 
 namespace dotpose::calibrate {
 
-/// The places, the angles (times the reach) and the displacements of the frames are relative to the
-/// frames of the solution. All other values are absolute.
+/// Unknowns of a map. The positions, angles (times the reach) and displacements of the frames are
+/// relative to the frames of the solution. All other values are absolute.
 struct MapUnknowns {
     std::vector<FrameVector> frames;
     CameraVector camera = CameraVector::Zero();

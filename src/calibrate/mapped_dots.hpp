@@ -18,7 +18,7 @@ struct MappedDot {
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 };
 
-/// Dots of a fix whose offsets the map contains. There are enough dots for a fit only if `use` is
+/// Dots of a fix that have an offset in the map. There are enough dots for a fit only if `use` is
 /// MapUse::used.
 struct MappedDots {
     MapUse use = MapUse::no_map;
@@ -29,7 +29,7 @@ struct MappedDots {
 
 MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace);
 
-/// Adds the error of the map at the place of a fix to the covariance of the fix.
+/// Adds the covariance of the map error at the position of a fix to the covariance of the fix.
 void add_map_error(const MapPage& page, Fix& fix);
 
 /// Returns true if the map belongs to this print, according to the variances of the residuals with

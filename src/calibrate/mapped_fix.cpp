@@ -1,4 +1,4 @@
-// Fits the pose of a frame to the dots at their mapped places.
+// Fits the pose of a frame to dots at the positions in a print map.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ using namespace dotpose::calibrate;
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// A measured dot. Places are in spacings from `Decoding::place`.
+/// A measured dot. Positions on the paper are in spacings from `Decoding::place`.
 struct MapDot {
     Vector2d pixel;  ///< relative to the centre of the plane
     Vector2d step;
@@ -31,16 +31,17 @@ struct MapDot {
     Vector2d offset;
 };
 
-/// Terms of the correction: place (2), scale, rotation, displacement, shear (2), perspective (2).
+/// Terms of the correction: position (2), scale, rotation, displacement, shear (2), perspective
+/// (2).
 constexpr int kTerms = 9;
 constexpr int kDisplacement = 4;
 constexpr int kShear = 5;
 constexpr int kPerspective = 7;
-constexpr double kReach_px = 100;  ///< unit of pixels in the terms
+constexpr double kReach_px = 100;  ///< unit of image lengths in the terms
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 using TermBlock = Eigen::Matrix<double, kTerms, kTerms>;
 
-/// Returns the derivatives of the place of a dot on the paper with respect to the terms.
+/// Returns the derivatives of the position of a dot on the paper with respect to the terms.
 Eigen::Matrix<double, 2, kTerms> derivatives_at(const FixPlane& plane, const MapDot& dot) {
     const Vector2d p = plane.place(dot.pixel) - plane.at;
     const Vector2d q = dot.pixel / kReach_px;
@@ -58,7 +59,7 @@ struct Correction {
     int dots = 0;
 };
 
-/// Returns the place of a dot according to the map, minus its place according to the plane.
+/// Returns the position of a dot according to the map, minus its position according to the plane.
 Vector2d residual_of(const FixPlane& plane, const MapDot& dot, double map_weight) {
     return dot.step + map_weight * dot.offset - plane.place(dot.pixel);
 }
@@ -129,8 +130,8 @@ constexpr ViewPrior kShearPrior{kShear, {{{0.5, 0}, {0.4, 0.002}, {0.1, 0.03}}}}
 
 /// Replaces two terms with their posterior means, and changes the other terms accordingly.
 /// `present` contains the values of the two terms in the plane. The prior applies to the corrected
-/// values, which are the sums of `present` and the terms of the correction. `unit` is the unit of
-/// the standard deviations of the prior.
+/// values, which are the sums of `present` and the terms of the correction. The standard deviations
+/// of the prior are multiplied by `unit`.
 void shrink(const ViewPrior& prior, const Vector2d& present, double unit, Correction& fit) {
     struct Posterior {
         double distance;  ///< squared Mahalanobis distance of the fitted terms from 0
@@ -171,7 +172,7 @@ void shrink(const ViewPrior& prior, const Vector2d& present, double unit, Correc
 }
 
 /// Shrinks perspective and shear to their posterior means. Without the shrinkage, the noise of
-/// these terms would make the place less accurate. The perspective and shear in the plane of the
+/// these terms would make the position less accurate. The perspective and shear in the plane of the
 /// fix cannot be used instead, because they were fitted without the map and have larger errors.
 void shrink_view(const FixPlane& plane, const std::vector<MapDot>& dots, Correction& fit) {
     double reach_px = 1;
@@ -187,8 +188,8 @@ void shrink_view(const FixPlane& plane, const std::vector<MapDot>& dots, Correct
            Vector2d(stretch(0, 0) - stretch(1, 1), 2 * stretch(0, 1)) / stretch.trace(), 1, fit);
 }
 
-/// Returns the image point, relative to the centre of the plane, that the plane maps to the place
-/// of the fix.
+/// Returns the image point, relative to the centre of the plane, that the plane maps to the
+/// position of the fix.
 Vector2d reference_of(const FixPlane& plane, const Trace& trace, const Fix& fix) {
     const Cell start = trace.decoding.place.cell;
     const Vector2d place(steps(start.x, fix.cell.x) + fix.fraction_x_q16 / 65536.0,
@@ -216,7 +217,7 @@ void write_fix(const FixPlane& plane, const Correction& correction, const Trace&
     fix.section = cell.section;
     fix.fraction_x_q16 = static_cast<std::uint16_t>(x_q16 & 65535);
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
-    // Approximates the derivative of the place along the image x axis by the difference between
+    // Approximates the derivative of the position along the image x axis by the difference between
     // two points.
     const double step = 8;
     const MapDot left{reference - Vector2d(step, 0), Vector2d::Zero(), Vector2d::Zero(),

@@ -27,8 +27,8 @@ using Eigen::Vector2d;
 constexpr int kMinSpinFrames = 3;
 constexpr double kMinTurn_rad = std::numbers::pi / 6;
 constexpr double kMinDrive_mm = 5;
-/// Maximum angle by which the robot may turn during a straight drive. It also limits the angle
-/// between the mean line of the drive and the direction from the middle of the drive to any place.
+/// Maximum angle by which the robot may turn during a straight drive. It also limits how far the
+/// robot may be off the line of the drive (see require_straight).
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
 /// Probability that noise is mistaken for a drift although the robot stays on the spot.
 constexpr double kFalseDrift = 1e-3;
@@ -148,8 +148,8 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
 }
 
 /// Returns the standard deviation of the position of a point, per axis, due to the lens
-/// calibration. The standard deviation includes the errors of the place and direction of the image
-/// centre. `offset_mm` is relative to the image centre.
+/// calibration. The standard deviation includes the errors of the position and direction of the
+/// image centre. `offset_mm` is relative to the image centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
         const auto found = camera.sigma.find(key);
@@ -173,7 +173,7 @@ struct SpotTurn {
     Vector2d offset;         ///< from the image centre to the pivot, along the image axes
     Vector2d drift;          ///< 0 for a robot that stays on the spot
     double squares_mm2 = 0;  ///< sum of the squared residuals
-    /// Variance of the offset, per axis, relative to the variance of a place.
+    /// Variance of the offset, per axis, relative to the variance of a measured position.
     double offset_share = 0;
 };
 
@@ -182,7 +182,7 @@ double time_of(std::size_t frame, const std::vector<Station>& stations) {
     return 2.0 * double(frame) / double(stations.size() - 1) - 1;
 }
 
-/// Returns the place of a frame predicted by the turn, minus its measured place.
+/// Returns the position of a frame predicted by the turn, minus the measured position.
 Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
                      const std::vector<Station>& stations) {
     const Station& station = stations[frame];
@@ -246,7 +246,7 @@ void require_spin(const SpinCalibration& spin, double spacing_mm) {
                     spin.sigma_mm, spacing_mm / 2, why));
 }
 
-/// Returns the direction of the best-fitting line through the places. This is the major axis of
+/// Returns the direction of the best-fitting line through the positions. This is the major axis of
 /// their scatter, pointing forwards along `drive`.
 Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d& mean,
                            const Vector2d& drive) {
@@ -262,9 +262,9 @@ Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d&
     return along.dot(drive) < 0 ? Vector2d(-along) : along;
 }
 
-/// Throws Error unless the frames are in the order of the drive and all places are close to the
-/// line. The limit is the distance from the line that a robot reaches if it turns by kMaxSwerve_rad
-/// in the middle of the drive.
+/// Throws Error if a position is too far from the line or if the frames are not in the order of the
+/// drive. The limit is the distance from the line that a robot reaches if it turns by
+/// kMaxSwerve_rad in the middle of the drive.
 void require_straight(const std::vector<Vector2d>& on_line, double length_mm) {
     const double max_mm = std::tan(kMaxSwerve_rad) * length_mm / 2;
     double farthest_mm = on_line.front().x();
@@ -370,8 +370,8 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
     require_straight(on_line, result.length_mm);
     const double theta_rad = std::atan2(heading.y(), heading.x());
     result.residual_mm = std::sqrt(across_mm2 / count);
-    // The variance of the angle is the sum of the variances of the line's direction and of the mean
-    // angle.
+    // The variance of the angle is the sum of two variances: that of the line's direction and that
+    // of the mean angle.
     const double line = result.residual_mm * result.residual_mm / along_mm2;
     double squares = 0;
     double swerve_rad = 0;

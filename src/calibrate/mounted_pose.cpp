@@ -1,4 +1,4 @@
-// Fits the pose (place, angle and scale) of a camera with a known view of the paper, by least
+// Fits the pose (position, angle and scale) of a camera with a known view of the paper, by least
 // squares.
 #include "dotpose/tools/mounted_pose.hpp"
 
@@ -45,7 +45,7 @@ struct PoseFit : DotFit {
     double turn_rad = 0;  ///< turn of the camera during the readout
 };
 
-/// Returns the vector from `from` to `to`, turned by an angle.
+/// Returns the vector from `from` to `to`, rotated by an angle.
 CameraPoint turned(CameraPoint from, CameraPoint to, double angle_rad) {
     const double c = std::cos(angle_rad);
     const double s = std::sin(angle_rad);
@@ -54,7 +54,7 @@ CameraPoint turned(CameraPoint from, CameraPoint to, double angle_rad) {
     return {c * x - s * y, s * x + c * y};
 }
 
-/// Fits the pose to the dots at their mapped places. `reference` is the reference point. For a
+/// Fits the pose to the dots at their mapped positions. `reference` is the reference point. For a
 /// rolling shutter, the equation is linearised at `turn_rad`, and the fit is repeated with the turn
 /// found by the previous fit.
 PoseFit fit_pose(const std::vector<MappedDot>& dots, const Camera& camera, const AxisScale& print,
@@ -87,7 +87,7 @@ PoseFit fit_pose(const std::vector<MappedDot>& dots, const Camera& camera, const
             const double way = half == 0 ? t : t * std::sin(half) / half;
             const double way_x = way * std::cos(half);
             const double way_y = way * std::sin(half);
-            // Derivative of the dot's place with respect to the turn.
+            // Derivative of the dot's position with respect to the turn.
             double turn_x = 0;
             double turn_y = 0;
             if (!p.empty()) {
@@ -119,8 +119,8 @@ std::vector<MappedDot> without_map(std::vector<MappedDot> dots) {
     return dots;
 }
 
-/// Fits the pose to all dots of a frame or, if the map is of this print, to the mapped dots. Sets
-/// `use`.
+/// Fits the pose to all dots of a frame or, if the map belongs to this print, to the mapped dots.
+/// Sets `use`.
 PoseFit fit_mapped_pose(const Fix& fix, const Camera& camera, const Trace& trace,
                         const AxisScale& print, const PrintMap& map, CameraPoint reference,
                         MapUse& use) {
@@ -146,7 +146,7 @@ std::uint32_t to_bam(double angle_rad) {
     return static_cast<std::uint32_t>(std::llround(angle_rad * kBam_per_rad));
 }
 
-/// Sets cell and fraction of `fix` to the place (x, y), in spacings from `place`.
+/// Sets the cell, section and fraction of `fix` to the position (x, y), in spacings from `place`.
 void write_place(double x, double y, CodeVariant code, const Place& place, Fix& fix) {
     const auto x_q16 = std::llround(x * 65536);
     const auto y_q16 = std::llround(y * 65536);

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Elements of J^T J in the columns of one unshared parameter block.
+/// Elements of J^T J in the rows of one unshared parameter block.
 struct UnsharedBlock {
     Index begin;           ///< first column of the block
     MatrixXd with_shared;  ///< products with the shared columns

@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr double kRadPerS_per_rpm = 2 * std::numbers::pi / 60;
-/// Limits of the spacing in images for `locate`: minimum, recommended minimum, and maximum.
+/// Limits of the spacing in the image for `locate`: minimum, recommended minimum, and maximum.
 constexpr double kMinSpacing_px = 6;
 constexpr double kGoodSpacing_px = 8;
 constexpr double kMaxSpacing_px = 60;

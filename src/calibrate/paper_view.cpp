@@ -62,8 +62,8 @@ struct TiltResidual {
 using CentrePose = std::array<double, 3>;
 
 /// Returns the pose of the image centre of `camera` relative to the view of `other`. Like
-/// `with_camera`, aligns the two views by the place, angle and scale for which they differ least at
-/// the same pixels.
+/// `with_camera`, aligns the two views by the shift, rotation and scale that minimise their
+/// differences at the same pixels.
 CentrePose centre_pose(const Camera& camera, const Camera& other) {
     using Point = std::complex<double>;
     const auto seen = [](const Camera& by, PixelPoint straight) {

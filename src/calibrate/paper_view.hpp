@@ -9,7 +9,7 @@ namespace dotpose::calibrate {
 /// length, assuming square pixels.
 void describe_mounted(const LensFit& fit, double reach_px, Camera& camera);
 
-/// Sets the standard deviations of the place and the direction of the image centre relative to the
+/// Sets the standard deviations of the position and direction of the image centre relative to the
 /// dots in view. Requires `camera.paper`. These standard deviations are much smaller than the
 /// standard deviations of the parameters, because the errors of the parameters cancel at the image
 /// centre.

@@ -1,4 +1,4 @@
-// Place and height of the tip of a pen.
+// Computes the position and height of the tip of a pen.
 #include "dotpose/tools/pen.hpp"
 
 #include <cmath>

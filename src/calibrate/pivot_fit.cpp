@@ -25,8 +25,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 constexpr int kSubsets = 500;
 constexpr std::size_t kSubsetViews = 4;
 constexpr int kMaxIterations = 20;
-/// Median of the chi-square distribution with three degrees of freedom, and the value that it
-/// exceeds with a probability of 1e-4.
+/// Median and 0.9999 quantile of the chi-square distribution with three degrees of freedom.
 constexpr double kMedianSquare = 2.366;
 constexpr double kMaxSquare = 21.1;
 
@@ -40,7 +39,7 @@ Vector3d residual_mm(const PivotView& view, const Points& points) {
     return view.position_mm + view.rotation * points.tip_mm - points.rest_mm;
 }
 
-/// Returns the derivative of the tip on the paper with respect to the pose.
+/// Returns the derivative of the tip position on the paper with respect to the pose.
 Matrix36d by_pose(const PivotView& view, const Vector3d& tip_mm) {
     Matrix3d cross;
     cross << 0, -tip_mm.z(), tip_mm.y(), tip_mm.z(), 0, -tip_mm.x(), -tip_mm.y(), tip_mm.x(), 0;
@@ -49,8 +48,8 @@ Matrix36d by_pose(const PivotView& view, const Vector3d& tip_mm) {
     return result;
 }
 
-/// Returns the matrix that transforms residuals to independent residuals of variance 1, assuming
-/// that the tip is exactly known in the camera frame.
+/// Returns the matrix that transforms residuals into independent residuals of variance 1, assuming
+/// that the tip position in the camera frame is exact.
 Matrix3d whitening_at(const PivotView& view, const Vector3d& tip_mm) {
     return whitening_of(propagated(by_pose(view, tip_mm), view.covariance));
 }
@@ -127,8 +126,8 @@ Step improved(const std::vector<PivotView>& views, const Points& start) {
     return step;
 }
 
-/// Returns the covariance of the points due to the errors of the dots. All frames that show a dot
-/// share the error of this dot.
+/// Returns the covariance of the points due to the errors of the dots. The error of a dot is the
+/// same in all frames that show it.
 Matrix6d covariance_of_dots(const std::vector<PivotView>& views, const Step& step) {
     std::unordered_map<std::uint64_t, Vector6d> shifts;
     for (std::size_t i = 0; i < views.size(); ++i) {

@@ -1,4 +1,5 @@
-// Finds the point of a device that is at rest while the device turns about this point.
+// Finds the pivot point of a device, such as the tip of a pen, from views in which the device turns
+// about this point.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,7 @@ struct PivotFit {
     Eigen::Vector3d rest_mm;  ///< resting point on the paper, in the frame of the views
     /// Covariance of the tip and of the resting point. Frames that show the same dots have
     /// correlated errors, because the print errors of these dots shift all poses. The covariance is
-    /// therefore computed from the residuals of each dot in all frames. It is larger if the tip
+    /// therefore computed from the residuals of each dot in all frames. It is increased if the tip
     /// moved by more than the errors of the poses.
     Eigen::Matrix<double, 6, 6> covariance;
     std::vector<bool> is_used;  ///< indexed by view

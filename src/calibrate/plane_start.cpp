@@ -14,7 +14,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Viewing direction at one place on the paper, and its derivative with respect to the place.
+/// Viewing direction to one point on the paper, and its derivative with respect to the position of
+/// the point.
 struct LocalView {
     Vector2d place_mm;
     Vector2d ray;  ///< (x, y) of the direction (x, y, 1) in the camera frame
@@ -56,8 +57,9 @@ std::optional<std::array<SpaceState, 2>> plane_starts(const std::vector<SpaceDot
                                                       const Vector2d& focal_px) {
     const LocalView view = local_view(dots, focal_px);
     if (!view.per_mm.allFinite() || !view.ray.allFinite()) return std::nullopt;
-    // Rotates the camera towards the middle of the dots. In the frame of this camera, the
-    // derivative is the upper left part of the rotation of the paper, divided by the distance.
+    // Rotates the camera towards the middle of the dots. In the frame of the rotated camera, the
+    // derivative is the upper left 2 x 2 block of the paper's rotation matrix, divided by the
+    // distance.
     const Matrix3d turn =
         Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), view.ray.homogeneous())
             .toRotationMatrix();

@@ -9,10 +9,10 @@
 
 namespace dotpose::calibrate {
 
-/// Returns the two poses whose projections have the same first derivatives at the middle of the
-/// dots as the homography of the dots. The method is infinitesimal plane-based pose estimation (T.
-/// Collins and A. Bartoli, International Journal of Computer Vision 109, 2014). Returns nullopt if
-/// the dots do not determine a homography.
+/// Returns the two poses whose projections agree with the homography of the dots, to first order,
+/// at the middle of the dots. The method is infinitesimal plane-based pose estimation (T. Collins
+/// and A. Bartoli, International Journal of Computer Vision 109, 2014). Returns nullopt if the dots
+/// do not determine a homography.
 std::optional<std::array<SpaceState, 2>> plane_starts(const std::vector<SpaceDot>& dots,
                                                       const Eigen::Vector2d& focal_px);
 

@@ -10,16 +10,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Minimum number of correct dots in an outer line of a field, as a fraction of the cells of the
-/// line.
+/// Minimum fraction of correct dots among the measured cells of an outer line of a field.
 constexpr double kMinLineShare = 0.5;
-/// Minimum number of correct dots in an outer line, as a fraction of the number of correct dots in
-/// the line with the most correct dots.
+/// Minimum number of correct dots in an outer column or row, relative to the column or row with the
+/// most correct dots.
 constexpr double kMinLength = 0.15;
 
-/// Minimum number of correct dots in an outer line, as a fraction of the dots of the line. By
-/// chance, a quarter of the dots are correct. In a different region of the code, half of the dots
-/// are correct if the columns happen to agree.
+/// Minimum fraction of correct dots among the dots of an outer line. By chance, a quarter of the
+/// dots are correct. In a different region of the code, half of the dots are correct if the columns
+/// happen to agree.
 constexpr double kMinRightShare = 0.7;
 
 /// Returns the located tiles whose maps predict the cells of a tile. The result contains the tile
@@ -172,8 +171,8 @@ class Trimmer {
     static bool is_long(const Coverage& line, int longest) {
         return line.right > kMinLength * longest;
     }
-    /// Returns true if a line belongs to the field. A line with only a few correct cells does not,
-    /// because it may be cropped or contain other print.
+    /// Returns true if a line belongs to the field. A line with only a few correct cells is
+    /// rejected, because it may be cropped or contain other print.
     static bool is_enough(const Coverage& line, int longest) {
         return line.right >= kMinLineShare * line.seen &&
                line.right >= kMinRightShare * line.dots && is_long(line, longest);
@@ -204,8 +203,8 @@ CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field&
                 const std::int64_t j = std::int64_t{cell.y} - grid.origin.y;
                 if (i < 0 || j < 0 || i >= grid.columns || j >= grid.rows) continue;
                 const auto index = static_cast<std::size_t>(j * grid.columns + i);
-                // Neighbouring tiles share cells along their border. If one of the measurements of
-                // a cell is correct, it takes precedence.
+                // Cells along the border of two tiles are measured in both tiles. A correct
+                // measurement takes precedence.
                 if (!grid.cells[index].is_right()) grid.cells[index] = cell;
                 seen[index] = true;
             }

@@ -134,10 +134,10 @@ class Meter {
         return darkest_px;
     }
 
-    /// Moves iteratively from the darkest of the four possible places of a dot to the centroid of
-    /// the dot, and measures the dot there. Sets `cell`, except its symbols. `strength` is the
-    /// expected darkness of a dot. Returns the offset of the dot from its intersection, in
-    /// spacings.
+    /// Starts at the darkest of the four possible places of a dot, moves iteratively to the
+    /// centroid of the dot, and measures the dot there. Sets the measured members of `cell`, except
+    /// `is_covered` and `read`. `strength` is the expected darkness of a dot. Returns the offset of
+    /// the dot from its intersection, in spacings.
     Vector2d measure(const Vector2d& intersection_px, double strength, SeenCell& cell) const {
         Vector2d place_px = darkest_place(intersection_px);
         double moved_px = 1;

@@ -1,4 +1,4 @@
-// Measures dots of a scan at the places where a map predicts them.
+// Measures the dots of a scan at the positions that a map predicts.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace dotpose::calibrate {
 
-/// Code of a field. Determines the nominal place of each dot.
+/// Code of a field. Determines the nominal position of each dot.
 struct Code {
     CodeVariant code = CodeVariant::anoto;
     Section section;
     double displacement = 1.0 / 6;  ///< displacement of the dots, in spacings
 
     Symbol symbol(std::int64_t x, std::int64_t y) const;
-    /// Returns the nominal place of a dot, in cells.
+    /// Returns the nominal position of a dot, in cells.
     Eigen::Vector2d dot_cell(std::int64_t x, std::int64_t y, Symbol symbol) const;
 };
 

@@ -12,7 +12,7 @@ namespace dotpose::calibrate {
 /// One region of the code in the scan, with a map for each tile that shows the region.
 struct Field {
     Code code;
-    std::vector<std::optional<LocatedTile>> tiles;  ///< indexed by the number of the tile
+    std::vector<std::optional<LocatedTile>> tiles;  ///< indexed by tile number
     double paper = 0;                               ///< median grey level of the paper
 };
 

@@ -21,8 +21,8 @@ constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;
-/// If the deviation of the mean scale from 1 exceeds this, the stated pattern or resolution must be
-/// wrong.
+/// If the deviation of the mean scale from 1 exceeds this value, the stated pattern or resolution
+/// must be wrong.
 constexpr double kImplausibleScale = 0.25;
 constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
 constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;
@@ -35,7 +35,7 @@ constexpr double kNotableShare = 0.01;
 constexpr double kMinContrast = 0.2;
 /// If the spacing in the scan is less than kCoarse_px, faults of individual dots may be due to the
 /// scan. They are attributed to the scan if the scatter of the dots is more than kCoarseScatter
-/// spacings, or if more than kCoarseWrongShare of the bits are wrong.
+/// spacings, if more than kCoarseWrongShare of the bits are wrong, or if dots are blurred together.
 constexpr double kCoarse_px = 10;
 constexpr double kCoarseScatter = 0.05;
 constexpr double kCoarseWrongShare = 0.001;

@@ -28,14 +28,14 @@ struct Reach {
     double seen = 0;
 };
 
-/// Optional parameters to fit.
+/// Selects which optional parameters are fitted.
 struct Free {
     bool perspective = false;
     bool lens = false;
 };
 
 /// Returns the derivative of the distorted position with respect to the undistorted position `q`.
-/// Both are relative to the lens centre.
+/// Both positions are relative to the lens centre.
 Matrix2d lens_slope(const PlaneFit& fit, const Vector2d& q) {
     return (1 + fit.lens * q.squaredNorm()) * Matrix2d::Identity() +
            2 * fit.lens * q * q.transpose();
@@ -119,8 +119,8 @@ PlaneFit fit_plane(const std::vector<Match>& matches, ViewModel model,
     }
     double limit = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kPrintRounds; ++round) {
-        // The first steps do not fit perspective and lens, because these parameters need
-        // approximate initial values.
+        // The first steps do not fit perspective and lens, because these parameters can only be
+        // fitted if the others are approximately known.
         for (int i = 0; i < kSteps; ++i) {
             const bool has_start = round > 0 || i > 0;
             const Free free{has_start && model != ViewModel::flat,

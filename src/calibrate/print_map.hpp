@@ -103,7 +103,7 @@ struct Tiling {
     }
     /// Returns a rectangle around a tile, with a margin of a sixth of the side. At the edges of the
     /// scan, the rectangle is moved rather than cropped. Adjacent rectangles overlap by a third of
-    /// the side, so a region smaller than the overlap is always complete in one rectangle.
+    /// the side, so a region smaller than the overlap is always completely inside one rectangle.
     PixelRect overlapping_rect(int tile) const {
         const int around_px = side_px / 6;
         const int full_px = side_px + 2 * around_px;

@@ -1,4 +1,4 @@
-// Collects the dots of the frames of each page, and converts the solution to a map.
+// Collects the dots of each page from its frames, and converts the solution to a print map.
 #include "dotpose/tools/print_mapping.hpp"
 
 #include <algorithm>
@@ -54,9 +54,9 @@ std::int16_t to_q14(double spacings) {
     return static_cast<std::int16_t>(std::clamp(std::lround(spacings * 16384), -32767L, 32767L));
 }
 
-/// Converts covariances to spacings. For an update, adds the errors of the earlier map, because its
-/// slowly varying errors remain in the result. The equations do not include these errors, because
-/// the equations assume that the errors of the earlier offsets are independent.
+/// Converts the covariances from mm to spacings. For an update, adds the errors of the earlier map,
+/// because its slowly varying errors remain in the result. The equations do not include these
+/// errors, because the equations assume that the errors of the earlier offsets are independent.
 MapErrors errors_of(const MapGrid& grid, const MapErrorGrid& found, const EarlierOffsets& earlier,
                     const MapPage& page) {
     if (!earlier.views.empty() && page.errors.nodes.empty()) return {};
@@ -135,7 +135,7 @@ MappedPage statistics_of(const MapPage& map, const MapGrid& grid, const MapSolut
     }
     const double all = squares / static_cast<double>(std::max<std::size_t>(page.seen, 1));
     page.slow_mm = std::sqrt(std::max(all - solution.jitter_mm * solution.jitter_mm, 0.0));
-    // Maximum relative standard deviation of the scale of a rigid mount.
+    // Maximum relative standard deviation of the scale between frames for a rigid mount.
     constexpr double kRigid = 2e-4;
     page.is_rigid = solution.view_sigma[0] < kRigid * solution.reach_mm;
     return page;
@@ -166,7 +166,7 @@ struct PrintMapping::State {
 
     PrintMappingOptions options;
     std::vector<PageFrames> pages;   ///< in the order of the sheets
-    std::vector<KnownRegion> known;  ///< regions of the sheets; the locator refers to them
+    std::vector<KnownRegion> known;  ///< regions of the sheets, referenced by `locator`
     std::size_t frames = 0;
     Locator locator{DeviceOptions{}};
 };

@@ -19,8 +19,8 @@ constexpr double kInch_mm = 25.4;
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a part of the page for which distortion is reported.
 constexpr int kMinBinDots = 60;
-/// Quantile of the darkness of the dots. If the darkness at this quantile exceeds the expected
-/// darkness, it replaces the expected darkness of ink.
+/// Quantile of the dots' darkness that is used as the darkness of ink if it exceeds the expected
+/// darkness of ink.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 
@@ -70,7 +70,7 @@ PrintScale scale_of(const Eigen::Matrix2d& linear) {
 struct Fitted {
     PlaneFit fit;
     Units units;
-    bool is_photo = false;  ///< true if the scale depends on the place
+    bool is_photo = false;  ///< true if the scale depends on the position
 
     double mm_per_unit(const Vector2d& place_mm) const {
         return is_photo ? 1 / fit.units_per_mm(place_mm) : 1;
@@ -85,7 +85,8 @@ struct Fitted {
 };
 
 /// Returns the scatter of individual dots, computed from the differences between neighbouring dots.
-/// These differences are almost free of distortion, because it displaces neighbours equally.
+/// These differences are almost free of distortion, because distortion displaces neighbours
+/// equally.
 double measure_scatter_mm(const Measuring& m, const Fitted& fitted, const Pattern& pattern) {
     std::vector<double> steps_mm;
     const auto off_mm = [&](const SeenCell& cell) {

@@ -22,8 +22,8 @@ struct Measuring {
 /// the measured position in px.
 std::vector<Match> matches_of(const CellGrid& grid, const Field& field, const Pattern& pattern);
 
-/// Measures a field and sets all members of `result` except the pattern. Returns false if fewer
-/// than `min_dots` dots were read correctly.
+/// Measures a field and sets all members of `result` except `pattern`, `is_patch` and `sheet`.
+/// Returns false if fewer than `min_dots` dots were read correctly.
 bool measure_field(const Measuring& measuring, std::size_t min_dots, PrintField& result);
 
 }  // namespace dotpose::calibrate

@@ -17,7 +17,8 @@ constexpr int kMaxTile_px = 2048;
 constexpr double kSmallSpacing_px = 9;
 /// Number of crops that is sufficient to determine the spacing or the code.
 constexpr std::size_t kEnoughProbes = 40;
-/// Total number of pixels in the sample of crops of one size. The sample is spread over the page.
+/// Total number of pixels, after magnification, in the sample of crops of one size. The sample is
+/// spread over the page.
 constexpr int kSample_px = 8'000'000;
 
 /// Side and magnification of a crop. A crop must contain at least 8 x 8 cells.
@@ -90,8 +91,8 @@ double TileLocator::find_spacing_px() {
     return 0;
 }
 
-/// Returns the median spacing in every `step`-th tile that shows the pattern. Returns 0 if no tile
-/// shows the pattern.
+/// Locates every `step`-th tile, until kEnoughProbes tiles show the pattern. Returns the median
+/// spacing of these tiles, or 0 if no tile shows the pattern.
 double TileLocator::probe_spacing_px(const Tiling& tiling, int step) {
     std::vector<double> spacings_px;
     for (int tile = 0; tile < tiling.count() && spacings_px.size() < kEnoughProbes; tile += step) {

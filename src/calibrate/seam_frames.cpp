@@ -19,9 +19,9 @@ constexpr double kBeyondPage_mm = 400;
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// Number of the 64 fields of a frame (SheetView::fields) that the located sheets must cover to end
-/// the search in this frame. The number of dots is not a suitable criterion, because a fix contains
-/// only the dots of one sheet.
+/// The search in a frame ends when the located sheets cover this number of its 64 fields
+/// (SheetView::fields). The number of dots is not a suitable criterion, because a fix contains only
+/// the dots of one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.
@@ -69,8 +69,8 @@ std::uint64_t fields_of(const GreyImage& image, const SeamLocator::Part& part,
     return fields;
 }
 
-/// Place of a fix on a sheet, in nominal mm from its first intersection. The place may be outside
-/// the page.
+/// Position of a fix on a sheet, in nominal mm from the sheet's first intersection. The position
+/// may be outside the page.
 struct NominalPlace {
     Eigen::Vector2d mm;
     double theta_rad;
@@ -88,8 +88,8 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, CodeVariant co
                         place->theta_rad};
 }
 
-/// Sets place, axes and errors of `view` by fitting an affine map to the dots. The camera file must
-/// contain the map to the paper. `first` is the position of the intersection with
+/// Sets the place, axes and errors of `view` by fitting an affine map to the dots. The camera file
+/// must contain the map to the paper. `first` is the position of the intersection with
 /// `LocatedDot::step` (0, 0) on the sheet, in nominal mm.
 void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
@@ -117,7 +117,7 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
     view.rows = 6;
 }
 
-/// Sets place, axes and errors of `view` if the map from the camera to the paper is unknown. In
+/// Sets the place, axes and errors of `view` if the map from the camera to the paper is unknown. In
 /// this case, the fix determines only the position of the image centre and the direction of the
 /// image x axis.
 void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,
@@ -136,7 +136,7 @@ void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacin
     }
     const Eigen::MatrixXd whitening = whitening_of(covariance);
     for (Eigen::Index i = 0; i < 3; ++i) {
-        // Only the errors of the place and of the x axis are known. The error of the x axis is
+        // Only the errors of the position and of the x axis are known. The error of the x axis is
         // perpendicular to the axis, along (-s, c), because only the angle of the axis was
         // measured.
         view.whitening.row(i) << whitening(i, 0), whitening(i, 1), -s * whitening(i, 2),
@@ -155,8 +155,8 @@ SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optio
     }
 }
 
-/// Returns the parts in the order in which they are located: first the whole image, and then
-/// halves, corners, and overlapping parts of two thirds of a side.
+/// Returns the parts in the order in which to locate them: first the whole image, then halves,
+/// corners, and overlapping parts of two thirds of a side.
 std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
     std::vector<Part> parts;
     const auto cut = [](const Stretch& stretch, int side, int& begin, int& length) {
@@ -202,7 +202,7 @@ std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort ef
 }
 
 /// Returns the camera with its sensor cropped to the part. The reference point of the result is the
-/// image centre.
+/// centre of the whole image.
 Camera SeamLocator::camera_of(const GreyImage& image, const Part& part) const {
     Camera camera;
     if (camera_) {
@@ -253,7 +253,7 @@ std::optional<SheetView> SeamLocator::view_of(const GreyImage& image, const Part
     const double spacing_mm = entry.sheet.pattern.spacing_mm;
     SheetView view;
     view.sheet = static_cast<std::size_t>(&entry - sheets_.data());
-    // Dots beyond the edge of the sheet are part of a different sheet.
+    // Removes dots beyond the edge of the sheet, because they belong to a different sheet.
     std::erase_if(dots, [&](const LocatedDot& dot) {
         const Cell cell = moved(code, trace.decoding.place, dot.step.x, dot.step.y).cell;
         const bool is_on = cell.x - entry.sheet.origin.x < unsigned(entry.sheet.columns) &&

@@ -13,20 +13,19 @@
 
 namespace dotpose::calibrate {
 
-/// Pose of the camera relative to one sheet, in one image. Maps a point q of the camera's
-/// coordinate frame to the point p = place + axes (q - middle) of the sheet, in nominal mm from the
-/// first intersection. If the camera file contains a view of the paper, q is in mm. Otherwise, only
-/// the direction of the x axis and the place of the image centre are known, and `middle` is the
-/// image centre.
+/// Pose of the camera relative to one sheet, in one image. Maps a point q in the camera frame to
+/// the point p = place + axes (q - middle) on the sheet, in nominal mm from the first intersection.
+/// If the camera file contains a view of the paper, q is in mm. Otherwise, only the direction of
+/// the x axis and the position of the image centre are known, and `middle` is the image centre.
 struct SheetView {
     std::size_t sheet = 0;  ///< index of the sheet
     int frame = 0;
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     Eigen::Vector2d place = Eigen::Vector2d::Zero();
     Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
-    /// Transforms the errors of place and axes (column by column) to errors with standard deviation
-    /// 1. Rows with an index of `rows` or more are 0, because the corresponding combinations of
-    /// place and axes are not known.
+    /// Transforms the errors of place and axes (column by column) into errors with standard
+    /// deviation 1. Rows with an index of `rows` or more are 0, because the corresponding
+    /// combinations of place and axes are not known.
     Eigen::Matrix<double, 6, 6> whitening = Eigen::Matrix<double, 6, 6>::Zero();
     int rows = 0;
     /// Cells of the dots: column in the upper 32 bits, row in the lower 32 bits.

@@ -22,8 +22,8 @@ constexpr double kRobust_sigmas = 4;
 constexpr double kPinned = 1e-7;
 /// Prior relative standard deviation of the scale of a camera.
 constexpr double kCameraPrior = 0.03;
-/// Prior standard deviation of the aspect and the skew of a camera whose file does not contain
-/// them. The standard deviation is small, because the pixels of sensors are square.
+/// Prior standard deviation of the aspect and the skew of a camera whose file contains no standard
+/// deviations for them. It is small because the pixels of sensors are square.
 constexpr double kSquarePrior = 0.002;
 
 /// Vector in the plane. T is double or an automatic differentiation type.
@@ -113,8 +113,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Converts a pose from the coordinate frame of the camera to the page of the sheet in a view. The
-/// pose is at the point `in_camera`, and its direction is the x axis of the camera frame.
+/// Converts a pose from the camera frame to the page of the sheet in a view. The pose is at the
+/// point `in_camera` and points along the x axis of the camera frame.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -205,8 +205,8 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
 }
 
 /// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. If several
-/// frames show the same two sheets, uses the frame in which the smaller of the two numbers of dots
-/// is largest.
+/// frames show the same two sheets, uses the frame that maximises the smaller of the two dot
+/// counts.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();
@@ -294,7 +294,7 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
         }
         if (i == fixed_ && !has_scale()) {
             // The aspect is fixed to its value in the sheet file. Views from parts of frames would
-            // determine it, but all these views share the same error.
+            // determine the aspect, but with the same error in all of them.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {
@@ -325,9 +325,8 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
 }
 
-/// Returns the DotShare of each dot, for an affine map fitted to all dots. The shares are scaled
-/// such that dot errors with standard deviation 1 cause whitened residuals with standard deviation
-/// 1.
+/// Returns the DotShare of each dot, for an affine map fitted to all dots. The shares are scaled so
+/// that dot errors with standard deviation 1 cause whitened residuals with standard deviation 1.
 std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;

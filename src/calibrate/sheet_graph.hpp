@@ -38,7 +38,8 @@ class SheetGraph {
     void solve();
 
     bool is_connected(std::size_t sheet) const { return nodes_[sheet].has_value(); }
-    /// Returns the pose of the corner and the upper edge of the page. The sheet must be connected.
+    /// Returns the pose of a page: the position of its corner and the direction of its upper edge.
+    /// The sheet must be connected.
     PlanePose pose(std::size_t sheet) const;
     AxisScale print_scale(std::size_t sheet) const;
     double sigma_mm(std::size_t sheet) const;
@@ -56,7 +57,7 @@ class SheetGraph {
     using Node = std::array<double, 5>;
     using FramePose = std::array<double, 3>;
     /// Derivative of the whitened residuals of a view with respect to the position of one of its
-    /// dots, along the x and y axis of the sheet.
+    /// dots, along the x and y axes of the sheet.
     using DotShare = Eigen::Matrix<double, 6, 2>;
 
     Eigen::Vector2d centre_in_camera(const SheetView& view) const;

@@ -1,4 +1,4 @@
-// Fits the place, angle and scale of a frame to its dots.
+// Fits the position, angle and scale of a frame to its dots.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace dotpose::calibrate {
 
-/// A dot in the frame of the camera and on the page.
+/// A dot: its position in the camera frame, and its intersection on the page.
 struct SimilarPoint {
     Eigen::Vector2d seen;
     Eigen::Vector2d intersection;
@@ -15,7 +15,7 @@ struct SimilarPoint {
 };
 
 struct Similarity {
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< place of the origin of the camera frame
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< origin of the camera frame on the page
     double angle_rad = 0;
     double scale = 1;
     double displacement = 0;

@@ -28,7 +28,7 @@ using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Information = Eigen::Matrix<double, kParameters, kParameters>;
 using Derivative = Eigen::Matrix<double, 2, kParameters>;
 
-/// A dot that the fit uses. `whitening` transforms its residual to one with independent errors of
+/// A dot that the fit uses. `whitening` transforms the residual into one with independent errors of
 /// equal variance.
 struct WeightedDot {
     SpaceDot dot;
@@ -40,7 +40,7 @@ struct WeightedDot {
 struct PredictedDot {
     Vector2d residual_px;
     Derivative by_parameters;
-    Matrix2d px_per_mm;  ///< derivative with respect to the place of the dot on the paper
+    Matrix2d px_per_mm;  ///< derivative with respect to the position of the dot on the paper
     bool is_in_front = false;
 };
 
@@ -58,7 +58,7 @@ PredictedDot predict(const SpaceState& state, const SpaceDot& dot, const Vector2
         0, focal_px.y() / depth, -focal_px.y() * seen.y() / (depth * depth);
     const Eigen::Matrix<double, 2, 3> by_place = by_seen * state.rotation.transpose();
     result.px_per_mm = by_place.leftCols<2>();
-    // A rotation of the camera by a small vector r adds `seen` x r to the place in the camera
+    // A rotation of the camera by a small vector r adds `seen` x r to the position in the camera
     // frame.
     for (int i = 0; i < 3; ++i)
         result.by_parameters.col(3 + i) = by_seen * seen.cross(Vector3d::Unit(i));

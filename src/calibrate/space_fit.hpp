@@ -13,9 +13,9 @@ namespace dotpose::calibrate {
 struct SpaceDot {
     /// Undistorted pixel minus the pixel on the optical axis.
     Eigen::Vector2d pixel;
-    Eigen::Vector2d intersection_mm;  ///< place of the dot's intersection on the paper
+    Eigen::Vector2d intersection_mm;  ///< position of the dot's intersection on the paper
     Eigen::Vector2d direction_mm;     ///< shift of the dot for a displacement of 1 spacing
-    /// Covariance of the measured pixel, up to a common factor of all dots.
+    /// Covariance of the measured pixel, up to a factor common to all dots.
     Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Identity();
 };
 
@@ -34,8 +34,7 @@ struct SpaceFit {
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     std::vector<SpaceDot> used;  ///< dots that are not outliers
     /// Shift of the pose caused by the residual of each dot in `used`, in the coordinates of the
-    /// covariance. These values determine the common part of the errors of two frames that show the
-    /// same dots.
+    /// covariance. They determine how the errors of frames that show the same dots are correlated.
     std::vector<Eigen::Matrix<double, 6, 1>> influences;
     double residual_px = 0;  ///< rms residual of the dots in `used`, per axis
     std::optional<SpaceState> second;

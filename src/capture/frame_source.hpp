@@ -1,4 +1,4 @@
-// Sources of frames: images, folders of images and raw grey frames from a pipe. The `video` layer
+// Frame sources: image files, folders of images, and raw grey frames from a pipe. The `video` layer
 // adds cameras and video files.
 #pragma once
 
@@ -56,7 +56,7 @@ class FrameSource {
 };
 
 struct SourceOptions {
-    /// Frame size. Required for raw frames, and optional as a request to a camera. 0 if not given.
+    /// Frame size, or 0 if not given. Required for raw frames. For a camera, the size to request.
     int width_px = 0;
     int height_px = 0;
     /// Frame rate requested from a camera. For other sources, frame timestamps are computed from

@@ -1,4 +1,4 @@
-// Determines the kind of a source of frames from its name.
+// Determines the kind of a frame source from its name.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ enum class SourceKind {
     raw,     ///< "-": raw frames on standard input
     camera,  ///< a number, /dev/video..., or a URL
     image,   ///< an image file, or any other name
-    images,  ///< a folder, or a glob that is not the name of a file
+    images,  ///< a folder, or a glob pattern that is not an existing path
     video,   ///< a file with the extension or the signature of a video
 };
 
@@ -19,7 +19,7 @@ SourceKind kind_of(const std::string& name);
 /// Returns true if the name is the URL of a network source.
 bool is_url(const std::string& name);
 
-/// Returns true for cameras and videos, which only the layer `video` can open.
+/// Returns true for cameras and videos, which only the `video` layer can open.
 bool needs_video_libraries(SourceKind kind);
 
 /// Returns the images that are in a folder or match a glob, sorted by name. Throws Error if the

@@ -43,8 +43,8 @@ bool SourceList::open() {
     return true;
 }
 
-/// Returns the path of the next image in images, folders and globs. Returns an empty optional if
-/// the next source is of another kind or there is none.
+/// Returns the path of the next image, which is named itself, in a folder, or matched by a glob.
+/// Returns an empty optional if the next source is not of this kind, or if no sources are left.
 std::optional<std::string> SourceList::next_image() {
     while (next_image_ == images_.size()) {
         auto name = take_name();
@@ -101,8 +101,7 @@ void SourceList::put_in_order(Frame& frame) {
     constexpr double kDefaultRate = 30;
     frame.index += first_index_;
     frame.time_us += offset_us_;
-    // The times of this source are shifted to follow those of the previous source, so they are no
-    // longer on the monotonic clock.
+    // Times that are shifted to follow the previous source are no longer on the monotonic clock.
     if (offset_us_ != 0) frame.is_live = false;
     next_index_ = frame.index + 1;
     next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kDefaultRate);

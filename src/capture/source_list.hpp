@@ -1,4 +1,4 @@
-// Reads several sources of frames as one source.
+// Concatenates several frame sources into one.
 #pragma once
 
 #include <functional>

@@ -13,10 +13,10 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 }
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
-    // The roll is the sum of all roll differences before p, modulo 63. The difference of each line
-    // is 5 plus the weighted digits of a1 to a4. Each sequence contributes the sum of a whole
-    // period for each period before p, and the sum of the digits before `place` in the current
-    // period:
+    // The roll is the sum of all roll differences before p, modulo 63. Each difference is 5 plus
+    // the weighted digits of a1 to a4. For each whole period before p, a sequence contributes the
+    // sum of its weighted digits over the period. For the current period, it contributes the sum of
+    // its weighted digits before `place`:
     //
     //     roll = 5 p + sum over a1 to a4 of (periods * rolls[length] + rolls[place])
     //     periods = (p - place) / length
@@ -63,10 +63,9 @@ struct AxisPlace {
 /// Moves `place` to the position `target`, which is outside [0, L), and wraps it around. L is
 /// kPositionsPerAxis. Not inlined, because the function is rarely called.
 [[gnu::noinline]] AxisPlace wrapped(CodeVariant code, AxisPlace place, std::int64_t target) {
-    // For a move by L along x, the rolls of columns p and p + L differ by roll(L), so the column
-    // section changes by roll(L). The move also advances L cells along the main sequence in each
-    // row, so the row section changes by L modulo 63. The same applies to y with columns and rows
-    // exchanged.
+    // A move by L along x changes the column section by roll(L), because the rolls of columns p and
+    // p + L differ by roll(L). It also advances L cells along the main sequence in each row, so the
+    // row section changes by L modulo 63. The same applies to y with columns and rows exchanged.
     const bool is_before = target < 0;
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);

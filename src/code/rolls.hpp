@@ -48,8 +48,8 @@ class RollsAhead {
     }
 
   private:
-    /// Sets the place in sequence k, and adds the contribution of all whole periods before this
-    /// place to `sum_`.
+    /// Sets the place in sequence k, and adds the contribution of the preceding whole periods to
+    /// `sum_`.
     void add(const Secondary& sequence, std::size_t k, std::uint32_t place) {
         here_[k] = sequence.rolls + place;
         sum_ += (lines_ - place) * sequence.period_roll;

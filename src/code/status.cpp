@@ -77,7 +77,7 @@ constexpr auto kNames = [] {
     std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string_view name = kTexts[i].name;
-        // Also copies the terminating zero.
+        // Also copies the null terminator.
         std::copy_n(name.data(), name.size() + 1, names[i].begin());
     }
     return names;

@@ -24,7 +24,8 @@ inline constexpr int kOrder = 5;
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63 for n < 4095. Uses shifts instead of a division, because 64 modulo 63 is 1.
+/// Returns n modulo 63 for n < 4095. Uses shifts instead of a division, which works because 64
+/// modulo 63 is 1.
 constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
@@ -37,7 +38,8 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
     return short_modulo_sections((n & 63) + (n >> 6));
 }
 
-/// A secondary sequence with its tables. The type is the same for all lengths and bases.
+/// A secondary sequence and its tables. Not a template, so that sequences of all lengths and bases
+/// have the same type.
 struct Secondary {
     /// Contribution of the sequence to the roll, indexed by place: the sum of all weighted digits
     /// before the place, modulo 63. The table contains kLinesAhead + kVectorAhead entries beyond
@@ -49,7 +51,7 @@ struct Secondary {
     /// For each digit, a bit set of the places at which the digit occurs. Place 0 is the lowest bit
     /// of the first word. The sequence is repeated to fill 256 + kLinesAhead bits.
     const std::uint32_t* const* places_of;
-    std::uint32_t reciprocal;     ///< 2^20 / length
+    std::uint32_t reciprocal;     ///< 2^20 / length, rounded down
     std::uint16_t rest_of_65536;  ///< 65536 modulo length
     std::uint8_t length;
     std::uint8_t period_roll;  ///< rolls[length] times the inverse of `length`, modulo 63
@@ -66,8 +68,8 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns the digit at a place below `length`. Computes the digit from `rolls`, because a
-    /// separate table would need flash memory on devices.
+    /// Returns the digit at a place below `length`. Computes the digit from `rolls` to save the
+    /// flash memory of a separate table on devices.
     constexpr std::uint8_t digit(std::uint32_t place) const {
         const int difference = rolls[place + 1] - rolls[place];
         const int weighted = difference < 0 ? difference + kSections : difference;
@@ -101,7 +103,7 @@ consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>
     return result;
 }
 
-/// Returns the set of places that contain a digit (see `Secondary::places_of`).
+/// Returns the bit set of the places at which a digit occurs (see `Secondary::places_of`).
 template <std::size_t Length>
 consteval auto places_of(const Digits<Length>& sequence, int digit) {
     std::array<std::uint32_t, (256 + kLinesAhead) / 32> words{};

@@ -14,10 +14,10 @@
 namespace dotpose::code {
 
 /// Minimum numbers of unshared lines between a position in the code that was read and any position
-/// in another code. Indices: code that was read, other code, row of `kUnsharedOf`. Each string has
-/// one digit for each place of the first line in a4. In most places, the sequences a4 of anoto and
-/// libdots are equal. For these two codes, the minimum therefore excludes the same place at shift
-/// 0.
+/// in another code. Indices: code that was read, other code, row of `kUnsharedOf`. Character p of a
+/// string is the minimum if the first line is at place p in a4. The a4 sequences of anoto and
+/// libdots differ in only 11 digits. For this pair of codes, the minimum therefore excludes the
+/// same place at shift 0.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

@@ -1,6 +1,7 @@
-// Unshared lines: counts the lines that distinguish two positions whose places differ in only one
-// of the four sequences. For a given shift, two positions *share* the lines whose rolls differ by
-// this shift. If their sections also differ by this shift, the shared lines have the same bits.
+// Unshared lines: the lines that distinguish two positions whose places differ in only one of the
+// four sequences. Two positions *share* a line at a given shift if their rolls of this line differ
+// by the shift. If the sections differ by the opposite amount, shared lines have the same bits at
+// both positions. The tables contain minimum numbers of unshared lines.
 // tests/unit/code/unshared_lines_test.cpp recomputes the tables.
 #pragma once
 
@@ -85,12 +86,12 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x7322, 0x7522, 0x74DA, 0x7D1B, 0x551B, 0x5CDB, 0x54DB, 0x2C93, 0x2C4A,
 };
 
-/// Maximum number of unshared lines that `kMaxPositionsWith` covers.
+/// Maximum number of unshared lines for which `kMaxPositionsWith` has an entry.
 inline constexpr std::size_t kMaxCounted = 7;
 
 /// Upper bounds on the number of positions with exactly n unshared lines, among the positions whose
-/// place differs from that of the decoded position in only one sequence. Indices: row, this
-/// sequence, n - 1. A position is counted once for each shift where it shares a line with the
+/// places differ from those of the decoded position in only one sequence. Indices: row, this
+/// sequence, n - 1. A position is counted once for each shift at which it shares a line with the
 /// decoded position. The bounds are valid for all decoded positions and all codes.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{

@@ -1,4 +1,4 @@
-// Known sheets: the parts of the code plane that may be in view.
+// Known sheets: the parts of the code plane that are printed on the sheets known to a locator.
 #pragma once
 
 #include <algorithm>

@@ -12,15 +12,15 @@ namespace dotpose::core {
 /// Likelihood ratios in another code, along one axis. A ratio is the likelihood of a place in the
 /// other code divided by the likelihood of the place that was read.
 struct OtherAxis {
-    float here = 1;  ///< ratio of the same place in the other code
+    float here = 1;  ///< ratio for the same place in the other code
     /// Upper bound on the summed ratios of all other places.
     float elsewhere = 0;
     /// Largest ratio among the examined places, excluding the place that was read.
     float best = 0;
-    /// Position of the first compared line, at the place with the ratio `best`.
+    /// Position of the first compared line if the place with the ratio `best` is correct.
     std::uint32_t position = 0;
-    /// Roll of the first compared line at the place with the ratio `best`, minus the roll of this
-    /// line in the reading.
+    /// Roll of the first compared line if the place with the ratio `best` is correct, minus the
+    /// roll that was read for this line, modulo 63.
     std::uint8_t roll = 0;
 };
 

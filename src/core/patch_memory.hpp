@@ -32,7 +32,7 @@ struct Patch {
     static constexpr int kTiles = kTilesPerRow * kMaxHeight_px / kTileHeight_px;
     static constexpr int kStrips = kMaxWidth_px / 32;
 
-    /// Minimum side without known sheets: 8 dots at a spacing of 6 px.
+    /// Minimum side of a patch if no sheets are known: 8 dots at a spacing of 6 px.
     static constexpr int kMinSide_px = 48;
 
     int min_side_px = kMinSide_px;
@@ -74,9 +74,9 @@ struct MeasuredDots {
     std::span<std::int32_t> sum_u;
     std::span<std::int32_t> sum_v;  ///< first moment along v
     std::span<std::int32_t> paper;  ///< paper level around the dot, in grey levels
-    /// Measured centre after undistortion, in px relative to the centre of the plane. Before the
-    /// measurement, `x` and `y` contain the predicted image point. `x` is kNoDot_px if there is no
-    /// dot.
+    /// Measured centre after undistortion, in px relative to the plane centre. Before the
+    /// measurement, `x` and `y` contain the predicted image point. After it, `x` is kNoDot_px if no
+    /// dot was found.
     std::span<float> x;
     std::span<float> y;
 

@@ -1,4 +1,4 @@
-// Row locator: functions that Locator and DeviceLocator share.
+// Row locator: the base class of Locator and DeviceLocator.
 #include <span>
 
 #include "core/steps.hpp"

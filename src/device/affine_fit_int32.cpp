@@ -13,8 +13,8 @@ int excess_bits(std::int64_t value, int bits) {
     return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
 }
 
-/// Returns n / d. If n fits in 32 bits, divides in 32 bits, which is five times as fast as a 64-bit
-/// division on small processors.
+/// Returns n / d. Uses a 32-bit division if n fits in 32 bits, because a 64-bit division takes five
+/// times as long on small processors.
 std::int64_t quotient(std::int64_t n, std::int32_t d) {
     const auto small = static_cast<std::int32_t>(n);
     return small == n ? small / d : n / d;

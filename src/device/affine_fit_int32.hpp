@@ -31,10 +31,10 @@ class AffineFitInt32 {
     };
 
     AffineFitInt32() = default;
-    /// Constructs the fit from existing sums over points. `count` is the number of points, `p` and
-    /// `target` are the sums of the points and of their targets, and `sums` contains the sums of
-    /// products. If the points have weights, each term of these sums is multiplied by the weight of
-    /// its point, and `count` is the sum of the weights.
+    /// Constructs the fit from precomputed sums. `count` is the number of points, `p` and `target`
+    /// are the sums of the points and of their targets, and `sums` contains the sums of their
+    /// products. If the points have weights, all of these sums are weighted, and `count` is the
+    /// total weight.
     AffineFitInt32(std::int32_t count, const FixedVec& p, const FixedVec& target,
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
@@ -45,8 +45,8 @@ class AffineFitInt32 {
     [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& target) {
         change(p, p, target);
     }
-    /// Adds a point if `weight` is 1. If `weight` is -1, removes a point that was added before. p
-    /// and the target have the units and ranges of `add`.
+    /// Adds a point if `weight` is 1. If `weight` is -1, removes a point that was added before. The
+    /// units and ranges of p and of the target are the same as for `add`.
     [[gnu::always_inline]] void count(const FixedVec& p, const FixedVec& target, int weight) {
         unused_ += 1 - weight;
         change(p, FixedVec{weight * p.x, weight * p.y},

@@ -26,8 +26,9 @@ FixedVec start_q8(const Workspace& w) {
     for (const DetectedDot& dot : w.found_dots())
         sum_q4 = sum_q4 + FixedVec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
     const FixedVec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
-    // The centroid is far away if its distance along an axis exceeds 1/kFar of half the image side.
-    // If the pattern fills the view, the distance is only a few hundredths of half the side.
+    // The centroid is far if its distance from the image centre along an axis exceeds 1/kFar of
+    // half the image side. If the pattern fills the view, this distance is only a few hundredths of
+    // half the side.
     constexpr int kFar = 4;
     const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
                         magnitude(mean_q8.y - centre_q8.y) * kFar > centre_q8.y;
@@ -48,7 +49,7 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
     return grown;
 }
 
-/// Minimum number of columns and of rows in view, if sheets are known.
+/// Minimum width and height of a grid, in cells, if sheets are known.
 constexpr int kMinKnownSide = 3;
 
 /// Reads the bits of the grid (paper, section II-B.4).
@@ -57,8 +58,8 @@ Status read_bits(Workspace& w) {
                                      w.known.any() ? kMinKnownSide : kWindowSide);
 }
 
-/// Finds the place in the code. Searches the known sheets first, and then the whole code unless the
-/// view must be on a known sheet.
+/// Finds the place in the code. Searches the known sheets first and then, if other sheets are
+/// possible, the whole code.
 Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->read(options, w)) return Status::ok;
@@ -84,7 +85,7 @@ Status measure_pose(const DeviceOptions& options, Workspace& w) {
 }  // namespace
 
 const Fix& finish_device_attempt(const DeviceOptions& options, DeviceWorkspace& w) {
-    // The comments at the right give the sections of the paper.
+    // The trailing comments cite the sections of the paper.
     Status status = w.keeps_frame ? w.on_sheets->find_dots_of_small(options, w)
                                   : find_dots(options, w);        // section II-B.1
     if (status == Status::ok) status = find_grid(options, w);     // sections II-B.2 and II-B.3

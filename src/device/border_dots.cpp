@@ -29,8 +29,8 @@ class AtBorder {
           here_(kept_row(tracking, v)[u]) {}
 
     int darkness_below(int level) const { return level - here_; }
-    /// Returns true if no adjacent pixel is darker. If adjacent pixels are equally dark, only the
-    /// last one in row-major order is the darkest.
+    /// Returns true if the pixel is darker than all adjacent pixels. Ties are broken in favour of
+    /// the last pixel in row-major order.
     bool is_darkest() const {
         for (int v = rows_.last; v >= rows_.first; --v) {
             const std::uint8_t* const row = kept_row(tracking_, v);
@@ -77,8 +77,8 @@ DarkSums AtBorder::sums(int level) const {
             sums.y += (v - v_) * darkness;
         }
     }
-    // If the darkest pixel is on the border, a third of the square is outside the image. Without a
-    // correction, the centroid would be wrong by about a quarter of a pixel.
+    // If the darkest pixel is on the border, a third of the 3 x 3 pixels are outside the image.
+    // Without a correction, the centroid would be wrong by about a quarter of a pixel.
     const auto correction = [mass = sums.mass](int at, int side_px) {
         if (at == 0) return -mass / 4;
         return at == side_px - 1 ? mass / 4 : 0;

@@ -25,8 +25,8 @@ inline Symbol coded_symbol(const Tracking& tracking, int i, int j) {
                        static_cast<int>(row_of(tracking, j).code >> i & 1));
 }
 
-/// Displacement of a dot in the directions of its x bit and its y bit (paper, equations 7 and 8),
-/// in 2^-12 spacings. A bit is 1 if its component is positive.
+/// Projections of a dot's displacement onto the diagonals that determine its x bit and its y bit
+/// (paper, equations 7 and 8), in 2^-12 spacings. A bit is 1 if its projection is positive.
 struct Projections {
     std::int32_t x_q12;
     std::int32_t y_q12;

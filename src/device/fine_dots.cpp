@@ -10,13 +10,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Half side of the square in which a dot is measured, in px.
+/// Half-width of the square in which a dot is measured, in px.
 constexpr int kHalf_px = 2;
 /// Minimum mass of a dot. `Inverse` is not accurate enough for smaller masses.
 constexpr int kMinMass = 16;
 
-/// Returns true if no pixel around `at` is darker. If adjacent pixels are equally dark, only the
-/// last one in row-major order is the darkest.
+/// Returns true if the pixel is darker than all adjacent pixels. Ties are broken in favour of the
+/// last pixel in row-major order.
 DOTPOSE_NOINLINE bool is_darkest(const std::uint8_t* at, int stride) {
     const int here = *at;
     const std::uint8_t* const above = at - stride;

@@ -16,7 +16,7 @@ inline constexpr int kFirstFineRow = 2;
 void find_fine_dots(Tracking& tracking);
 
 /// Adds a dot to `Tracking::found`, unless the memory is full or the mass of the dot is too small.
-/// `pixel` is the darkest pixel of the dot, and `sums` are the sums over the pixels around it.
+/// `pixel` is the darkest pixel of the dot, and `sums` are the darkness sums around this pixel.
 void add_fine_dot(FixedVec pixel, const DarkSums& sums, Tracking& tracking);
 
 /// Removes the dots whose masses are far from the mean mass.

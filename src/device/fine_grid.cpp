@@ -18,9 +18,9 @@ constexpr std::int32_t kOneCell_q24 = 1 << 24;
 /// Maximum offset of a dot from its expected centre along each axis: an eighth of the spacing.
 constexpr std::int32_t kMaxOffset_q24 = kOneCell_q24 / 8;
 
-/// Circular mean of the fractional parts of coordinates, which are their phases within the cells.
-/// Uses triangle waves instead of cosine and sine, because triangle waves need neither a table nor
-/// a multiplication.
+/// Circular mean of phases. The phase of a coordinate is its fractional part, in cells. Uses
+/// triangle waves instead of cosine and sine, because triangle waves need neither a table nor a
+/// multiplication.
 class MeanPhase {
   public:
     /// Adds a coordinate, in 2^-8 cells.
@@ -55,13 +55,13 @@ class PhasesOfAxis {
     }
     struct Line {
         int shift_q8;            ///< phase at the image centre, in 2^-8 cells
-        std::int32_t slope_q16;  ///< change of the phase per cell of the other axis
+        std::int32_t slope_q16;  ///< change of the phase per cell along the other axis
     };
     Line fit(int dots) const {
         const int first_q8 = halves_[0].q8();
         const int rise_q8 = static_cast<std::int8_t>(halves_[1].q8() - first_q8);
-        // The distance between the mean dots of the two halves is twice the mean distance of a dot
-        // from the line that separates the halves.
+        // The distance between the centroids of the two halves is twice the mean distance of a dot
+        // from the line between the halves.
         return {static_cast<std::int8_t>(first_q8 + rise_q8 / 2),
                 (rise_q8 * dots * (1 << 15)) / std::max<std::int32_t>(across_q8_, 1)};
     }
@@ -96,7 +96,7 @@ class FineGrid {
     /// not determine a plane.
     int read_and_fit();
 
-    /// Returns the phase of the grid at the image centre along both axes, in 2^-8 cells.
+    /// Returns the phase of the grid at the image centre along each axis, in 2^-8 cells.
     FixedVec phase_q8() const { return phase_q8_; }
     std::int32_t displacement_q16() const { return displacement_q24_ >> 8; }
 
@@ -134,9 +134,9 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     PhasesOfAxis along_x;
     PhasesOfAxis along_y;
     const FixedVec middle_q8{at_q24_.x >> 16, at_q24_.y >> 16};
-    // Only dots within this distance of the image centre, along each axis, are used: 3.5 cells. The
-    // predicted centres of dots farther out may be wrong by more than half a spacing, because the
-    // predicted rotation is inaccurate.
+    // Maximum distance of the dots from the image centre along each axis: 3.5 cells. Dots farther
+    // out are not used. Their predicted centres may be wrong by more than half a spacing, because
+    // the predicted rotation is inaccurate.
     constexpr std::int32_t kNear_q8 = 7 * 128;
     int count = 0;
     for (const DetectedDot& dot : all()) {

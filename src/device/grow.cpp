@@ -49,8 +49,8 @@ constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. c is `rounding_plane_point_q16` of the dot,
 /// and its integer part is the nearest cell. `is_within_reach` is true if this cell is at most
-/// `reach_cells` cells from cell (0, 0) along each axis. Returns the statistics of the dots except
-/// `near_intersections`.
+/// `reach_cells` cells from cell (0, 0) along each axis. Returns the statistics of the dots, but
+/// does not set `near_intersections`.
 template <typename Use>
 Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const Cells& cells,
                        Use use) {

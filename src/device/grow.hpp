@@ -1,8 +1,8 @@
 // Grow: extends the first grid estimate to all dots (paper, section II-B.3). Assumes no perspective
-// and no lens distortion. The paper first refines the origin (equation 6), and then the grid
-// vectors by the median distances between neighbouring dots. This stage instead fits all terms by
-// least squares, and treats the displacements of the dots as noise. The first fit uses the dots
-// near the origin, and each further fit uses a larger area.
+// and no lens distortion. The paper first refines the origin (equation 6), and then sets the
+// lengths of the grid vectors to the median distances between neighbouring dots. This stage instead
+// fits the origin and the vectors together, by least squares, and treats the displacements of the
+// dots as noise. The first fit uses the dots near the origin, and later fits use larger areas.
 #pragma once
 
 #include "dotpose/device_options.hpp"

@@ -3,7 +3,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum magnitude of the weights of both bits of a clear cell. Weights are from -127 to 127.
+/// A cell is clear if the weights of both its bits have at least this magnitude. Weights are from
+/// -127 to 127.
 constexpr int kMinWeight = 48;
 
 bool is_clear(const GridCell& cell) {
@@ -55,8 +56,9 @@ int HardLines::wrong_with(const std::uint8_t* rolls, std::uint32_t added, int li
 }
 
 int HardLines::wrong_at(const code::RollsAhead& rolls, std::uint32_t added, int limit) const {
-    // In a rotated view, the first and last lines have few bits. Counting begins with the middle
-    // lines, which have more bits, because the result then exceeds `limit` sooner.
+    // In a rotated view, the first and last lines have few bits. Counting starts after the first
+    // quarter of the lines, so lines with more bits are counted first, and the count exceeds
+    // `limit` sooner.
     const int begin = count / 4;
     int wrong = 0;
     int i = begin;

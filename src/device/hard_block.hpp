@@ -35,13 +35,12 @@ struct HardLines {
 
     const HardLine& operator[](int line) const { return first[line * step]; }
 
-    /// Returns the number of bits that disagree with the code if line i starts at index `rolls[i] +
-    /// added`, modulo 63, of the main sequence. If this number exceeds `limit`, may stop counting
-    /// early, with a result that also exceeds `limit`.
+    /// Returns the number of bits that disagree with the code if the roll of line i is
+    /// (rolls[i] + added) mod 63. Stops counting once the result exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
-    /// Returns the number of bits that disagree with the code. The roll of each line is (r + added)
-    /// mod 63, where r is its roll in section 0, taken from `rolls`. May stop early once the count
-    /// exceeds `limit`, and then returns a value greater than `limit`.
+    /// Returns the number of bits that disagree with the code if the roll of each line is (r +
+    /// added) mod 63, where r is the roll of the line in section 0, taken from `rolls`. Stops
+    /// counting once the result exceeds `limit`.
     int wrong_at(const code::RollsAhead& rolls, std::uint32_t added, int limit) const;
     /// Variant of `wrong_at` that computes the rolls. `position` is the position of the first line.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const {
@@ -49,9 +48,9 @@ struct HardLines {
     }
 };
 
-/// The bits of a block in all four orientations. Only the block and the block turned by 180 degrees
-/// are stored. The lines of each orientation are lines of one of these two blocks, in forward or
-/// reverse order.
+/// The bits of a block in all four orientations. Only two orientations are stored: the original
+/// block, and the block turned by 180 degrees. The lines of every orientation are the lines of one
+/// of these two blocks, in forward or reverse order.
 class HardBlock {
   public:
     /// Reads the clear cells of a region of at most kMaxComparedLines columns and rows.

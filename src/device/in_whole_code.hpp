@@ -9,7 +9,7 @@ namespace dotpose::core {
 struct DeviceWorkspace;
 
 /// Functions that search the whole code. DeviceWorkspace calls them through a pointer, so they are
-/// not linked into programs whose frames are so small that only known sheets can be read.
+/// not linked into programs for small frames, which can be located only on known sheets.
 struct WholeCodeFunctions {
     /// Finds the place of a frame without a prediction, and verifies it. Sets the place and the
     /// orientation in the decoding (paper, sections II-B.5 to II-B.7).

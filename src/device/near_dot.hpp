@@ -14,16 +14,16 @@
 
 namespace dotpose::core {
 
-/// Half sides of the squares in which dots are read, in px. A square with half side n has 2 n + 1
-/// px per side. The square of kHalf_px is centred on an intersection and, at spacings of 7 to 14
-/// px, contains the dot regardless of its symbol. If the displacement of the dots is small, symbols
-/// are read in the square of kSmallHalf_px, because a smaller square allows reading dots closer to
-/// the image border. The square of kDotHalf_px is centred on the dot itself.
+/// Half-widths of the squares in which dots are read, in px. A square with half-width n has
+/// 2 n + 1 px per side. The square of kHalf_px is centred on an intersection. At spacings of 7 to
+/// 14 px, it contains the dot regardless of its symbol. If the displacement of the dots is small,
+/// symbols are read in the square of kSmallHalf_px instead, because a smaller square allows reading
+/// dots closer to the image border. The square of kDotHalf_px is centred on the dot itself.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kSmallHalf_px = 3;
 inline constexpr int kDotHalf_px = 2;
 
-/// Sets the half side of the square in which symbols are read.
+/// Sets the half-width of the square in which symbols are read.
 void set_half_side(int half_px, Tracking& tracking);
 
 /// Returns the pixel nearest to an image point.
@@ -31,7 +31,7 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
     return {(place_q16.x + 32768) >> 16, (place_q16.y + 32768) >> 16};
 }
 
-/// Returns true if all pixels of the square around `pixel` are stored. `half` is the half side of
+/// Returns true if all pixels of the square around `pixel` are stored. `half` is the half-width of
 /// the square.
 [[gnu::always_inline]] inline bool is_kept(const Tracking& tracking, FixedVec pixel, int half) {
     return static_cast<unsigned>(pixel.x - half) <
@@ -59,7 +59,7 @@ bool lay_dot_pixels(Tracking& tracking);
 class ReadSymbol {
   public:
     static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
-    /// Constructs a clear result. Pixels below `level`, from 0 to 255, belong to the dot.
+    /// Constructs a clear result. Pixels darker than `level` (0 to 255) belong to the dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
     /// Returns true if one of the four possible centres of the dot was clearly the darkest, and
@@ -75,9 +75,9 @@ class ReadSymbol {
 
 /// Reads the symbol of the dot at an intersection, by finding the darkest of the four possible
 /// centres of the dot. The result is unclear if none of the centres is clearly the darkest and dark
-/// enough for a dot. Requires that the square around the intersection and a border of one pixel are
-/// stored. This function is not inlined, because small processors would otherwise not have enough
-/// registers.
+/// enough for a dot. The square around the intersection must be stored, with a border of one pixel
+/// around it. This function is not inlined, because small processors would otherwise not have
+/// enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
@@ -104,10 +104,11 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     }
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
-    // `depth` is the contrast of one pixel, but each sum is over four pixels. The sum of a clear
-    // dot is at least 2 `depth` below the sum of four paper pixels, and at least `depth` below the
-    // sums at the other three centres. The expected differences are about 6 `depth` and 4 `depth`,
-    // because a dot also reduces the sums at the adjacent centres by about 2 `depth`.
+    // `depth` is the minimum contrast of a single dark pixel, whereas each sum covers four pixels.
+    // The symbol is clear if the darkest sum is at least 2 `depth` below the sum of four paper
+    // pixels, and at least `depth` below the other three sums. The expected differences are about
+    // 6 `depth` and 4 `depth`, because a dot reduces the sums at adjacent centres by about
+    // 2 `depth`.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();

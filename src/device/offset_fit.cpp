@@ -18,8 +18,8 @@ int excess_bits(std::int32_t magnitude) {
 }  // namespace
 
 bool OffsetFit::correct(PlaneFromImage& plane) const {
-    // Moves the origin to the mean of the dots, truncated to 1/4 px, and subtracts the mean offset.
-    // This decouples the slopes from the mean offset.
+    // Moves the origin to the centroid of the dots, truncated to 1/4 px, and subtracts the mean
+    // offset. The slopes can then be computed independently of the mean offset.
     const FixedVec mean{p_.x / count_, p_.y / count_};
     const FixedVec rest{p_.x - count_ * mean.x, p_.y - count_ * mean.y};
     const std::int32_t xx = xx_ - mean.x * (p_.x + rest.x);
@@ -44,8 +44,7 @@ bool OffsetFit::correct(PlaneFromImage& plane) const {
 
     const int own = excess_bits(std::max(larger_component(of_x), larger_component(of_y)));
     const std::int32_t divisor = std::max(determinant >> kBits, std::int32_t{1});
-    // The units of the quotients are 2^-12 cells per 1/4 px, times 2^-kBits, which is 2^-24 cells
-    // per px.
+    // The unit of the quotients is 2^-12 cells per 1/4 px, times 2^-kBits: 2^-24 cells per px.
     static_assert(12 + kBits - 2 == 24);
     const auto slope_q24 = [&](std::int32_t numerator) {
         return numerator / divisor * (1 << own) >> excess;

@@ -27,8 +27,9 @@ struct SheetFunctions {
     /// Finds the dots of a fine grid in the rows of a tracked frame (see `find_fine_dots`). Fine
     /// grids are tracked only if sheets are known.
     void (*find_dots)(Tracking& tracking);
-    /// Fits a fine grid and reads its bits. Returns the result of `fit_fine_grid`. If it is not 0,
-    /// also sets `pattern_from_image` and the displacement of the fix.
+    /// Fits a fine grid and reads its bits. On success, sets `pattern_from_image` and the
+    /// displacement of the fix, and returns the number of dots in the fit. Returns 0 on failure
+    /// (see `fit_fine_grid`).
     int (*fit_grid)(const DeviceOptions& options, DeviceWorkspace& w);
 };
 extern const SheetFunctions kSheetFunctions;

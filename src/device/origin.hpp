@@ -1,7 +1,7 @@
-// Origin: finds the origin of the first grid (paper, section II-B.2). The paper requires a dot that
-// is connected to all eight neighbours, but such dots are rare if dots are displaced or missing.
-// This stage instead computes the origin from many dots near the centre. The origin along each axis
-// is the circular mean of the offsets of these dots from the grid.
+// Origin: finds the origin of the first grid (paper, section II-B.2). The paper requires an intact
+// neighbourhood of 3 x 3 dots, which is rare if dots are displaced or missing. This stage instead
+// computes the origin from many dots near the centre. The origin along each axis is the circular
+// mean of the offsets of these dots from the grid.
 #pragma once
 
 #include "dotpose/trace.hpp"

@@ -8,9 +8,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Range of grid spacings that can be tracked, in px. From kFine_px to kCoarsest_px, each dot is
-/// read in the square around its intersection. Smaller spacings are tracked as fine grids
-/// (device/fine_grid.hpp), and only if sheets are known.
+/// Range of grid spacings that can be tracked, in px. At spacings from kFine_px to kCoarsest_px,
+/// each dot is read in the square around its intersection. Grids with smaller spacings are tracked
+/// as fine grids (device/fine_grid.hpp), and only if sheets are known.
 constexpr int kFinest_px = 5;
 constexpr int kFine_px = 7;
 constexpr int kCoarsest_px = 14;
@@ -38,7 +38,7 @@ bool is_sane(const Prediction& prediction) {
 
 constexpr std::int64_t kOne_q24 = 1 << 24;
 
-/// Returns the determinant of a plane, in 2^-24 px^-2. Returns 0 if the spacing of the cells is
+/// Returns the determinant of a plane, in 2^-24 cells per px^2. Returns 0 if the cell spacing is
 /// outside the range that can be tracked, or if the cells are sheared or stretched too much.
 /// `finest_px` is the minimum spacing.
 std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_px) {
@@ -100,7 +100,7 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
 }
 
 /// Sets the members that depend on the spacing. Returns false if the memory is too small for the
-/// rows, or if the image must be cropped too much for its cells to fit in the memory.
+/// rows, or if the part of the image whose cells fit in the memory is too small.
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;

@@ -12,20 +12,21 @@ namespace dotpose::core {
 /// Number of rows that are collected before their dots are read.
 inline constexpr int kRowsAtOnce = 12;
 
-/// Prepares the tracking of a frame from its prediction. Sets `plane`, relative to cell (0, 0). In
-/// `tracking`, sets the corner, the cells, and the members that depend on the spacing. The memory
-/// and the image size must already be set. The image must have at most 4096 px per side. The
-/// prediction may have any values. Returns not_tracked in each of these cases:
+/// Prepares the tracking of a frame from its prediction. Sets `plane` to the predicted map from the
+/// image to the cells, relative to cell (0, 0). In `tracking`, sets the corner, the cells, and the
+/// members that depend on the spacing. The memory and the image size must already be set. The image
+/// must have at most 4096 px per side. The prediction may contain arbitrary values. Returns
+/// not_tracked if:
 /// - a value of the prediction is out of range,
 /// - the spacing is not from 7 to 14 px (from 5 to 14 px if sheets are known),
 /// - the angle between the grid axes is less than 45 degrees, or the spacing along one axis is more
 ///   than about 1.6 times the spacing along the other,
-/// - the memory is too small,
+/// - the memory is too small, or
 /// - the part of the image whose cells fit in the memory is too small.
 Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, PlaneFromImage& plane,
                            Tracking& tracking);
 
-/// Index, along both axes, of the cell near the middle of the image.
+/// Column and row of the cell near the middle of the image.
 inline constexpr int kMiddleCell = kMaxComparedLines / 2;
 
 /// Returns the image point of an intersection, in 2^-16 px.

@@ -31,16 +31,16 @@ struct PlacedLines {
     int wrong;  ///< number of bits that disagree with the code
 };
 
-/// Returns the roll of a line minus the roll of this line in section 0, modulo 63. This difference
-/// is the same for all lines of an axis: the section of the axis plus the position on the other
-/// axis.
+/// Returns the difference between the roll of a line and its roll in section 0, modulo 63. The
+/// difference is the same for all lines of an axis. It is the section of this axis plus the
+/// position on the other axis.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
 
-/// Sum of the odds of alternatives to a given place. The alternatives are other places on the known
-/// sheets whose lines on one axis are the same as at the given place. Only the lines of the other
-/// axis distinguish them from the given place.
+/// Sum of the odds of alternatives to a given place. The alternatives are the other places on the
+/// known sheets that have the same lines as the given place on one axis. Only the lines of the
+/// other axis distinguish them from the given place.
 class OddsOfOthers {
   public:
     OddsOfOthers(CodeVariant code, int odds_per_bit_q8)
@@ -50,8 +50,8 @@ class OddsOfOthers {
 
     /// Adds the alternatives in one region. `same` contains the lines of the axis on which the
     /// alternatives agree with the given place, and `other` contains the lines of the other axis.
-    /// `same_section` and `same_range` are the section and the positions of the region on the axis
-    /// of `same`. `section` and `range` are the section and the positions on the axis of `other`.
+    /// `same_section` and `same_range` are the region's section and positions on the axis of
+    /// `same`. `section` and `range` are its section and positions on the axis of `other`.
     void add(const PlacedLines& same, std::uint32_t same_section, const PositionRange& same_range,
              const PlacedLines& other, std::uint32_t section, const PositionRange& range) {
         if (!same_range.contains(same.position)) return;
@@ -65,8 +65,8 @@ class OddsOfOthers {
         for (; i < range.count; i += kSections, rolls.advance()) {
             const std::uint32_t position = range.first + i;
             if (is_same_section && position == other.position) continue;
-            // Stops counting wrong bits once the odds are negligible. Wrong bits that are not
-            // counted can only increase the computed odds, so the sum remains an upper bound.
+            // Stops counting wrong bits once the odds are negligible. Missing some wrong bits can
+            // only increase the computed odds, so the sum remains an upper bound.
             const int lost =
                 other.lines.wrong_at(rolls, added, other.wrong + max_lost_) - other.wrong;
             log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);
@@ -83,9 +83,10 @@ class OddsOfOthers {
     int log2_q8_ = kNever_q8;
 };
 
-/// Returns log2 of the number of places that may be in view, in units of 2^-8. The number includes
-/// all four orientations and places at which the block extends beyond a region. The number is at
-/// least 2^10, because a tracked attempt tests a single place but chooses among up to 2^10 planes.
+/// Returns the number of places that may be in view, as log2 in units of 2^-8. Each orientation of
+/// the block counts separately, and places at which the block extends beyond a region are included.
+/// The number is at least 2^10, because a tracked attempt tests a single place but chooses among up
+/// to 2^10 planes.
 int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
     std::uint64_t places = 0;
     for (const KnownRegion& region : sheets.regions) {
@@ -96,10 +97,10 @@ int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int
     return log2_of_places_q8(std::max<std::uint64_t>(4 * places, 1024));
 }
 
-/// Returns log2 of an upper bound on the probability of an accidental match with an unknown sheet,
+/// Returns an upper bound on the probability of an accidental match with an unknown sheet, as log2
 /// in units of 2^-8. Such a sheet has the columns or the rows of a known sheet, and agrees on the
-/// other axis by chance. On this other axis, only one position in 63 is possible, because the rolls
-/// of the matching lines determine the position modulo 63.
+/// other axis by chance. On the other axis, only one position in 63 is possible, because the rolls
+/// of the matching lines determine this position modulo 63.
 int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const PlacedLines& x,
                           const PlacedLines& y, int bits, int odds_per_bit_q8) {
     std::uint32_t columns = 0;

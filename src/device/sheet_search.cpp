@@ -9,8 +9,8 @@ namespace dotpose::core {
 namespace {
 
 constexpr int kTurns = 4;
-/// Maximum number of pairs of lines that the search tries on each axis. Pairs are disjoint, so a
-/// bit error affects only one pair of each axis.
+/// Maximum number of pairs of lines that the search tries on each axis. The pairs are disjoint, so
+/// a bit error affects at most one pair on each axis.
 constexpr int kMaxPairs = 3;
 
 /// The rolls at which all bits of a line agree with the main sequence. Empty if there are more than
@@ -49,9 +49,9 @@ struct LinePair {
     AgreeingRolls second;
 };
 
-/// Returns the first line of the pair of adjacent lines with the most bits. The number of bits of a
-/// pair is that of its line with fewer bits. Skips the lines in the bit set `tried`, and adds the
-/// pair to this set. Returns nullopt if no pair with bits is left.
+/// Returns the first line of the best pair of adjacent lines. Pairs are ranked by the number of
+/// bits in the line with fewer bits. Skips pairs with a line in the bit set `tried`, and adds both
+/// lines of the result to this set. Returns nullopt if no pair with bits is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -86,8 +86,8 @@ class PairsOfLines {
         }
     }
     Axis axis() const { return axis_; }
-    /// Returns the orientations, as a bit set, in which some agreeing rolls of the two lines differ
-    /// by `step`.
+    /// Returns a bit set of the orientations in which an agreeing roll of the second line exceeds
+    /// an agreeing roll of the first line by `step`, modulo 63.
     unsigned turns_with(std::uint32_t step) const { return turns_[step]; }
     const LinePair& operator[](int quarters) const {
         return pairs_[static_cast<std::size_t>(quarters)];
@@ -100,7 +100,7 @@ class PairsOfLines {
     std::array<LinePair, kTurns> pairs_{};
 };
 
-/// The positions of one axis of a region, and the section of this axis.
+/// The range of positions that a region covers on one axis, and its section on this axis.
 struct RegionAxis {
     std::uint32_t first;
     std::uint32_t size;
@@ -135,16 +135,16 @@ class SheetSearch {
     /// agree with the code. `step` is the roll of the second line minus the roll of the first line.
     void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
                    const Rolls& rolls, std::uint32_t position, std::uint32_t step);
-    /// Tests the places at which the first line of an axis is at `position`. `wrong` is the number
-    /// of bits of this axis that disagree with the code there. The roll of each line is its roll in
-    /// section 0 plus `added`.
+    /// Tests the places at which the first line of `axis` is at `position`. `wrong` is the number
+    /// of bits of this axis that disagree with the code. The roll of each line of this axis is its
+    /// roll in section 0 plus `added`, modulo 63.
     void test_crossing(const KnownRegion& region, Axis axis, int quarters, std::uint32_t position,
                        std::uint32_t added, int wrong);
 
     const HardBlock& block_;
     CodeVariant code_;
-    int max_wrong_;  ///< maximum number of wrong bits, summed over both axes. After a place is
-                     ///< found, one less than the number at this place
+    int max_wrong_;  ///< maximum number of wrong bits, summed over both axes; after a place is
+                     ///< found, one less than its number of wrong bits
     std::optional<SheetPlace> best_;
 };
 
@@ -152,7 +152,7 @@ void SheetSearch::search(const KnownRegion& region, const PairsOfLines& pairs) {
     const RegionAxis along(region, pairs.axis());
     const auto margin = static_cast<std::uint32_t>(
         std::max(block_.lines(pairs.axis(), 0).count, block_.lines(pairs.axis(), 1).count));
-    // Range of positions of the first line of a pair at which the block may overlap the region.
+    // Range of positions of a pair's first line for which the block may overlap the region.
     const std::uint32_t begin = along.first < margin ? 0 : along.first - margin;
     const std::uint32_t end = along.first + along.size + margin;
     Rolls rolls;

@@ -12,7 +12,7 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // Only dots within two spacings of the middle column are used, because a rotation relative to
+    // Maximum distance of dots from the middle column, in px: two spacings. A rotation relative to
     // the prediction changes the sums over these dots only slightly.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
@@ -36,8 +36,8 @@ Shifts::Shifts(const Tracking& tracking) {
     divide_by_dots();
 }
 
-/// Sets the paper level to the mean of all sampled pixels that are at least as bright as the mean
-/// sampled pixel.
+/// Sets the paper level to the mean of the sampled pixels that are not darker than the mean of all
+/// sampled pixels.
 void Shifts::measure_paper(const Tracking& tracking) {
     int threshold = 0;
     for (int round = 0; round < 2; ++round) {
@@ -58,9 +58,9 @@ void Shifts::measure_paper(const Tracking& tracking) {
 
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
-    // Maximum distance of the visited cells from the middle cell, in cells along each axis. At any
-    // rotation of the grid, the visited cells include all dots within two spacings of the middle
-    // column of the image that are in the first rows or that a shift can move into the first rows.
+    // Maximum distance of a visited cell from the middle cell, in cells along each axis. It is
+    // sufficient at any rotation of the grid: the visited cells include all dots near the middle
+    // column that are in the first rows, or that a shift can move into the first rows.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -99,9 +99,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor of a sum of darkness. A sum over fewer dots is divided by this number, which
-    // reduces the mean. The reduction is intended, because the mean over a few dots may be large by
-    // chance.
+    // Minimum divisor. The mean over a few dots may be large by chance. Sums over fewer than
+    // kMinDivisor dots are therefore divided by kMinDivisor, which makes the result smaller.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

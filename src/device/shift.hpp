@@ -16,9 +16,10 @@ class Shifts {
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Sets `shift_q8` to the shift from the predicted to the measured position with the largest
-    /// mean darkness, in 2^-8 px, and returns true. Excludes shifts that are within two steps of an
-    /// earlier result along both axes. Returns false if all remaining shifts have no darkness.
+    /// Finds the shift with the largest mean darkness. Sets `shift_q8` to this shift, in 2^-8 px
+    /// from the predicted to the measured position, and returns true. Excludes shifts that are
+    /// within two steps of an earlier result along both axes. Returns false if the darkness of all
+    /// remaining shifts is 0.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
@@ -38,19 +39,19 @@ class Shifts {
     void add_dots(const Tracking& tracking);
     void add_dot(const Tracking& tracking, int u, int v);
     void divide_by_dots();
-    /// Returns a pointer to the first sum in row `y` of the search range. On each side, the row is
-    /// followed by an element that is 0.
+    /// Returns a pointer to the first sum in row `y` of the search range. The elements before and
+    /// after the sums of a row are 0.
     std::uint16_t* row_of(int y) { return sums_.data() + (y + 1) * kPerRow + 1; }
     void forget_around(FixedVec at);
 
     int left_ = 0;
     int right_ = 0;
     int rows_ = 0;
-    FixedVec steps_;  ///< numbers of steps from the middle of the search range to its ends
+    FixedVec steps_;  ///< number of steps from the middle of the search range to its edge, per axis
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;
-    std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots summed in each row of steps
+    std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots in the sums of each row
     /// Sums of darkness, which `divide_by_dots` turns into means.
     std::array<std::uint16_t, kPerRow * kPerRow> sums_{};
 };

@@ -11,8 +11,8 @@ namespace dotpose::core {
 
 struct DeviceWorkspace;
 
-/// Maximum width and height of small frames. In larger frames, enough dots are in view for blob
-/// detection, at spacings of up to 15 px.
+/// Maximum width and height of small frames, in px. At spacings of up to 15 px, larger frames show
+/// enough dots for blob detection.
 inline constexpr int kMaxSmallSide_px = 80;
 
 /// Prepares for storing the rows of a frame. Returns false if the frame is not small, or if the

@@ -118,9 +118,9 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     t.status = options.lens.k_q40 == 0
                    ? lay_predicted_cells(prediction, options.code, w.pattern_from_image, t)
                    : Status::not_tracked;
-    // A workspace that keeps every stage is used on a processor that is fast enough to locate the
-    // whole frame without the prediction. This is more accurate than tracking only the middle of
-    // the frame.
+    // A workspace that keeps every stage is used on processors that are fast enough to locate the
+    // whole frame without the prediction. Locating the whole frame is more accurate than tracking
+    // only its middle part.
     if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
     t.rows_taken = -t.rows_above;
     std::fill(t.lines.begin(), t.lines.end(), ComparedLine{});

@@ -11,8 +11,8 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the number of bits by which masses and mass-weighted sums must be shifted right for the
-/// total mass to be less than 2^16. All sums are then less than 2^31, because cell coordinates are
-/// at most 16 from the middle and offsets are at most 448/256 px, which is an eighth of the maximum
+/// total mass to be less than 2^16. All sums are then less than 2^31, because dots are at most 16
+/// cells from the middle and offsets are at most 448/256 px, which is an eighth of the maximum
 /// spacing of 14 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
@@ -21,8 +21,8 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// Returns the sums for a least-squares fit of the offsets of dots as an affine function of the
-/// cell coordinates. Each dot is weighted by its mass.
+/// Returns the sums for a least-squares fit that describes the offsets of dots by an affine
+/// function of their cell coordinates. Each dot is weighted by its mass.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     FixedVec cells;

@@ -31,13 +31,13 @@ struct TrackedRow {
     /// Image point of the next intersection, in 2^-16 px. y is kNever_q16 if there is no next cell.
     FixedVec next_q16{0, kNever_q16};
     std::int32_t i = 0;  ///< column of the next cell
-    // Sums of the mass, of the mass times i, and of the mass times i^2, over the measured dots. In
-    // all sums, i is the column of a dot relative to the middle column.
+    // Sums of mass, mass * i and mass * i^2 over the measured dots. In all sums, i is the column of
+    // a dot relative to the middle column.
     std::int32_t mass = 0;
     std::int32_t mass_i = 0;
     std::int32_t mass_ii = 0;
-    /// Sums of the offsets of dots from their predicted centres, in 2^-8 px, each multiplied by the
-    /// mass of its dot. `offset_i_q8` has the additional factor i.
+    /// Mass-weighted sums of the offsets of dots from their predicted centres, in 2^-8 px. In
+    /// `offset_i_q8`, each offset is also multiplied by i.
     FixedVec offset_q8;
     FixedVec offset_i_q8;
 };
@@ -61,9 +61,9 @@ struct TrackedView {
 struct Tracking {
     Status status = Status::not_tracked;
     std::uint8_t min_contrast = 0;  ///< see DeviceOptions
-    /// Half side of the square in which a symbol is read, in px (see `set_half_side`).
+    /// Half-width of the square in which a symbol is read, in px (see `set_half_side`).
     std::uint8_t half_side_px = 0;
-    // The members that are used for every dot are first, because small processors access the first
+    // The members that are used for every dot come first, because small processors access the first
     // members fastest.
     int width_px = 0;
     int height_px = 0;
@@ -85,11 +85,12 @@ struct Tracking {
     std::span<ComparedLine> lines;  ///< first half: columns; second half: rows
     /// Displacement of a dot from its intersection, in 2^-16 px, indexed by Symbol.
     std::array<FixedVec, 4> displaced_q16{};
-    /// Sums of the offsets of all dots from their predicted centres, each multiplied by the mass of
-    /// its dot. Indexed by Symbol.
+    /// Mass-weighted sums of the offsets of all dots from their predicted centres, in 2^-8 px.
+    /// Indexed by Symbol.
     std::array<FixedVec, 4> offset_q8{};
-    /// Offset from the pixel of an intersection to the first of the four pixels of its dot, in
-    /// bytes. Indexed by the quadrant of the pixel that contains the intersection, and by Symbol.
+    /// Offset, in bytes, from the pixel that contains an intersection to the first of the four
+    /// pixels of its dot. Indexed by the pixel quadrant that contains the intersection, and by
+    /// Symbol.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
     std::int16_t min_side_px = 0;  ///< minimum width and height of the tracked part
     std::int16_t left_out_px = 0;  ///< number of columns to the left of the tracked part
@@ -105,7 +106,7 @@ struct Tracking {
     std::int32_t displacement_q12 = 0;
     int rows_kept = 0;  ///< maximum number of rows that can be stored
     /// Number of rows at the top of the tracked part in which the prediction error is measured. In
-    /// fine grids, the value of rows_taken at which the next search for dots begins.
+    /// fine grids, this is the value of `rows_taken` at which the next search for dots begins.
     int first_rows = 0;
     /// Value of `rows_taken` at which the next dots are read. In fine grids, this is the first row
     /// of the next search for dots.
@@ -116,7 +117,7 @@ struct Tracking {
     int last_cell = 0;
     std::span<TrackedRow> grid_rows;
     TrackedView view;
-    /// The first `dots_measured` are the dots that were found in the stored rows (see
+    /// The first `dots_measured` elements are the dots found in the stored rows so far (see
     /// `find_fine_dots`). Their centres are relative to the middle of the image.
     std::span<DetectedDot> found;
 };

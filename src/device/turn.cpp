@@ -13,7 +13,7 @@ namespace {
 /// Maximum number of rings of cells that are measured around the middle cell.
 constexpr int kRounds = 4;
 /// Minimum number of dots that agree with the code, and minimum fraction of the measured dots that
-/// agree with the code, in units of 1/8.
+/// agree with it, in units of 1/8.
 constexpr int kMinDots = 12;
 constexpr int kMinFraction_q3 = 6;
 /// The fraction is tested only if at least this number of dots has been measured.
@@ -21,8 +21,8 @@ constexpr int kMinMeasured = 8;
 
 /// A small similarity transform of the cells: shift, rotation and scale. A cell at c, relative to
 /// the middle cell, moves by shift + stretch c + turn J c, where J is a rotation by 90 degrees. The
-/// transform is applied before the cell map. The cell map contains the shear of a rolling shutter,
-/// so the rotation does not rotate this shear.
+/// transform is applied before the cell map. It therefore does not rotate the shear of a rolling
+/// shutter, which is part of the cell map.
 struct Similarity {
     std::int32_t stretch_q20 = 0;
     std::int32_t turn_q20 = 0;
@@ -73,7 +73,7 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// Returns the map of the cells after a similarity transform about the cell `middle`.
+/// Returns the cell map after a similarity transform of the cells about the cell `middle`.
 CellMap changed(const CellMap& cells, FixedVec middle, const Similarity& s) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;

@@ -59,8 +59,8 @@ struct DeviceCapacity {
     int max_runs = 0;
 };
 
-/// Capacities for each frame size. They are sufficient for spacings of at least about 11 px, or at
-/// least 6 px in frames of 36 x 36 px. Each size is also listed in dotpose/memory.hpp.
+/// Capacities for each frame size. They are sufficient for spacings of about 11 px or more (6 px or
+/// more in frames of 36 x 36 px). Each size is also listed in dotpose/memory.hpp.
 template <int Width, int Height>
 inline constexpr DeviceCapacity kDeviceCapacity{};
 template <>
@@ -87,9 +87,10 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
                                                           .blobs = 96,
                                                           .max_runs = 6800};
 
-/// Workspace of a DeviceLocator on a small microcontroller, for frames of one size: about 12 KB for
-/// 188 x 120 px. Stages share memory, so after a frame only the results of the last stage are left.
-/// The stages access this memory through spans, so they are compiled only once for all sizes.
+/// Workspace of a DeviceLocator on a small microcontroller, for frames of one size. A workspace for
+/// 188 x 120 px takes about 12 KB. The stages share memory, so after a frame, only the results of
+/// the last stage are left. The stages access this memory through spans, so they are compiled only
+/// once for all sizes.
 template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public DeviceWorkspace {
   public:
@@ -99,8 +100,8 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
                       kCapacity.height_px <= kMaxSideWithLowTiles_px,
                   "the workspace has memory for low tiles only");
 
-    // Because of the braces, the compiler clears all members with one call. Separate stores would
-    // take 800 more bytes of code.
+    // The braces make the compiler clear all members with one call. Separate stores would add 800
+    // bytes of code.
     DeviceWorkspaceOf() : DeviceWorkspace{} {
         max_width_px = kCapacity.width_px;
         if constexpr (kCapacity.height_px != kMaxFrameSide_px) max_height_px = kCapacity.height_px;

@@ -1,4 +1,5 @@
-// Draws the residuals before and after a calibration, and the coverage of the image by dots.
+// Draws the residuals before and after a calibration, and a map of how densely the dots cover the
+// image.
 #include <algorithm>
 #include <cmath>
 #include <ostream>

@@ -22,15 +22,15 @@ struct Entry {
     std::string value;
 };
 
-/// Estimates the width of bold text from its number of characters. For text with many wide letters,
-/// the result is too small.
+/// Estimates the width of bold text from its number of characters. Underestimates text with many
+/// wide letters.
 double text_width(const std::string& text, double size) {
     const auto is_first_byte = [](char c) { return (c & 0xC0) != 0x80; };
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
 }
 
-/// Draws entries in columns of equal width and in one font size. The font size is at most `size`,
-/// and small enough that each value fits into its column.
+/// Draws entries in columns of equal width, all in one font size. The font size is `size`, or
+/// smaller if a value would not fit into its column.
 void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
                   Svg& svg) {
     double font = size;
@@ -72,7 +72,7 @@ std::string with_minus(std::string text) {
 
 /// Text of the large caption: the pose and its standard deviations.
 struct Shown {
-    /// Name of the coordinate frame. It is a suffix of the labels of the coordinates.
+    /// Name of the coordinate frame, which is appended to the coordinate labels.
     const char* frame;
     std::string x;
     std::string y;
@@ -120,7 +120,7 @@ Shown on_sheet(const SheetPlace& place) {
                  place.covariance, 1e3);
 }
 
-/// Describes the pose in each coordinate frame except the one of the large caption.
+/// Describes the pose in each coordinate frame that the large caption does not use.
 std::string other_frames(const Fix& fix, const DrawOptions& options) {
     const SheetPlace& place = *options.place;
     std::string text = "on sheet " + place.entry->name;

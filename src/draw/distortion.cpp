@@ -16,15 +16,15 @@ using namespace dotpose::draw;
 constexpr double kMapMargin = 40;
 constexpr double kMapHead = 110;
 constexpr double kMaxMapSide = 1000;
-/// Maximum length of an arrow: the smaller of kMaxArrow, in drawing units, and the fraction
-/// kMaxStep of the distance between arrows.
+/// Limits of the arrow length: at most kMaxArrow drawing units, and at most kMaxStep times the
+/// distance between arrows.
 constexpr double kMaxArrow = 45;
 constexpr double kMaxStep = 0.95;
 /// Minimum full scale of the arrows, in mm. It keeps the arrows short if the distortions are only
 /// noise.
 constexpr double kMinMapScale_mm = 0.01;
 
-/// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.
+/// Rounds down to 1, 2 or 5 times a power of ten.
 double round_down(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     for (const double factor : {5.0, 2.0}) {

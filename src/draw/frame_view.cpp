@@ -142,8 +142,8 @@ Point FrameView::at_grid(double i, double j) const {
 
 Point FrameView::ahead_of_reference() const {
     const Plane pattern{PlaneMap(trace_.pattern_from_image)};
-    // Length of the step in spacings. Over this short step, lens distortion does not noticeably
-    // change the direction.
+    // Step length in spacings, short enough that lens distortion does not noticeably change the
+    // direction.
     constexpr double kShort = 0.1;
     const Point end_px = pattern.image_point(pattern.plane_point(reference_px_) + Point{kShort, 0});
     const Point ahead = at(end_px) - at(reference_px_);

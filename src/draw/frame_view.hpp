@@ -91,8 +91,8 @@ class FrameView {
     Point reference_px_;
 };
 
-/// Returns the grid cell at the top left corner of the 8 x 8 window, as seen in the orientation of
-/// the pattern. Requires `Reached::place`.
+/// Returns the grid cell at the corner of the 8 x 8 window that is top left when the pattern is
+/// upright. Requires `Reached::place`.
 FixedVec window_corner(const Trace& trace);
 /// Returns the position of a grid cell in the code. Requires `Reached::place`.
 Place place_of(const Trace& trace, FixedVec grid_cell);

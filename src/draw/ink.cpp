@@ -1,4 +1,4 @@
-// Writes the strokes of a pen as SVG and InkML.
+// Writes pen strokes as SVG and InkML.
 #include "dotpose/tools/ink.hpp"
 
 #include <algorithm>
@@ -16,11 +16,11 @@ namespace dotpose {
 namespace {
 
 constexpr double kMargin_mm = 5;
-/// Width of the line of a ballpoint pen, in mm.
+/// Line width of a ballpoint pen, in mm.
 constexpr double kLine_mm = 0.4;
 
-/// Returns the page with a size. If the size is unknown, computes the size and position of a page
-/// that contains the strokes and a margin.
+/// Returns the page with a known size. If the size is unknown, sets size and position to the
+/// bounding box of the strokes plus a margin.
 InkPage with_size(InkPage page) {
     if (page.width_mm > 0) return page;
     constexpr double kFar = std::numeric_limits<double>::max();

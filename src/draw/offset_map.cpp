@@ -95,8 +95,8 @@ class OffsetMap {
             for (int i = 0; i < columns_; ++i) {
                 const OffsetBlock& block = at(i, j);
                 if (block.dots == 0) continue;
-                // Adjacent blocks overlap slightly, because gaps between them would otherwise be
-                // visible.
+                // Adjacent blocks overlap slightly to hide the gaps that viewers would otherwise
+                // show between them.
                 svg_.add(
                     R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}"/>)",
                     corner.x + i * step, corner.y + j * step, step + 0.3, step + 0.3,

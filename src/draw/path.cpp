@@ -35,7 +35,7 @@ std::vector<Error_um> errors_of(std::span<const PathPoint> path) {
     return errors;
 }
 
-/// Returns the smallest number of the form 1, 2 or 5 times a power of ten that is at least `value`.
+/// Rounds up to 1, 2 or 5 times a power of ten. Returns 1 if `value` is not positive.
 double round_up(double value) {
     if (!(value > 0)) return 1;
     const double power = std::pow(10, std::floor(std::log10(value)));

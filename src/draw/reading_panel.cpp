@@ -67,8 +67,8 @@ class Reading {
     void draw_symbol(int i, int j, const GridCell& cell) const;
     void draw_points() const;
     /// Calls `draw` with the column, row and cell of each dot that was read. Returns the centres of
-    /// the dots that were not read. Such a dot is far from all intersections, or another dot at the
-    /// same intersection has a higher quality.
+    /// the unread dots. An unread dot is far from all intersections, or another dot at the same
+    /// intersection has a higher quality.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
     /// Draws a line of the grid as several strokes, because lens distortion may bend the line.
@@ -169,7 +169,7 @@ std::vector<Point> Reading::for_each_read_dot(
     return unread;
 }
 
-/// Draws the dots without letters. One SVG element contains all dots of similar likelihood.
+/// Draws the dots without letters. Dots of similar likelihood are drawn as one SVG element.
 void Reading::draw_points() const {
     constexpr std::size_t kColours = 8;
     std::array<std::vector<Point>, kColours> points;
@@ -226,7 +226,7 @@ void Reading::draw_axes() const {
     const Point reference = view_.at(view_.reference_px());
     const double stroke = std::max(view_.stroke(), 0.35);
     const FixedVec cell = window_corner(trace_);
-    svg_.line(view_.at_grid(cell.x, cell.y), reference,  // the vector t of the paper's equation 10
+    svg_.line(view_.at_grid(cell.x, cell.y), reference,  // the vector t (paper, equation 10)
               fmt::format(R"(stroke="{}" stroke-width="{:.2f}" stroke-dasharray="{:.2f}")",
                           colour::kWindow, 4 * stroke, 11 * stroke));
     const double reach = 2.4 * view_.spacing();

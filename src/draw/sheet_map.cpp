@@ -22,7 +22,7 @@ constexpr double kSide = 900;
 constexpr double kSheetMargin = 50;
 constexpr double kSheetHead = 70;
 constexpr double kFoot = 60;
-constexpr double kBox = 190;  // longest side of a sheet without a pose
+constexpr double kBox = 190;  // longest side of a sheet without a world pose
 constexpr double kBoxPitch_x = 230;
 constexpr double kBoxPitch_y = 300;
 constexpr std::size_t kBoxRows = 3;
@@ -67,8 +67,7 @@ Bounds world_bounds(std::span<const SheetEntry> sheets) {
     return shown;
 }
 
-/// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most
-/// `longest_m`.
+/// Rounds down to 1, 2 or 5 times a power of ten.
 double round_length_m(double longest_m) {
     const double power = std::pow(10, std::floor(std::log10(longest_m)));
     for (const double digit : {5.0, 2.0}) {

@@ -1,4 +1,4 @@
-// Draws the turn of a robot on the spot: the places of the camera, and the centre of rotation
+// Draws the rotation of a robot on the spot: the camera positions, and the centre of rotation
 // computed from each frame.
 #include <algorithm>
 #include <cmath>
@@ -80,8 +80,8 @@ class SpinPicture {
         draw_cross(middle(0), colour::kBad);
     }
 
-    /// Draws, for each frame, the centre of rotation computed from that frame alone. The centre
-    /// computed from all frames is in the middle of the panel.
+    /// Draws the centre of rotation computed from each single frame. The centre computed from all
+    /// frames is in the middle of the panel.
     void draw_residuals() {
         double full_mm = kMinFullScale_mm;
         for (const SpinStation& station : spin_.stations)

@@ -89,8 +89,8 @@ std::vector<std::vector<Outcome>> evaluate(const FrameRun& run) {
                       std::vector<Outcome>(static_cast<std::size_t>(run.frames)));
     Crew crew(run, outcomes);
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    // Uses at most one thread per frame. Otherwise, the main thread might not get a frame, and
-    // would then not report the progress.
+    // Uses at most one thread per frame. With more threads, the main thread might get no frame and
+    // would then report no progress.
     const int threads = std::min(run.threads > 0 ? run.threads : cores, run.frames);
     {
         std::vector<std::jthread> others;

@@ -186,7 +186,7 @@ Similarity align(std::span<const MeasuredFrame> frames) {
     const Complex shift = map.offset + map.factor * middle - middle;
     Similarity result{middle.real(), middle.imag(),        shift.real(),
                       shift.imag(),  std::arg(map.factor), std::abs(map.factor)};
-    // The mean of angles is the direction of the sum of their unit vectors.
+    // Averages the angles by summing their unit vectors.
     Complex sum = 0;
     const double limit = near_limit(pairs, map);
     for (const MeasuredFrame& frame : frames) {
@@ -205,7 +205,7 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
         if (frame.truth) result.is_in_world = frame.truth->is_in_world;
         result.errors.push_back(frame.found ? std::optional(error_of(frame, alignment))
                                             : std::nullopt);
-        // A fix without a place in the coordinate frame of the true places is wrong.
+        // A fix is wrong if its place is not known in the coordinate frame of the true places.
         if (frame.status == Status::ok && !frame.found) ++result.wrong;
     }
     mark_wrong(frames, result.errors);

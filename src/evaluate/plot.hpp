@@ -28,8 +28,8 @@ inline constexpr const char* kBelow =
 /// into at least `min_count` steps.
 double tick_step(double range, int min_count);
 
-/// Returns the smallest number of the form 1, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten
-/// that is at least `value`.
+/// Rounds up to 1, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten. Returns 1 if `value` is not
+/// positive.
 double rounded_up(double value);
 
 /// Scale of one axis. Converts data values to drawing units.
@@ -44,9 +44,9 @@ struct Scale {
     std::vector<double> ticks(int min_count) const;
 };
 
-/// Returns a logarithmic scale that contains `min` and `max` with a margin of at least 10 %. The
-/// upper end is a result of `rounded_up`, and the lower end is the reciprocal of such a result.
-/// `min` must be positive.
+/// Returns a logarithmic scale that contains `min` and `max` with a margin of at least 10 %. Both
+/// ends are round: `rounded_up` is applied to the upper end, and to the reciprocal of the lower
+/// end. `min` must be positive.
 Scale log_scale(double min, double max);
 
 /// A rectangular area with an x axis below it and a y axis to its left.

@@ -11,7 +11,7 @@ namespace dotpose {
 PrintModel::PrintModel(double worst_x_mm, double worst_y_mm) {
     using namespace evaluate_detail;
     constexpr double kPitch_mm = kSide_mm / (kPositionsPerSide - 1);
-    // Maximum shift along each axis at the positions of the protocol, if all amplitudes are 1.
+    // Maximum shift along each axis at the protocol's positions, with both amplitudes set to 1.
     Vec2 max_shift;
     for (const Step step : spiral(kPositionsPerSide)) {
         const Vec2 shift = shift_mm({step.x * kPitch_mm, step.y * kPitch_mm});
@@ -22,8 +22,8 @@ PrintModel::PrintModel(double worst_x_mm, double worst_y_mm) {
 }
 
 Vec2 PrintModel::shift_mm(Vec2 from_middle_mm) const {
-    // Along the feed (y), models rollers that turn unevenly and paper that slips more on one side.
-    // Across the feed, models a scan line that is bowed and slightly stretched.
+    // Along the feed (y), the shift models rollers that turn unevenly, and paper that slips more on
+    // one side. Across the feed, it models a scan line that is bowed and slightly stretched.
     constexpr double kTurn = 2 * std::numbers::pi;
     const double x = from_middle_mm.x / kSide_mm;
     const double y = from_middle_mm.y / kSide_mm;

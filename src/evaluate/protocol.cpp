@@ -12,7 +12,7 @@ namespace {
 
 using namespace evaluate_detail;
 
-/// The cell at the centre of the area. The choice is arbitrary.
+/// Cell at the centre of the area, chosen arbitrarily.
 constexpr Cell kMiddle{10'000, 20'000};
 
 /// Commanded pose of the device, and the page under it.
@@ -22,10 +22,10 @@ struct Stand {
     const PrintModel* print = nullptr;  ///< null for a perfect page
 };
 
-/// Sets the pose of the camera relative to the printed pattern. The printer shifts ink, so the ink
-/// at point p of the page is point p - shift(p) of the pattern, and the gradient of the shift
-/// rotates the pattern. The stretch of the pattern within a frame is neglected, because it is at
-/// most 1 % over 8.6 mm.
+/// Sets the pose of the camera relative to the printed pattern. Point p of the page shows point p -
+/// shift(p) of the pattern, because the printer shifts the ink. The gradient of the shift rotates
+/// the pattern. It also stretches the pattern by at most 1 % over the 8.6 mm of a frame, which is
+/// neglected.
 void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
     Vec2 pattern_mm = stand.place_mm;
     pose.theta_rad = stand.theta_rad;

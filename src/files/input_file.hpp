@@ -25,8 +25,8 @@ std::optional<std::string> text_of(const std::filesystem::path& path, std::size_
 /// if the line has more than 64 KB, without reading the rest of the line, or if reading fails.
 bool next_line(std::istream& stream, std::string& line);
 
-/// Maximum nesting depth of JSON. It is greater than any file of this project needs, and small
-/// enough that recursive functions do not overflow the stack.
+/// Maximum nesting depth of JSON. The files of this project are nested less deeply, and recursive
+/// functions do not overflow the stack at this depth.
 inline constexpr int kMaxJsonDepth = 64;
 
 /// Parses JSON. Throws Error, with the position of the error, if the text is not JSON or is nested

@@ -16,7 +16,7 @@ constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kMaxPages = 10'000;
 constexpr std::size_t kMaxName = 4096;
 
-/// Returns the CRC-32 of IEEE 802.3 and PNG.
+/// Returns the CRC-32 checksum of IEEE 802.3, which PNG also uses.
 std::uint32_t crc32_of(std::string_view bytes) {
     static const auto kTable = [] {
         std::array<std::uint32_t, 256> table{};
@@ -40,7 +40,7 @@ void append(std::string& bytes, Number number) {
         bytes += static_cast<char>(number >> (8 * i) & 0xFF);
 }
 
-// The standard library of emscripten has no std::bit_cast.
+// Uses the compiler builtin, because the standard library of emscripten has no std::bit_cast.
 void append(std::string& bytes, double number) {
     append(bytes, __builtin_bit_cast(std::uint64_t, number));
 }
@@ -95,7 +95,7 @@ std::string fault_of(const MapPage& page) {
 }
 
 /// Returns the number of dots of a page. Throws Error if a file cannot contain this number of dots.
-/// In WebAssembly, the product may not fit into the 32 bits of `std::size_t`.
+/// Computes the product in 64 bits, because std::size_t has only 32 bits in WebAssembly.
 std::size_t dots_of(std::uint64_t columns, std::uint64_t rows) {
     if (columns * rows > kMaxMapBytes) throw Error("a page is too large");
     return static_cast<std::size_t>(columns * rows);

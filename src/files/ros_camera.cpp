@@ -16,13 +16,13 @@ namespace {
 /// the plumb_bob model that it replaces.
 constexpr double kMaxMisfit_px = 0.5;
 
-/// Maximum focal length and centre in px, and maximum distortion coefficients. The limits are far
-/// above the values of real cameras. A fit to larger values may overflow.
+/// Maximum focal length and centre coordinate, in px, and maximum distortion coefficient. The
+/// limits are far above the values of real cameras. Larger values could overflow in the fit.
 constexpr double kMaxPx = 1e6;
 constexpr double kMaxDistortion = 1e3;
 
-/// Returns the list under a key. Files of camera_calibration_parsers have the key `nested`. Printed
-/// messages have the key `lower` or `upper`.
+/// Returns the list under one of three keys. Files of camera_calibration_parsers have the key
+/// `nested`. Printed messages have `lower` or `upper`.
 std::vector<double> coefficients(const YamlMap& file, const char* nested, const char* lower,
                                  const char* upper, std::size_t count) {
     if (file.has(nested)) return file.map(nested).numbers("data", count);

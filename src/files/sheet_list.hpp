@@ -7,8 +7,8 @@
 
 namespace dotpose::files {
 
-/// Throws BadArgument if `entry` is invalid, or if it has the same name as one of `sheets` or
-/// shares a cell with it. `ignored` is not compared.
+/// Throws BadArgument if `entry` is invalid, or if its name or one of its cells is already used in
+/// `sheets`. Skips the element of `sheets` that `ignored` points to, if any.
 void check_beside(const SheetEntry& entry, const std::vector<SheetEntry>& sheets,
                   const SheetEntry* ignored = nullptr);
 

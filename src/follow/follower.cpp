@@ -128,8 +128,7 @@ Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<Sh
     return {seen, fix, place, reading, velocity, space_of(seen, place, map_use), map_use};
 }
 
-/// Returns the pose in space for the fix of the latest image. Uses the print map if the map was
-/// used for the fix.
+/// Returns the pose in space for the latest fix. Uses the print map if the fix used it.
 std::optional<SpacePose> Follower::space_of(const Fix& seen, const std::optional<SheetPlace>& place,
                                             MapUse map_use) const {
     if (!options_.fits_space_pose) return std::nullopt;

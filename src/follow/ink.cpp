@@ -1,4 +1,4 @@
-// Strokes of a pen: smooths the path of the tip, and divides the path where the pen is lifted.
+// Computes pen strokes: smooths the path of the tip, and splits the path where the pen is lifted.
 #include "dotpose/tools/ink.hpp"
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace {
 using follow::AxisPlace;
 using follow::AxisSample;
 
-/// A sample adjacent to a lift belongs to the lift if its smoothed height exceeds this by more than
-/// two standard deviations.
+/// Height limit, in mm, for samples adjacent to a lift. Such a sample belongs to the lift if its
+/// smoothed height exceeds the limit by more than two standard deviations.
 constexpr double kRest_mm = 0.02;
 
-/// Consecutive samples on one page.
+/// Consecutive samples on one page, at most kMaxInkGap_s apart.
 using Run = std::span<const InkSample>;
 
 std::vector<Run> runs_of(std::span<const InkSample> samples) {
@@ -57,8 +57,8 @@ std::vector<AxisSample> along(const Axis& axis, Run run) {
 double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> axes) {
     double best = 0;
     double best_likelihood = -std::numeric_limits<double>::infinity();
-    // The noise ranges from that of a resting pen to that of a very fast pen. The steps are coarse,
-    // because a factor of 3 hardly changes the result.
+    // Tries noise levels from a resting pen to a very fast pen. The steps are coarse, because a
+    // factor of 3 hardly changes the result.
     for (double noise = 1e3; noise < 1e13; noise *= std::sqrt(10)) {
         double likelihood = 0;
         for (const Run& run : runs) {

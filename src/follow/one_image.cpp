@@ -45,7 +45,7 @@ Follower::Found Follower::read() {
             is_found = true;
         }
     }
-    // The trace must belong to the returned fix. Unless the best variant was the last one tried,
+    // The trace must belong to the returned fix. If another variant was tried after the best one,
     // the image must therefore be located again.
     return used_.code == best ? found : read_in(best);
 }
@@ -58,9 +58,9 @@ Follower::Found Follower::read_in(CodeVariant code) {
     return by_camera_file(seen, place, reading);
 }
 
-/// If bits disagree with a fix on a known sheet, labels or the table beside the sheet may have been
-/// read as dots. In this case, masks everything outside the dots of the sheet and locates the image
-/// again. Returns the new fix if fewer bits disagree with it and it uses nearly as many dots.
+/// If bits disagree with a fix on a known sheet, labels or the tabletop beside the sheet may have
+/// been read as dots. In this case, masks everything outside the dots of the sheet and locates the
+/// image again. Returns the new fix if fewer bits disagree with it and it uses nearly as many dots.
 /// Otherwise, returns `fix`.
 Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
     if (fix.bit_errors == 0) return fix;

@@ -10,8 +10,8 @@
 namespace dotpose::follow_detail {
 namespace {
 
-/// Maps pixels to a page. The map ignores tilt and lens distortion, which causes errors of up to a
-/// few pixels.
+/// Tests whether a pixel is on the page. Ignores tilt and lens distortion, which causes errors of
+/// up to a few pixels.
 class PixelsOnPage {
   public:
     PixelsOnPage(ImageView image, const DeviceOptions& options, const Fix& fix,
@@ -54,8 +54,8 @@ std::uint8_t brightness_of(ImageView image) {
 }
 
 /// Returns a copy of the image in which all pixels outside `region` have the grey level of the
-/// paper. Returns an empty optional if `region` contains all corners of the image, because no pixel
-/// is then outside it.
+/// paper. Returns an empty optional if all corners of the image are inside `region`, because
+/// nothing needs to be masked then.
 template <typename Region>
 std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     const int right = image.width_px - 1;
@@ -75,7 +75,7 @@ std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     return cut;
 }
 
-/// Maps pixels to the cells of a sheet, using the map of the fix.
+/// Tests whether a pixel is in the dot area of a sheet, using the map of the fix.
 class PixelsAmongDots {
   public:
     PixelsAmongDots(ImageView image, const DeviceOptions& options, const Fix& fix,
@@ -109,8 +109,9 @@ class PixelsAmongDots {
     }
 
   private:
-    /// Returns the signed distance in cells from a cell to the edge of the region, in the shorter
-    /// direction on the cyclic plane. The edge is half a cell before the first cell of the region.
+    /// Returns the signed distance, in cells, from cell `from` to the edge of the region whose
+    /// first cell is `first`. The edge is half a cell before `first`. Measures in the shorter
+    /// direction on the cyclic plane.
     static double cells(std::uint32_t from, std::uint32_t first) {
         return std::remainder(double(first) - double(from), kPositionsPerAxis) - 0.5;
     }

@@ -18,8 +18,8 @@ std::optional<GreyImage> cut_to_page(ImageView image, const DeviceOptions& optio
                                      const SheetPlace& place);
 
 /// Returns a copy of the image in which everything except the dots of the sheet is masked, for
-/// example labels in the margins of the sheet and the table around it. Returns an empty optional if
-/// nothing needs to be masked. `fix` must be on the sheet.
+/// example labels in the margins of the sheet and the tabletop around it. Returns an empty optional
+/// if nothing needs to be masked. `fix` must be on the sheet.
 std::optional<GreyImage> cut_to_dots(ImageView image, const DeviceOptions& options, const Fix& fix,
                                      const Sheet& sheet);
 

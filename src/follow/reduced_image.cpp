@@ -33,9 +33,9 @@ GreyImage reduced(ImageView image, int by) {
 }
 
 DeviceOptions reduced(const DeviceOptions& options, ImageView image, int by) {
-    // Positions relative to the corner of the image are divided by `by`. Positions relative to the
-    // centre of the first pixel are converted first, because the first pixel of the reduced image
-    // has a different centre. The image centre moves by half the number of dropped pixels.
+    // Converts an offset from the image centre. Distances from the top left corner are divided by
+    // `by`. Distances from the centre are not, because dropped pixels at the right or bottom edge
+    // move the centre.
     const auto offset_q8 = [by](std::int32_t whole_q8, int side_px) {
         const double from_corner_px = side_px / 2.0 + whole_q8 / 256.0;
         return static_cast<std::int32_t>(

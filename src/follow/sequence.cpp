@@ -26,15 +26,14 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        // Locates the image without a prediction, because the tracker then applies its prior to the
+        // Locates the image without a prediction, because the tracker applies its prior to the
         // result. With a prediction, the result would already depend on the prior.
         found = find(options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
-    // A fix that is not certain without the prior is used only if the tracker accepted it with the
-    // prior.
+    // If the fix is certain only with the prior, it is used only if the tracker accepted it.
     const bool is_with_prior = result.track.verdict == Verdict::with_prior;
     const bool is_fix = strict.status == Status::ok || is_with_prior;
     if (is_fix) {

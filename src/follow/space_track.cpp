@@ -1,6 +1,6 @@
 // Kalman filter for the pose of a camera in space. The state is a pose on the manifold of
-// rotations, with velocities and accelerations. Errors are small vectors: rotations are multiplied
-// by the exponential of the error from the right (Sola, Deray, Atchuthan 2018).
+// rotations, with velocities and accelerations. The error of a rotation R is a small rotation
+// vector e, and the corrected rotation is R * exp(e) (Sola, Deray, Atchuthan 2018).
 #include "dotpose/tools/space_track.hpp"
 
 #include <algorithm>
@@ -25,25 +25,26 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector18 = Eigen::Matrix<double, 18, 1>;
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
-/// Changes of the logarithm of the agility after consecutive innovations with equal and with
-/// opposite signs. If both changes had the same magnitude, as in the tracker of the plane, the
-/// normalised squared errors of individual axes would be up to 1.4 instead of 1 at 200 frames per
-/// second (tests/unit/follow/space_track_test.cpp).
+/// Change of log(agility) after two consecutive innovations with equal signs (increase) or with
+/// opposite signs (decrease). With equal magnitudes, as in the tracker of the plane, the normalised
+/// squared errors of individual axes would be up to 1.4 instead of 1 at 200 frames per second
+/// (tests/unit/follow/space_track_test.cpp).
 constexpr double kAgilityIncrease = 0.451;
 constexpr double kAgilityDecrease = -0.405;
-/// Change of the logarithm of the agility for each unit by which the squared normalised innovation
-/// exceeds its mean, which is 1. `dotpose_tables space_track` shows the effect.
+/// Change of log(agility) for each unit by which the squared normalised innovation exceeds 1, its
+/// expected value. `dotpose_tables space_track` shows the effect.
 constexpr double kAgilityGain = 0.2;
 constexpr double kMinAgility = 1e-6;
-/// Factor by which each sighting decreases the information about the fraction of independent
-/// errors. The fraction is thus averaged over about 50 sightings.
+/// Forgetting factor of the information about the fraction of independent errors. It is applied for
+/// each sighting, so the fraction is averaged over about 50 sightings.
 constexpr double kInformationKept = 0.98;
 /// Minimum fraction of independent errors. In the frames of `dotpose_tables space_track`, a minimum
 /// of 0.01 makes positions 0.3 to 0.6 % more accurate, and velocities up to 18 % less accurate.
 constexpr double kMinIndependent = 0.05;
-/// Maximum change of the logarithm of the fraction per sighting.
+/// Maximum change of log(fraction of independent errors) per sighting.
 constexpr double kMaxFractionStep = 0.5;
-/// Minimum innovation, in standard deviations, that is not attributed to noise.
+/// Innovation limit, in standard deviations. A larger innovation is not attributed to noise, and
+/// resets the agility to 1.
 constexpr double kSurprise = 4;
 /// Minimum value of 2 ln(r), where r is the likelihood ratio of the two poses of an ambiguous
 /// sighting. The value corresponds to r = 1000. If r is smaller, the track does not decide between
@@ -111,10 +112,9 @@ Matrix6 matrix_of(const SpaceCovariance& covariance) {
 }
 
 /// Returns the transformation from the axes of the agility to position and rotation. In a view of a
-/// plane, the point of the plane in front of the camera is measured more accurately than the
-/// position of the camera. The error of the position is mostly the rotation error multiplied by a
-/// lever. `noise` is the covariance of a sighting. The lever is the regression of the position on
-/// the rotation.
+/// plane, the point in front of the camera is measured more accurately than the camera position.
+/// The position error is therefore mostly the rotation error multiplied by a lever. The lever is
+/// the regression of the position on the rotation. `noise` is the covariance of a sighting.
 Matrix6 lever_of(const Matrix6& noise) {
     Matrix6 result = Matrix6::Identity();
     const Matrix3d rotation = noise.bottomRightCorner<3, 3>();
@@ -172,9 +172,8 @@ Motion predicted(const Motion& motion, std::int64_t time_us, const SpaceTrackOpt
     return later;
 }
 
-/// Returns the normalised squared innovation of a pose. Uses the accelerations of the options
-/// for position and rotation instead of the adapted agility, so that the start of a manoeuvre is
-/// not rejected.
+/// Returns the normalised squared innovation of a pose. Uses the accelerations in the options
+/// instead of the adapted agility, so that the start of a manoeuvre is not rejected.
 double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
                           const CameraInSpace& camera, const SpaceTrackOptions& options) {
     Motion agile = motion;
@@ -187,14 +186,15 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
     return innovation.dot(covariance.ldlt().solve(innovation));
 }
 
-/// Adapts the agility to an innovation by two criteria. The weights of the criteria depend on the
-/// fraction of the innovation's variance that is due to the prediction. If this fraction is small,
-/// the agility determines the gain of the filter. If the gain is correct, consecutive innovations
-/// have equal signs as often as opposite signs. Equal signs therefore increase the agility, and
-/// opposite signs decrease it. If the fraction is large, the gain is about 1 with any agility, so
-/// the agility determines only the covariance of predictions. If this covariance is correct, the
-/// mean square of the normalised innovation is 1. `noise` is the independent part of the covariance
-/// of the sighting.
+/// Adapts the agility to an innovation by two criteria. Their weights depend on the fraction of the
+/// innovation variance that is due to the prediction:
+/// - If this fraction is small, the agility determines the gain of the filter. With the correct
+///   gain, consecutive innovations have equal signs as often as opposite signs. Equal signs
+///   therefore increase the agility, and opposite signs decrease it.
+/// - If the fraction is large, the gain is about 1 with any agility, and the agility determines
+///   only the covariance of predictions. With the correct covariance, the mean square of the
+///   normalised innovation is 1.
+/// `noise` is the independent part of the sighting covariance.
 void adapt_agility(Motion& motion, const Vector6& innovation, const Matrix6& covariance,
                    const Matrix6& noise) {
     for (std::size_t i = 0; i < 6; ++i) {
@@ -211,11 +211,11 @@ void adapt_agility(Motion& motion, const Vector6& innovation, const Matrix6& cov
     }
 }
 
-/// Adapts the fraction of independent errors to an innovation by two criteria. If the fraction is
-/// correct, the derivative of the log-likelihood of the innovation has mean 0, and consecutive
+/// Adapts the fraction of independent errors to an innovation by two criteria. With the correct
+/// fraction, the derivative of the log-likelihood of the innovation has mean 0, and consecutive
 /// innovations are uncorrelated. If the fraction is too large, the filter lags behind the
 /// sightings, and innovations are too small or correlated. `noise` is the independent part of the
-/// covariance of the sighting.
+/// sighting covariance.
 void adapt_fraction(Motion& motion, const Vector6& innovation, const Matrix6& covariance,
                     const Matrix6& noise) {
     const auto inverse = covariance.ldlt();
@@ -242,8 +242,8 @@ void adapt(Motion& motion, const Motion& guess, const CameraInSpace& camera) {
     adapt_fraction(motion, innovation, covariance, noise);
 }
 
-/// Corrects a prediction with a sighting. `noise` is the independent part of the covariance of the
-/// sighting.
+/// Corrects a prediction with a sighting. `noise` is the independent part of the sighting
+/// covariance.
 void correct(Motion& motion, const CameraInSpace& camera, const Matrix6& noise) {
     auto covariance = covariance_of(motion);
     const Matrix6 s = covariance.topLeftCorner<6, 6>() + noise;

@@ -1,6 +1,6 @@
-// Reads BMP files with the headers of Windows 3 to 5 and of OS/2. Reads palettes of 1, 4 and 8
-// bits, and uncompressed pixels of 16, 24 and 32 bits. Microsoft documents the layout under
-// BITMAPV5HEADER.
+// Reads uncompressed BMP files with OS/2 headers or Windows headers (versions 3 to 5). Pixels have
+// 1, 4 or 8 bits and a palette, or 16, 24 or 32 bits without one. Microsoft documents the layout
+// under BITMAPV5HEADER.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -115,7 +115,7 @@ void require_pixels(ImageView image) {
         throw Error("the image is empty");
 }
 
-/// Runs `action` and adds the name of the file to the message of its errors.
+/// Runs `action` and adds the file name to its error messages.
 template <class Action>
 auto with_name(const char* verb, const std::filesystem::path& path, Action action) {
     const auto sentence = [&](const char* reason) {

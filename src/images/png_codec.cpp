@@ -31,8 +31,8 @@ class PngReader {
         if (info_ == nullptr) throw std::bad_alloc();
         png_set_read_fn(png_, this, on_read);
         guarded([&] {
-            // The limits of libpng are disabled, because their messages do not contain the size of
-            // the image. `require_size` checks the size instead.
+            // The limits of libpng are disabled, because its error messages would not contain the
+            // size of the image. `require_size` checks the size instead.
             png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
             png_read_info(png_, info_);
         });
@@ -60,7 +60,8 @@ class PngReader {
         const png_uint_32 height = png_get_image_height(png_, info_);
         require_size(width, height, max_pixels);
         guarded([&] {
-            // Expands palettes, samples of fewer than 8 bits and a transparent colour.
+            // Expands palettes to RGB, samples of fewer than 8 bits to 8 bits, and a transparent
+            // colour to an opacity channel.
             png_set_expand(png_);
             if (std::endian::native == std::endian::little) png_set_swap(png_);
             png_set_interlace_handling(png_);

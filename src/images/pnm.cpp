@@ -61,8 +61,8 @@ class Reader {
         return value;
     }
 
-    /// If lines end with a carriage return and a line feed, skips the line feed after the header.
-    /// This line feed is present if more than `pixel_bytes` bytes are left.
+    /// Skips the line feed after the header if lines end with a carriage return and a line feed. If
+    /// at most `pixel_bytes` bytes are left, the next byte is a pixel and is not skipped.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }

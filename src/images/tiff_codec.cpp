@@ -261,8 +261,8 @@ class TiffReader {
         Samples<std::uint8_t> samples{width_px_, height_px_, 3, {}};
         samples.values.reserve(3 * pixels.size());
         for (const std::uint32_t abgr : pixels) {
-            // The colours from libtiff are premultiplied by the opacity, so to composite them onto
-            // white, only the transparent fraction of white is added.
+            // libtiff returns colours that are premultiplied by the opacity. Adding the transparent
+            // fraction of white composites them onto white.
             const std::uint32_t white = 255 - TIFFGetA(abgr);
             for (const std::uint32_t colour : {TIFFGetR(abgr), TIFFGetG(abgr), TIFFGetB(abgr)})
                 samples.values.push_back(static_cast<std::uint8_t>(std::min(colour + white, 255U)));

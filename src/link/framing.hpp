@@ -30,7 +30,7 @@ std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);
 
-/// Decodes framed bytes. Returns false if they are not valid output of `frame`.
+/// Decodes framed bytes. Returns false if the CRC is wrong or the COBS encoding is invalid.
 bool unframe(const Framed& framed, Plain& plain);
 
 }  // namespace dotpose::link

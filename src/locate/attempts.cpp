@@ -28,13 +28,13 @@ std::span<const CodeVariant> Attempts::codes_for(Step step) const {
     return codes_.in_order();
 }
 
-/// Returns the input of an attempt in one code. Discards the odds of the other codes that the
-/// previous attempt stored.
+/// Selects the code of the next attempt, and returns the input of this attempt. Discards the odds
+/// that the previous attempt stored for the other codes.
 Frame Attempts::frame_in(CodeVariant code) {
     options_.code = code;
     if (w_.other_codes.are_wanted) w_.other_codes.of = {};
-    // A bound on the probability of a wrong position applies to a single code. If several codes are
-    // possible, the bound is multiplied by the weighted number of codes (see
+    // The certainty tests bound the probability of a wrong position in a single code. If several
+    // codes are possible, the tests multiply this bound by the weighted number of codes (see
     // `PossibleCodes::number`).
     if (!codes_.is_known())
         w_.other_codes.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));

@@ -43,16 +43,17 @@ class Attempts {
     /// Returns true if the options allow a second attempt and the image is large enough for one.
     bool may_try_twice() const;
 
-    /// Judges the fix of the last attempt, which was made in the code `read`. Returns its certainty
-    /// and the odds of the other codes.
+    /// Judges the fix of the last attempt, which was made in the code `read`. Returns the certainty
+    /// of the fix, and the likeliest other code with its odds.
     Judgement judge(CodeVariant read) const;
     /// Returns true if a rotation of the scene during the readout may explain the residuals of the
     /// fix. A search for this rotation (`Step::turning`) may then give a better fix.
     bool shows_turn();
-    /// Returns true if the last attempt found too few cells for a reliable fix in any code.
+    /// Returns true if the last attempt found that the image shows too few cells for a reliable
+    /// fix, whatever the code.
     bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }
-    /// Returns true if, in the most recent first attempt, all measured dots were clear and agreed
-    /// with the code, but were too few for a reliable position.
+    /// Returns true if the bits of the last `Step::first` attempt were clear and agreed with the
+    /// code, but were too few for a reliable position (see `Measurement::has_clear_bits`).
     bool has_clear_bits() const { return w_.measurement.has_clear_bits; }
 
   private:
@@ -68,8 +69,9 @@ class Attempts {
     const PossibleCodes& codes_;
     DesktopWorkspace& w_;
     SecondAttempt second_;
-    CodeVariant worth_resampling_ = CodeVariant::anoto;  ///< code with `min_errors_` bit errors
-    int min_errors_ = kMaxErrors;
+    /// The code in which `second` found the doubtful position with the fewest bit errors.
+    CodeVariant worth_resampling_ = CodeVariant::anoto;
+    int min_errors_ = kMaxErrors;  ///< number of bit errors of this position
 };
 
 }  // namespace dotpose::core

@@ -8,8 +8,8 @@
 namespace dotpose {
 namespace {
 
-/// Two frames are considered to show the same place if their distance along each axis is below this
-/// limit, in cells. Such frames may contain the same dots.
+/// Two frames are at the same place if their positions differ by less than this number of cells
+/// along each axis. Such frames may show the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
 /// Maximum number of frames that are counted at one place. Further frames are ignored. A float
 /// represents all integers up to this limit exactly.
@@ -20,9 +20,8 @@ bool is_near(std::uint32_t a, std::uint32_t b) {
     return std::min(apart, kPositionsPerAxis - apart) < kSamePlace_cells;
 }
 
-/// Converts log odds to log odds relative to the most likely code, and raises values below
-/// -`max_log2` bits to -`max_log2` bits. Both the argument and the result are in units of 2^-8
-/// bits.
+/// Returns the log2 odds of each code relative to the most likely code, clamped to at least
+/// -`max_log2`. `log2_q8` and the result are in units of 2^-8.
 CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t max_log2) {
     const std::int32_t likeliest = *std::max_element(log2_q8.begin(), log2_q8.end());
     for (std::int32_t& log2 : log2_q8)
@@ -35,10 +34,10 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // For each code and frame, the factor is the odds of the likeliest code in the frame divided by
-    // the odds of the given code. By Markov's inequality, the mean factor of the true code at one
-    // place is at least m with a probability of at most 1/m, even if the frames are not
-    // independent. The odds of a code with the mean factor m are therefore multiplied by 1/m.
+    // In each frame, the factor of a code is the odds of the frame's likeliest code divided by the
+    // odds of the code in question. By Markov's inequality, the probability that the mean factor of
+    // the true code at one place is m or more is at most 1/m, even if the frames are not
+    // independent. The odds of a code with mean factor m are therefore multiplied by 1/m.
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=

@@ -41,19 +41,19 @@ bool are_plausible(const BitsRead& bits, const MeasuredDots& dots, const Frame& 
            !exceeds_error_rate(bits.wrong_x) && !exceeds_error_rate(bits.wrong_y);
 }
 
-/// Returns true if the bits need no second reading. This is the case if at least kClear_percent %
-/// of the dots that were seen were also read, and if at most max(kMaxWrong, n / kDotsPerWrong) bits
-/// of the n dots that were read are wrong.
+/// Returns true if the bits need no second reading: at least kClear_percent % of the dots seen were
+/// read, and at most max(kMaxWrong, n / kDotsPerWrong) of their bits are wrong, where n is the
+/// number of dots read.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <=
                std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
-/// Returns true if few of the dots seen were read without a wrong bit, and a significant fraction
-/// of the bits read is wrong. Such a frame may show two overlapping patterns whose grids are offset
-/// by a fraction of the spacing. The x bits may then come from one pattern, and the y bits from the
-/// other.
+/// Returns true if less than kMinRight of the dots seen were read without a wrong bit, and more
+/// than kMaxWrongInOverlay of the bits read are wrong. Such a frame may show two overlapping
+/// patterns whose grids are offset by a fraction of the spacing. The x bits may then come from one
+/// pattern, and the y bits from the other.
 bool shows_overlay(const BitsRead& bits) {
     return static_cast<float>(bits.right) < tuned::kMinRight * static_cast<float>(bits.seen) &&
            static_cast<float>(bits.wrong_x + bits.wrong_y) >
@@ -68,7 +68,8 @@ bool shows_too_few_cells(const Frame& frame, CellsInView view, MeasuredDots& dot
     return are_too_few_cells(frame, dots.count);
 }
 
-/// Returns true if the image has fewer than `cells` cells.
+/// Returns true if the image has room for fewer than `cells` cells at the spacing of the
+/// hypothesis.
 bool has_fewer_cells(const Frame& frame, const Hypothesis& hypothesis, float cells) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);
@@ -94,8 +95,8 @@ bool fit_to_dots(const Frame& frame, const MeasuredDots& dots, const BitsRead& b
 }
 
 /// Corrects the pixel bias and the neighbour bias if they are significant, and then fits the plane
-/// again. Returns the variance that the remaining pixel bias adds to the mean dot centre, along u
-/// and v, in px^2. Returns 0 if nothing was corrected, or if the new fit failed.
+/// again. Returns the variance of the mean dot centre due to the remaining pixel bias, along u and
+/// v, in px^2. Returns 0 if nothing was corrected, or if the new fit failed.
 FloatVec fit_without_bias(const Frame& frame, const DotReader& reader, const CellsInView& view,
                           Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
@@ -231,8 +232,8 @@ Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInVi
 }
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. An
-/// exact hypothesis is implausible if its bits are not clean. It is also implausible if the fit
-/// still moves its plane far (see `is_far_from`) in each of kMaxLooks measurements.
+/// exact hypothesis is implausible if its bits are not clean. It is also implausible if kMaxLooks
+/// fits move its plane far (see `is_far_from`).
 Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
                                  const PlaceEvidence& evidence, Measurement& measurement,
                                  Fix& fix) {
@@ -279,9 +280,10 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         if (decides && !hypothesis.is_certain) {
             measurement.bits = 2 * bits.read;
             // If the bits are clear but do not make the position certain, the frame has too few
-            // bits. In small views, clean bits count as clear, because the few unread or misread
-            // dots have little influence and further attempts take a long time. If a small view
-            // shows too few cells for a further attempt, all bits count as clear.
+            // bits. Bits are clear if all dots seen were read without a wrong bit. In small views,
+            // `is_clean` is sufficient, because a few unread or misread dots make little difference
+            // and further attempts take a long time. In small views with too few cells for a second
+            // attempt, any bits are accepted as clear.
             const bool are_clear =
                 hypothesis.is_small_view
                     ? is_clean(bits) || is_too_small_for_second(frame, hypothesis)
@@ -342,8 +344,8 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
     const auto measure = [&] {
         return measure_and_compare(frame, hypothesis, evidence, measurement, fix);
     };
-    // Sets a property of the hypothesis, and measures its dots. If the result is rejected, resets
-    // the property and returns nullopt.
+    // Sets a flag of the hypothesis, and measures its dots. If the result is neither ok nor
+    // too_few_bits, resets the flag and returns nullopt.
     const auto measure_with = [&](bool Hypothesis::*property) -> std::optional<Confirmation> {
         std::optional<OtherCodes> before;
         if (evidence.others != nullptr) before = *evidence.others;
@@ -351,7 +353,8 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
         const Confirmation result = measure();
         if (result == Confirmation::ok || result == Confirmation::too_few_bits) return result;
         hypothesis.*property = false;
-        // A rejected attempt provides no evidence about other codes.
+        // Restores the odds of the other codes, because a rejected result is no evidence for or
+        // against them.
         if (before) *evidence.others = *before;
         return {};
     };

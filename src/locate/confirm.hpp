@@ -11,8 +11,8 @@
 
 namespace dotpose::core {
 
-/// Returns true if the plane is a plausible view of paper over the whole image (see
-/// `is_within_reason`). All stages require a plausible plane.
+/// Returns true if the plane is a plausible view of paper in the whole image (see
+/// `is_within_reason`). All stages reject implausible planes.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Returns true if the position does not explain the frame well: the displacement is not positive,
@@ -25,8 +25,8 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane);
 ///
 /// For example, two overlapping patterns that are nearly aligned can look like a third pattern,
 /// with the columns of one pattern and the rows of the other. In such a frame, a quarter of the
-/// cells have no dot at the expected position, and half of the dots are at another of the four dot
-/// positions of their cell. docs/integrity.md contains the measurements.
+/// cells have no dot at the expected position, and half of the dots are at a wrong position in
+/// their cell. docs/integrity.md contains the measurements.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Returns true if the surface is uneven and less than half of the dots are inliers of the fitted
@@ -59,8 +59,8 @@ struct Measurement {
     int bits = 0;
     /// True if the frame shows too few cells for a reliable position, so further attempts are
     /// skipped. `confirm` sets this flag only if its result is `too_few_bits` and at least one of
-    /// these conditions holds: the view is small, dots that the image border cuts were read, or
-    /// `are_too_few_cells` returns true.
+    /// these conditions holds: the view is small, bits were read from dots that are cut off by the
+    /// image border, or `are_too_few_cells` returns true.
     bool shows_too_few_cells = false;
     /// True if the result of the first attempt is `too_few_bits`, that is, its bits are clear but
     /// too few to make the position certain. In this case, the scene did not rotate during the

@@ -68,8 +68,8 @@ float window_radius_px(const Hypothesis& hypothesis) {
 }
 
 /// Returns true if all dots of a row, or all dots of a column, have nearly the same sub-pixel
-/// phase. This is the case if the step between cells is within `max_off_px` of a whole number of
-/// pixels, along u and v.
+/// phase. This is the case if the step between adjacent cells is within `max_off_px` of a whole
+/// number of pixels, along u and along v.
 bool has_common_phase(const FloatPlane& p, float max_off_px) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
     const auto is_whole = [&](float px) {
@@ -80,13 +80,14 @@ bool has_common_phase(const FloatPlane& p, float max_off_px) {
 }
 
 /// Returns half the side of the window around an intersection, in spacings. The window of a square
-/// cell includes the dot at each of its four places, but not the dots of other cells. In a grid
-/// that a rolling shutter stretches, the window is reduced with the shorter side of the cell.
+/// cell includes all four possible dot positions of the cell, but not the dots of other cells. If a
+/// rolling shutter stretches the cells, the window shrinks in proportion to the shorter side of a
+/// cell.
 float window_reach(const FloatPlane& p) {
     constexpr float kReach = 0.36F;
     const float spacing = spacing_px(p);
-    // The determinant of the plane is 1 / spacing^2, so the sides of a cell are spacing^2 times the
-    // lengths of the rows of its matrix.
+    // The matrix of the plane has the determinant 1 / spacing^2. The sides of a cell, in px, are
+    // therefore spacing^2 times the lengths of the rows of this matrix.
     const float shorter_side = spacing * std::sqrt(std::min(p.du_x * p.du_x + p.dv_x * p.dv_x,
                                                             p.du_y * p.du_y + p.dv_y * p.dv_y));
     return shorter_side < tuned::kMinSideOfSquare ? shorter_side * kReach : kReach;
@@ -162,9 +163,9 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
         FloatPlane& plane = hypothesis.pattern_from_image;
         const auto points = static_cast<float>(found.points);
         bits.right = found.points;
-        // Sum of the vectors from the intersections to the dots, each projected onto the direction
-        // of the coded displacement. Each projection is the predicted displacement plus the
-        // projected offset from the predicted point, converted from px to spacings.
+        // Sums the distances of the dots from their intersections along the direction of the coded
+        // displacement, in spacings. Each distance is the predicted displacement plus the
+        // projection of the dot's measured offset, converted from px to spacings.
         bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
                          plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
                          plane.dv_y * found.of_y[1];

@@ -1,5 +1,5 @@
 // Dot reader: reads the bits and measures the centres of the listed dots. Samples the dots directly
-// or in windows, depending on the precision of the hypothesis.
+// if the hypothesis is exact, and uses windows otherwise.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -25,8 +25,8 @@ class DotReader {
     DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
         : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
 
-    /// Reads the bits of the listed dots. Stores the bits in `block`, unless it is null. `block`
-    /// must be empty. Sets `typical_mass` of the hypothesis, unless the hypothesis is exact.
+    /// Reads the bits of the listed dots. If `block` is not null, it must be empty and receives the
+    /// bits. If the hypothesis is not exact, sets its `typical_mass`.
     BitsRead read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block);
     /// Reads the bits of the measured dots again, with the new plane of the hypothesis. Overwrites
     /// `block`.
@@ -34,10 +34,10 @@ class DotReader {
     /// Drops the measured dots that are cut off by the image border, because their centroids are
     /// biased.
     void drop_cut_dots(const Hypothesis& hypothesis) const;
-    /// Measures the dot centres in centroid windows. If the hypothesis is not exact, does nothing
-    /// unless `is_last` is true. If the hypothesis is exact, also fits its plane to the centres,
-    /// and sets `projected`, `squares` and `right` of `bits`. `right` is then the number of dots
-    /// found. If fewer than kMinFound dots are found, only sets `right` to 0.
+    /// Measures the dot centres in centroid windows. If the hypothesis is exact, also fits its
+    /// plane to the centres, and sets `projected`, `squares` and `right` of `bits`. `right` is then
+    /// the number of dots found. If fewer than kMinFound dots are found, only sets `right` to 0. If
+    /// the hypothesis is not exact, measures the centres only if `is_last` is true.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
     /// Measures the centres again and subtracts the pixel bias if the bias is significant (see

@@ -41,11 +41,10 @@ BitBlock shifted(const BitBlock& block, FixedVec by) {
     return {shifted(block.columns, by.x, by.y), shifted(block.rows, by.y, by.x)};
 }
 
-/// Number of bits that both blocks contain, and number of these bits that differ between the
-/// blocks.
+/// Comparison of the bits in the cells where two blocks overlap.
 struct Overlap {
-    int shared = 0;
-    int different = 0;
+    int shared = 0;     ///< number of bits that both blocks contain
+    int different = 0;  ///< number of shared bits that differ between the blocks
 };
 
 void count_overlap(const BitLines& a, const BitLines& b, int across, int along, Overlap& overlap) {
@@ -58,8 +57,9 @@ void count_overlap(const BitLines& a, const BitLines& b, int across, int along, 
     }
 }
 
-/// Returns log2 of a likelihood ratio, given the overlapping bits: the likelihood that both blocks
-/// show the same cells, divided by the likelihood that they show unrelated parts of the pattern.
+/// Returns log2 of the likelihood ratio of the overlapping bits: their likelihood if both blocks
+/// show the same cells, divided by their likelihood if the blocks show unrelated parts of the
+/// pattern.
 float log2_ratio(const Overlap& overlap) {
     return tuned::kEqualBit_log2 * static_cast<float>(overlap.shared - overlap.different) +
            tuned::kDifferentBit_log2 * static_cast<float>(overlap.different);
@@ -110,8 +110,8 @@ float power_of_two(float exponent) {
 }
 
 /// The likeliest match of two grids, and the summed weight of all possible matches. The weight of a
-/// match is its likelihood ratio (see `log2_ratio`) times the probability density of its angle and
-/// shift after the measured motion, relative to the maximum of this density.
+/// match is the product of its likelihood ratio (see `log2_ratio`) and the probability density of
+/// its angle and shift, given the measured motion. The density is relative to its maximum.
 struct Match {
     int quarters = 0;
     FixedVec shift;  ///< from the turned earlier grid to the current grid, in cells
@@ -149,8 +149,8 @@ struct ExpectedShift {
     float variance = 0;
 };
 
-/// Adds the possible matches after `quarters` quarter turns. `turn_log2` is log2 of the weight of
-/// this turn.
+/// Adds the possible matches of `now` with `earlier`, which has been turned by `quarters` quarter
+/// turns. `turn_log2` is log2 of the weight of this turn.
 void add_matches(const BitBlock& now, const BitBlock& earlier, const ExpectedShift& expected,
                  int quarters, float turn_log2, Match& match) {
     const float reach =

@@ -15,7 +15,7 @@ namespace dotpose::core {
 /// Bits of one or several frames in one grid.
 struct FrameBits {
     BitBlock block;
-    FloatPlane grid_from_image;  ///< image points in px relative to the image centre
+    FloatPlane grid_from_image;  ///< image points are in px relative to the image centre
     int bits = 0;                ///< number of bits in the block
     int frames = 0;              ///< number of frames that contributed bits
 };

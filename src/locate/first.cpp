@@ -57,8 +57,8 @@ class PatchSearch {
             if (!place_patch_in_middle(frame_.image, scale, patch_)) break;
             const Confirmation confirmation = search_middle();
             if (confirmation == Confirmation::ok) return confirmation;
-            // Ends the search if the patch covers the whole image, because no other patch would
-            // contain additional dots.
+            // If the patch covers the whole image, ends the search, because other patches contain
+            // no additional dots.
             if (confirmation == Confirmation::too_few_bits && is_whole_image(patch_, frame_.image))
                 return confirmation;
             is_mirrored =
@@ -103,9 +103,10 @@ class PatchSearch {
     }
 
     /// Finds the grid in the patch at the image centre. If `is_skewed` is true, cells may be
-    /// arbitrary parallelograms. Otherwise, cells must be approximately square. If a skewed grid is
-    /// probably false, because the central dots are too few for its waves or are displaced by a
-    /// rotation, also tries other numbers of central dots.
+    /// arbitrary parallelograms. Otherwise, cells must be approximately square. If no skewed grid
+    /// is found, or if it is probably false, repeats the search with waves from other numbers of
+    /// central dots, because the default number may be too small, or a rotation may displace the
+    /// dots.
     bool find_middle_grid(bool is_skewed, PatchGrid& grid) const {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;
@@ -137,10 +138,10 @@ class PatchSearch {
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
     }
 
-    /// Returns true if the patch covers the whole of a small image and contains at least half of
-    /// `Frame::min_dots` dots, but too few dots for a reliable position, even if filtering the
-    /// image reveals more dots. Returns false if the frame is part of a series, because the bits of
-    /// earlier frames may make the position certain.
+    /// Returns true if the patch covers the whole of a small image, and contains too few dots for a
+    /// reliable position, even if filtering the image reveals more dots. Returns false if the patch
+    /// contains less than half of `Frame::min_dots` dots. Also returns false if the frame is part
+    /// of a series, because the bits of earlier frames may make the position certain.
     bool shows_too_few_dots() const {
         const int dots = patch_.dots.count;
         return 2 * dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&

@@ -24,19 +24,19 @@ Extent extent(float min, float max, int room) {
     return {first, std::max(last - first + 1, 0)};
 }
 
-/// Limits the cells by their distance from the image border.
+/// Sets the minimum distance from the image border at which cells are listed.
 void limit_to_image(const Frame& frame, const Hypothesis& hypothesis, CellsInView& view) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     if (hypothesis.reads_cut_dots) {
-        // Limits the intersections instead of the expected dots. Otherwise, the list would favour
-        // cells whose bits agree with the hypothesis.
+        // Applies the margin to the intersections instead of the predicted dots. Otherwise, the
+        // list would favour cells whose bits agree with the hypothesis.
         view.limits_intersections = true;
         view.margin_px = -tuning::confirm::kBeyondBorder * spacing;
         return;
     }
     // The margin excludes dots that touch the image border, because their images are incomplete.
     view.margin_px = margin_of_whole_dots_px(spacing);
-    // In small views of known sheets, the dots closer to the border are needed as well.
+    // In small views of known sheets, dots closer to the border are also needed.
     const auto shorter_px =
         static_cast<float>(std::min(frame.image.width_px, frame.image.height_px));
     if (frame.known.any() && shorter_px < tuning::known::kSmallView * spacing)

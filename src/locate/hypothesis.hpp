@@ -28,8 +28,8 @@ struct Hypothesis {
     bool reads_cut_dots = false;
     /// True if the pattern may cover only the part of the image around `from_centre`.
     bool is_partial_view = false;
-    /// True if the image shows so few cells that the work spent on testing the place is limited
-    /// (see `PlaceEvidence::work`).
+    /// True if the image is small and shows few cells. The work spent on testing the place is then
+    /// limited (see `PlaceEvidence::work`).
     bool is_small_view = false;
     /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
     int dot_contrast_q8 = 0;
@@ -60,8 +60,8 @@ struct RollMemory {
 /// Pixels with more contrast belong to a dot.
 inline constexpr int kContrastCut_q8 = 160;
 
-/// Returns the width of the image margin that may contain incomplete dots, in px. Dots whose
-/// centres are outside this margin are not cut off by the image border.
+/// Returns the minimum distance from the image border to the centre of a complete dot, in px. Dots
+/// closer to the border may be cut off.
 float margin_of_whole_dots_px(float spacing_px);
 
 FloatLens float_lens(const FixedLens& lens);

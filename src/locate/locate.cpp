@@ -59,7 +59,7 @@ class Cascade {
 
   private:
     /// Makes the tracked attempt. Searches for a rotation if the residuals indicate one. Returns
-    /// nullopt unless it finds a fix that is certain.
+    /// nullopt if there is no prediction, or if no fix is certain.
     std::optional<Judgement> track(const Prediction* prediction) {
         if (prediction == nullptr || options_.effort == Effort::device) return {};
         const CodeVariant code = options_.code;
@@ -116,10 +116,10 @@ class Cascade {
     }
 
     /// Returns the fix of a step, which must be certain, or a better fix if one of the following
-    /// attempts finds it. Reads the frame again in another code if the other code is more likely.
-    /// After a first attempt, searches for a rotation if the residuals indicate one. If this search
-    /// fails, makes a second attempt if the residuals are large. If none of these attempts finds a
-    /// fix that is certain, repeats the original attempt to restore its results in the workspace.
+    /// attempts finds one. Reads the frame again in another code if that code is more likely.
+    /// After a first attempt, searches for a rotation if the residuals indicate one. If this gives
+    /// no better fix and the residuals are large, makes a second attempt. If none of these attempts
+    /// finds a certain fix, repeats the original attempt to restore its results in the workspace.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempts_.make(other_step, other)) return false;

@@ -1,4 +1,4 @@
-// Locate: locates frames with given memory and options. Implements `Locator`.
+// Locate: locates a frame with the given options and memory. `Locator` calls these functions.
 #pragma once
 
 #include "dotpose/code_evidence.hpp"

@@ -1,5 +1,5 @@
-// Locator: memory, options, evidence for the codes, and pushed rows. locate/locate.cpp contains the
-// attempts.
+// Locator: manages the memory, the options, the evidence for the codes, and the pushed rows. The
+// attempts are in locate/locate.cpp.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -17,8 +17,8 @@ LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspac
 
 Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options)
     : RowLocator(workspace, options) {
-    // Clears the memory, because it may contain the known sheets and the series of images of
-    // another locator.
+    // Clears the series of images and the known sheets that another locator may have left in the
+    // memory.
     workspace->earlier.clear();
     workspace->set_known({});
 }

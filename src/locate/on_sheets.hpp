@@ -12,8 +12,8 @@
 
 namespace dotpose::core {
 
-/// Returns false if only known sheets are possible, and no part of the decoded region is on one of
-/// them. Otherwise, returns true.
+/// Returns false if only known sheets are possible, and no part of the decoded region is on a known
+/// sheet. Otherwise, returns true.
 bool is_possible(CodeVariant code, const Decoding& decoding, const KnownSheets& known);
 
 /// Returns the most likely place of a block on the known sheets. Returns nullopt if the block has
@@ -27,10 +27,9 @@ std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const Dev
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
-/// Finds the position of the decoded region on the known sheets. Returns false and changes nothing
-/// if no position is found. Otherwise, sets `bit_errors` and `p_wrong_log2` of the fix, and returns
-/// true if the position is certain. If the position is certain, also sets the decoding and `prior`
-/// of the fix.
+/// Finds the position of the decoded region on the known sheets. Returns true if a position is
+/// found and is certain. Sets `bit_errors` and `p_wrong_log2` of the fix if a position is found. If
+/// the position is certain, also sets the decoding, and `prior` of the fix.
 bool read_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Grid& grid,
                     const KnownSheets& known, Decoding& decoding, Fix& fix);
 

@@ -28,8 +28,7 @@ Line here(CodeVariant read, CodeVariant other, std::uint32_t position, int roll_
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }
 
-/// Returns the most likely line in the other code among all lines that differ from the line that
-/// was read.
+/// Returns the line at the most likely place in the other code, excluding the place that was read.
 Line elsewhere(const OtherAxis& axis, int roll_read) {
     return {axis.position, roll_read + axis.roll};
 }

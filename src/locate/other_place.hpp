@@ -18,10 +18,10 @@ void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& others,
                       CodeReading& reading);
 
-/// Sets `has_other`, `other_code`, `other_cell` and `other_section` of `reading`. `any` is a
-/// reading of the same frame in any code. If its code differs from the code of `reading`, the other
-/// place is the place of `any`. If both codes are equal, it is the other place of `any`, if there
-/// is one. Does nothing if `any` has no place, or if `any` has more than one bit error per
+/// Sets `has_other`, `other_code`, `other_cell` and `other_section` of `reading` from `any`, a
+/// reading of the same frame in any code. If the code of `any` differs from the code of `reading`,
+/// the place of `any` is the other place. If the codes are equal, copies the other place of `any`,
+/// if there is one. Does nothing if `any` has no place, or if `any` has more than one bit error per
 /// kMinDotsPerBitError dots.
 void note_other_reading(const CodeReading& any, CodeReading& reading);
 

@@ -34,7 +34,7 @@ bool is_pale(const ImageView& image, const DeviceOptions& options, CodeVariant c
             const FixedVec cell_q16{i * kSpacing_q16, j * kSpacing_q16};
             const FixedVec dot_q16 = cell_q16 + FixedVec{dx(symbol) * fix.displacement_q16,
                                                          dy(symbol) * fix.displacement_q16};
-            // The point midway between four intersections is always on paper.
+            // No dot covers the point midway between four intersections.
             const FixedVec paper_q16 = cell_q16 + FixedVec{kSpacing_q16 / 2, kSpacing_q16 / 2};
             const int ink = level_at(image, options.lens, plane, dot_q16);
             const int paper = level_at(image, options.lens, plane, paper_q16);

@@ -30,15 +30,15 @@ bool place_patch(const ImageView& image, FixedVec around_px, int scale, Patch& p
 /// Places a patch around the image centre. Returns false if the patch is too small for a grid.
 bool place_patch_in_middle(const ImageView& image, int scale, Patch& patch);
 
-/// Finds the dots of the patch. Sets the status of the fix to too_few_dots or no_grid. This status
-/// is final if no patch contains a grid. Returns false without setting the status if the patch has
-/// no contrast.
+/// Finds the dots of the patch. Sets the status of the fix to too_few_dots if no patch so far has
+/// at least `Frame::min_dots` dots, and to no_grid otherwise. A later fix replaces this status.
+/// Returns false without setting the status if the patch has no contrast.
 bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix, DotTiles tiles = DotTiles::median);
 
 /// Finds a place in the code from the dots and the grid of a patch. The dots, the grid and the
-/// hypothesis are relative to `from_centre`. A thorough search takes a long time, and is therefore
-/// made only if the grid is probably correct and the patch has few dots. Returns nullopt if no
-/// place is found.
+/// hypothesis are relative to `from_centre`. A thorough search takes a long time, so
+/// `PlaceSearch::thorough` has an effect only if the grid is probably correct and the patch has few
+/// dots. Returns nullopt if no place is found.
 std::optional<Hypothesis> read_grid(const Patch& patch, const PatchGrid& grid, FloatVec from_centre,
                                     const PlaceEvidence& evidence, PlaceSearch search);
 

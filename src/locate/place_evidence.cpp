@@ -62,16 +62,16 @@ bool is_certain_together(const PlaceEvidence& evidence, const Place& place,
     return true;
 }
 
-/// Returns true if at most one bit in kMinBitsPerError of an upright block is wrong, on each axis.
+/// Returns true if at most one in kMinBitsPerError bits of an upright block is wrong on each axis.
 bool agrees_with_code(CodeVariant code, const Place& place, const BitBlock& upright) {
     const auto [x, y] = compared_with_code(code, place, upright);
     constexpr int kMinBits = tuning::patch_grid::kMinBitsPerError;
     return kMinBits * x.wrong() <= x.bits() && kMinBits * y.wrong() <= y.bits();
 }
 
-/// Returns true if a place may agree with the bits of an axis (see `agrees_with_code`). `bits` is
-/// the number of bits of the axis. Each line agrees best at its best roll, so no place has a higher
-/// score than all best rolls together.
+/// Returns false if no place can agree with the bits of an axis (see `agrees_with_code`). `bits` is
+/// the number of bits of the axis. The score of a place is at most the sum of the best scores of
+/// all lines.
 bool may_agree(const Lines& lines, int bits) {
     constexpr int kWeight = 127;
     int max_score = 0;
@@ -82,7 +82,8 @@ bool may_agree(const Lines& lines, int bits) {
     return kMinBits * max_score >= (kMinBits - 2) * kWeight * bits;
 }
 
-/// Searches all quarter turns for a place that agrees with the bits, beginning at `first_quarters`.
+/// Tries all quarter turns, starting with `first_quarters`. Returns the first place found that
+/// agrees with the bits.
 std::optional<TurnedPlace> find_agreeing_place(const PlaceEvidence& evidence, const BitBlock& block,
                                                int first_quarters) {
     const CodeVariant code = evidence.options.code;

@@ -27,7 +27,7 @@ struct PlaceEvidence {
     const DeviceOptions& options;
     const KnownSheets& known;
     EarlierBits& earlier;
-    std::span<ScoredLine> line_scores;  ///< memory for the scores of the lines of a block
+    std::span<ScoredLine> line_scores;  ///< memory for the line scores of a block
     OtherCodes* others;  ///< receives the odds of the other codes; null if not requested
     /// Remaining work that may be spent on testing places in small views of this frame.
     WorkLimit& work;
@@ -41,10 +41,10 @@ struct TurnedPlace {
 
 /// Thoroughness of the search for a place.
 enum class PlaceSearch : std::uint8_t {
-    brief,  ///< only at the likeliest quarter turn
-    /// If the place that the brief search finds does not agree with the bits, searches thoroughly,
-    /// at all quarter turns, for a place that does. In a block of few cells, many lines are too
-    /// short to determine their rolls, or to vote for a quarter turn.
+    brief,  ///< searches only at the likeliest quarter turn
+    /// If the brief search finds no place that agrees with the bits, searches thoroughly at all
+    /// quarter turns. In a block of few cells, many lines are too short to determine their rolls,
+    /// or to vote for a quarter turn.
     thorough,
 };
 

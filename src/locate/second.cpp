@@ -58,7 +58,7 @@ bool may_be_biased(const Fix& fix, const PlaneFromImage& plane, const ImageView&
 
 }  // namespace
 
-/// Finds the grid, including perspective and lens distortion.
+/// Finds the grid of the detected dots, with perspective and the remaining lens distortion.
 Status SecondAttempt::find_grid(const LatticeOptions& options, FixedVec centre_q8) {
     Status status = find_axes(centre_q8, kMaxSeeds, w_);
     if (status != Status::ok) return status;
@@ -105,8 +105,8 @@ Status SecondAttempt::read_filtered(const Frame& frame) {
     const Fix seen = w_.fix;
     filtered.threshold.min_contrast = pale;
     if (read_filtered_with(filtered, frame.image) == Status::ok) return Status::ok;
-    // Restores the first result. The second try found no readable grid, so the additional dots are
-    // noise.
+    // Restores the result of the first try. The second try found no readable grid, so its
+    // additional dots are probably noise.
     w_.fix = seen;
     w_.dot_count = 0;
     return status;

@@ -13,7 +13,7 @@ FixedVec cell_of(const MeasuredDots& dots, std::size_t k) {
     return {static_cast<std::int32_t>(dots.column[k]), static_cast<std::int32_t>(dots.row[k])};
 }
 
-/// Calls `use(k, cell)` for each dot `k` that was found in a cell that the grid can store.
+/// Calls `use(k, cell)` for each found dot `k` whose cell fits in the grid.
 template <typename Use>
 void visit_dots(const MeasuredDots& dots, int grid_side, Use use) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {

@@ -48,8 +48,8 @@ int max_shift_px(const Prediction& prediction, float spacing_px) {
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane with the centroids of the listed dots. Returns false unless at least kMinNear
-/// dots, and at least three quarters of all listed dots, have offsets of at most kMaxOffset_px.
+/// Corrects the plane with the centroids of the listed dots. Returns false if fewer than kMinNear
+/// of the listed dots, or fewer than three quarters of them, have offsets of at most kMaxOffset_px.
 bool correct_by_centroids(const Frame& frame, CellsInView view, FloatPlane& plane,
                           MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
@@ -114,8 +114,8 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
            fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }
 
-/// Corrects the hypothesis with the dots near `from`, in px relative to the image centre. Returns
-/// false if the dots are not found.
+/// Corrects the hypothesis with the dots near the image point `from`, which is in px relative to
+/// the image centre. Returns false if the dots are not found.
 bool correct(const Frame& frame, FloatVec from, int max_px, Hypothesis& hypothesis,
              const RollMemory& rolls, MeasuredDots& dots) {
     hypothesis.from_centre = from;
@@ -157,8 +157,9 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Fr
     return hypothesis;
 }
 
-/// Corrects the hypothesis with the dots near one image point after another, until the bits confirm
-/// the corrected hypothesis. Returns false if no point leads to a confirmed hypothesis.
+/// Tries the image points kPoints in turn: corrects the hypothesis with the dots near the point,
+/// and tests the corrected hypothesis (see `confirm`). Returns true as soon as a corrected
+/// hypothesis is confirmed.
 bool confirm_corrected(const Frame& frame, const Hypothesis& hypothesis, int max_px,
                        const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {
     for (const FloatVec fraction : tuned::kPoints) {

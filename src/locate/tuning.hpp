@@ -9,21 +9,22 @@ namespace dotpose::core::tuning {
 
 /// Grids of patches (locate/first, locate/turning, locate/patch_hypothesis).
 namespace patch_grid {
-/// A grid is probably correct if the variance of the dot offsets is at most this, per axis, in
-/// spacings^2. The offset of a dot is relative to the nearest of the four dot positions of its
-/// cell. In a false grid, the offsets are uniformly distributed over discs with a radius of 0.18
-/// spacings, so their variance is 0.008. If perspective was fitted to false cells, the variance is
-/// smaller: at least 0.0017 in frames of rolling shutters. In 1,000 nominal frames, the variance is
-/// always less than 0.002, and less than 0.001 in 996 frames. In hard frames, the variance of
-/// correct grids can exceed 0.002, because the dots are printed inaccurately. 3,000 frames that
-/// rotate by 10 to 40 degrees were tested. With a limit of 0.002, false grids end the search for a
-/// rotation in 3 of these frames, or in 6 if the sheet is known. With 0.0015, false grids end it in
-/// none.
+/// A grid is probably correct if the variance of the dot offsets along each axis is at most this
+/// value, in spacings^2. The offset of a dot is relative to the nearest of the four dot positions
+/// of its cell. In a false grid, the offsets are uniformly distributed over discs with a radius of
+/// 0.18 spacings, so their variance is 0.008. If the fit of a false grid includes perspective, the
+/// variance is smaller, but at least 0.0017 in the rolling-shutter frames tested. In 1,000 nominal
+/// frames, the variance is always less than 0.002, and less than 0.001 in 996 frames. In hard
+/// frames, the variance of correct grids can exceed 0.002, because the dots are printed
+/// inaccurately. The limit was tested in 3,000 frames of scenes that rotate by 10 to 40 degrees
+/// during the readout. With a limit of 0.002, false grids end the search for a rotation too early
+/// in 3 frames, or in 6 frames if the sheet is known. With a limit of 0.0015, this happens in no
+/// frame.
 inline constexpr float kMaxVariance = 0.0015F;
-/// Maximum number of dots in a patch for a thorough search for the place. With more dots, enough
-/// lines are long enough to determine their rolls, so the brief search finds the place. Of 1,000
-/// frames of 188 x 120 px whose scene moves by 60 % of the image height during the readout, 892 are
-/// located with a thorough search, and 845 without it.
+/// The search for the place is thorough only if the patch has at most this number of dots. With
+/// more dots, enough lines are long enough to determine their rolls, so the brief search finds the
+/// place. Of 1,000 frames of 188 x 120 px whose scene moves by 60 % of the image height during the
+/// readout, 892 are located with a thorough search, and 845 without it.
 inline constexpr int kMaxDotsForThoroughSearch = 144;
 /// A place agrees with the bits if, on each axis, at most one bit in kMinBitsPerError is wrong.
 inline constexpr int kMinBitsPerError = 16;
@@ -54,12 +55,12 @@ inline constexpr int kMaxTries = 4;
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 /// Numbers of central dots from which the waves of a skewed grid at the image centre are computed
-/// if the grid found with the usual number of dots is probably false.
+/// if the default number leads to no grid, or to a grid that is probably false.
 inline constexpr float kOtherCentralDots[] = {45, 20};
-/// Factors for the estimated spacing if sheets are known. On a known sheet, the place of a strip of
-/// three rows can be certain. The spacing of such a strip is overestimated, because the estimate
-/// assumes that the nearest neighbours of a dot fill a disc. For the same reason, the spacing of
-/// dots among graphics is overestimated.
+/// Factors for the estimated spacing if sheets are known. On a known sheet, a strip of only three
+/// rows of dots can make the place certain. The estimated spacing of such a strip is too large,
+/// because the estimate assumes that the nearest neighbours of a dot fill a disc. For the same
+/// reason, the estimate is too large for dots among graphics.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F, 0.85F, 0.65F};
 }  // namespace first
 
@@ -71,22 +72,23 @@ inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
 /// Maximum drift of the scene while a row is read, in rows.
 inline constexpr float kMaxDrift = 0.9F;
-/// kStep is the first step of the search for the rotation, given as the distance by which the dots
-/// in the corners of the patch move, in spacings. The search ends when the step is kStep /
+/// kStep is the first step of the search for the rotation. It is expressed as the distance by which
+/// the dots in the corners of the patch move, in spacings. The search ends when the step is kStep /
 /// kStepParts.
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
-/// A grid replaces the best grid so far if its agreement is larger by more than this factor.
+/// A grid replaces the best grid so far if its agreement exceeds this multiple of the best
+/// agreement.
 inline constexpr float kBetter = 1.0005F;
-/// A rotation is significant if explained / (dots * variance) is at least this limit. `explained`
-/// is the part of the squared residuals that the rotation explains, summed over both axes.
-/// `variance` is the remaining variance along one axis. The values 0.5 and 3 correspond to a fifth
-/// and to three fifths of all squared residuals. kMinGainIfEven applies if the remaining residuals
-/// of neighbouring dots are not correlated, and kMinGain otherwise.
+/// Minimum of explained / (dots * variance) for a significant rotation. `explained` is the part of
+/// the squared residuals that the rotation explains, summed over both axes. `variance` is the
+/// remaining variance along one axis. kMinGainIfEven applies if the remaining residuals of
+/// neighbouring dots are not correlated, and kMinGain otherwise. The values 0.5 and 3 correspond to
+/// a fifth and to three fifths of all squared residuals.
 inline constexpr float kMinGainIfEven = 0.5F;
 inline constexpr float kMinGain = 3;
-/// Maximum number of grids that the search looks up in the code. If none of these grids has a place
-/// in the code, the search ends, because further rotations usually lead to the same grids.
+/// Maximum number of grids for which the search looks for a place in the code. If none of these
+/// grids has a place, the search ends, because further rotations usually lead to the same grids.
 inline constexpr int kMaxClimbs = 3;
 /// The image is measured again if the correction of the rotation moves the dots in its corners by
 /// at least kSettled_px. Smaller corrections are applied to the measured dots. kMaxRounds is the
@@ -101,9 +103,9 @@ inline constexpr float kMinIsolated = 0.88F;
 
 /// Tracked attempt (locate/tracked).
 namespace tracked {
-/// Half side of the square that contains the dots for a correction, in spacings. The square is
-/// centred on the point where the prediction is corrected. The square is small enough that an
-/// angular error of the prediction does not assign a dot to the wrong intersection.
+/// Half the side of the square whose dots are used for a correction, in spacings. The square is
+/// centred on the point where the prediction is corrected. It is small enough that dots are
+/// assigned to the correct intersections even if the predicted angle is wrong by a few degrees.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots for a correction.
 inline constexpr int kMinNear = 10;
@@ -124,7 +126,8 @@ inline constexpr float kSecondOff = 0.15F;
 /// dropped.
 inline constexpr float kMaxOffset_px = 1.5F;
 /// Factor that converts the ratio of moment to weight in a centroid window to the offset of the
-/// dot, in px (see `find_centres`). For a typical dot, the resulting offset is accurate to 20 %.
+/// dot, in px (see `find_centres`). For a typical dot, the resulting offset is accurate to within
+/// 20 %.
 inline constexpr float kWeight_px = 0.84F;
 /// The dots are measured again if the scale and rotation of a correction move the dots at the image
 /// border by at least this distance.
@@ -139,11 +142,12 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Measurement of dots at predicted positions (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reading distance in the first round, in spacings, if the pattern fills the image and half of the
-/// longer image side exceeds kDenseAtMost. The first round measures all dots within this distance
-/// of `Hypothesis::from_centre`. The bits of these dots must make the position certain.
+/// Reading distance in the first round, in spacings. The first round measures all dots within this
+/// distance of `Hypothesis::from_centre`, and the bits of these dots must make the position
+/// certain. Partial views and small images (see kDenseAtMost) use other distances.
 inline constexpr float kDense = 10;
-/// An image is measured in a single round if half of its longer side is at most this, in spacings.
+/// If half of the longer image side is at most this number of spacings, the whole image is measured
+/// in a single round.
 inline constexpr float kDenseAtMost = 17;
 /// Reading distance in the first round of a partial view, in spacings. The distance is small
 /// because the pattern may end anywhere.
@@ -153,23 +157,22 @@ inline constexpr float kDecidingOfPart = 32;
 /// Maximum growth factor of the reading distance from round to round. The factor is limited,
 /// because the plane fitted in one round must predict the dots of the next round.
 inline constexpr float kFarther = 3.5F;
-/// Limits for clean bits, which need no second reading. At least kClear_percent % of the dots must
-/// be clear. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
+/// Limits for clean bits, which need no second reading. At least kClear_percent % of the dots seen
+/// must be read. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
 /// kMaxWrong is 2 because one misread dot can have two wrong bits.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
-/// A dot is an outlier if its squared residual exceeds kOutlier times the mean squared residual.
-/// The mean is over all dots, and the squared residual of a dot is the sum over both coordinates.
-/// The limit is therefore about four standard deviations of one coordinate.
+/// A dot is an outlier if its squared residual exceeds kOutlier times the mean squared residual of
+/// all dots. The squared residual of a dot is summed over both coordinates, so the limit is about
+/// four standard deviations of one coordinate.
 inline constexpr float kOutlier = 8.3F;
 /// Maximum distance by which a fit may move a corner of the measured area, in spacings along an
 /// axis. If the distance is larger, the dots are measured again, because small centroid windows do
 /// not measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
-/// Maximum number of measurements for an exact hypothesis. The hypothesis is implausible if the
-/// last fit still moves the plane by more than kFar. docs/accuracy.md, "Dots with the same
-/// sub-pixel phase", lists the remaining errors.
+/// An exact hypothesis is implausible if this number of fits move its plane by more than kFar.
+/// docs/accuracy.md, "Dots with the same sub-pixel phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Windows are dropped if their paper level is less than kTable times the mean paper level. Such
 /// windows are on the table beyond the sheet, where noise can look like dots.
@@ -190,9 +193,9 @@ inline constexpr float kMinSideOfSquare = 0.75F;
 inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
-/// If the window radius exceeds this fraction of the distance between two facing dots, they bias
-/// each other's centroids. Facing dots are adjacent dots that are displaced towards each other. See
-/// pose/facing_dots.hpp.
+/// If the window radius exceeds this fraction of the distance between two facing dots, the dots
+/// bias each other's centroids. Facing dots are adjacent dots that are displaced towards each
+/// other. See pose/facing_dots.hpp.
 inline constexpr float kFacing = 0.55F;
 /// If the step between cells deviates from an integer number of pixels by less than this distance,
 /// the dots of a row or column have about the same sub-pixel phase. At larger deviations, the
@@ -203,7 +206,7 @@ inline constexpr float kDrift_px = 0.05F;
 /// takes several times as long as all other steps of a frame.
 inline constexpr float kDriftInView_px = 0.35F;
 /// The pixel bias is not significant if the variance of the mean dot centre along one axis exceeds
-/// this, because other errors are then larger than the bias.
+/// this limit, because other errors are then larger than the bias.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// Minimum and maximum size of image areas that are prefetched. Smaller areas are already in the
 /// cache. Larger areas would evict their own first rows.
@@ -212,13 +215,13 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// If the image contains fewer cells than this, bits are also read from dots that are cut off by
 /// the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels of a small view, in which the work spent on the sums over alternatives
-/// is limited. Larger images show so few cells only in rare cases, for example if a rolling shutter
-/// stretches the cells.
+/// Maximum number of pixels in a small view. In small views, the work spent on testing a place is
+/// limited. Larger images rarely show so few cells, for example if a rolling shutter stretches the
+/// cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
-/// Minimum number of cells in a small view for a second attempt. Of 241 frames of 72 x 72 px with
-/// 64 cells whose grid was found, a second attempt located none. docs/speed.md, "Small frames",
-/// contains the numbers for other sizes.
+/// Minimum number of cells in a small view for which a second attempt is made. Of 241 frames of 72
+/// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,
+/// "Small frames", contains the numbers for other sizes.
 inline constexpr float kMinCellsForSecond = 70;
 /// The dot of a cell may be partly visible if its intersection is outside the image by at most this
 /// distance, in spacings.
@@ -228,15 +231,15 @@ inline constexpr int kMinFound = 8;
 /// Maximum offset of a directly sampled dot from its predicted position. Dots with larger offsets
 /// are dropped.
 inline constexpr float kMaxOff_px = 1;
-/// If sqrt(variance) / displacement + bit_errors / bits exceeds this, the position does not explain
-/// the frame well (see `is_implausible`). docs/integrity.md contains the measurements.
+/// If sqrt(variance) / displacement + bit_errors / bits exceeds this limit, the position does not
+/// explain the frame well (see `is_implausible`). docs/integrity.md contains the measurements.
 inline constexpr float kMaxImplausible = 0.57F;
 /// Limits of `shows_overlay`. Let r be the fraction of the dots seen that were read without a wrong
 /// bit. A fix is refused if r is below kMinRight and more than kMaxWrongInOverlay of the bits read
-/// are wrong. 1,800 fixes were measured in frames with seams, cuts, blank areas and wrong bits. In
-/// two of these fixes, r was below kMinRight, but no bits were wrong. In two other fixes, r was
-/// 0.40 to 0.51. In two wrong fixes of the test `Adversarial.ColumnsAndRowsAreOfOnePattern`, r was
-/// 0.27 and 0.25, and 3.6 % and 1.6 % of the bits were wrong.
+/// are wrong. Of 1,800 fixes in frames with seams, cuts, blank areas and wrong bits, two had an r
+/// below kMinRight but no wrong bits, and two others had an r of 0.40 to 0.51. Two wrong fixes in
+/// the test `Adversarial.ColumnsAndRowsAreOfOnePattern` had r = 0.27 with 3.6 % wrong bits, and r =
+/// 0.25 with 1.6 % wrong bits.
 inline constexpr float kMinRight = 0.375F;
 inline constexpr float kMaxWrongInOverlay = 0.005F;
 /// A second attempt may give a better fix if the residual is at least kRough_px and at least kRough
@@ -251,7 +254,7 @@ namespace known {
 /// If the shorter image side is less than kSmallView spacings, dots are read up to a distance of
 /// kMargin_px from the image border. The usual margin is at least 1.7 px. Of 300 views of 36 x 36
 /// px at 6 px per spacing, 97 % are located with a margin of 1.0 px, and 88 % with the usual
-/// margin. The pose errors are equal (`dotpose_tables known`).
+/// margin. The pose errors are equal in both cases (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
@@ -262,15 +265,16 @@ inline constexpr int kMinWeight = 48;
 /// Frames that are read together (locate/earlier_bits). See docs/integrity.md, "Frames read
 /// together".
 namespace joined {
-/// log2 of the likelihood ratios for equal and for different bits where two frames overlap. The
-/// values are log2(2 * 15 / 16) and log2(2 * 1 / 16), for an error rate of 1 bit in 16.
+/// log2 of the likelihood ratio for a bit that is equal in two overlapping frames, and for a bit
+/// that differs. The values are log2(2 * 15 / 16) and log2(2 * 1 / 16), for an error rate of 1 bit
+/// in 16.
 inline constexpr float kEqualBit_log2 = 0.907F;
 inline constexpr float kDifferentBit_log2 = -3;
 /// log2 of the weight of a blunder: a measured motion whose error is far larger than its standard
 /// deviation.
 inline constexpr float kBlunder_log2 = -36;
-/// Standard deviations of the errors of a grid in angle, in rad, and in position, in spacings. The
-/// angle error includes the effect of the camera tilt.
+/// Standard deviations of the grid errors: of the angle, in rad, and of the position, in spacings.
+/// The angle error includes the effect of the camera tilt.
 inline constexpr float kGridAngle_rad = 0.035F;
 inline constexpr float kGridPhase = 0.06F;
 /// Maximum deviation of a match from the prediction: kReach_sigmas standard deviations, but at most
@@ -286,10 +290,10 @@ namespace second {
 /// factors, and 80 % with the original thresholds (docs/limits.md).
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
-/// Divisor of the minimum contrast for a second detection if an image has too few dots. The
-/// contrast can be lower because filtering reduces noise to a third. The second detection finds
-/// dots that are 6 grey levels darker than the paper (`dotpose_tables alike --spacings 8 --dots
-/// 0.10 --blurs 1.5`).
+/// If an image has too few dots, dots are detected again with the minimum contrast divided by this
+/// number. The contrast can be lower because filtering reduces noise to a third. The second
+/// detection finds dots that are 6 grey levels darker than the paper (`dotpose_tables alike
+/// --spacings 8 --dots 0.10 --blurs 1.5`).
 inline constexpr int kPaleParts = 3;
 /// Maximum rotations of the grid relative to the first grid estimate in the periodogram search, in
 /// degrees. If the search finds no grid within the first maximum, it is repeated with the second,
@@ -299,18 +303,18 @@ inline constexpr int kMaxTurns_deg[] = {12, 45};
 
 /// Choice of attempts and codes (locate/locate, locate/other_place).
 namespace cascade {
-/// If the odds of another code relative to the code of the fix exceed this number, the frame is
-/// read again in the other code.
+/// The frame is read again in another code if the odds of that code, relative to the code of the
+/// fix, exceed this number.
 inline constexpr float kBetterOdds = 2;
-/// A place in another code is reported only if it was read with at least this number of dots per
-/// wrong bit. A dot has two bits, so at most one bit in a hundred is wrong. Misread bits can cause
-/// such an error rate even if the place is correct.
+/// A place in another code is reported only if there is at most one wrong bit per this number of
+/// dots. A dot has two bits, so at most 1 % of the bits are wrong. Misread bits can cause such an
+/// error rate even if the place is correct.
 inline constexpr int kMinDotsPerBitError = 50;
 /// A different place in another code is also reported if its likelihood is at least this fraction
 /// of the likelihood of the fix.
 inline constexpr float kNamedElsewhere = 0.99F;
-/// The place of the fix in another code is also reported if its likelihood is more than this many
-/// times the likelihood of the fix.
+/// The place of the fix is also reported in another code if its likelihood in that code exceeds
+/// this multiple of the likelihood of the fix.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade
 

@@ -77,8 +77,8 @@ class TurnSearch {
     }
 
     float step() const { return step_; }
-    /// Sets whether cells may be arbitrary parallelograms. Otherwise, cells must be approximately
-    /// square.
+    /// If `is_skewed` is true, cells may be arbitrary parallelograms. Otherwise, cells must be
+    /// approximately square.
     void accept_skewed(bool is_skewed) { view_.is_skewed = is_skewed; }
 
     /// Improves a rotation by hill climbing with decreasing steps, to maximise the agreement of the
@@ -113,7 +113,7 @@ class TurnSearch {
     }
 
     /// Tries a rotation that is larger by `step`, with the drift of the best grid so far. If the
-    /// new grid is better, stores it and the rotation, and returns true.
+    /// new grid is better, stores the rotation and the grid, and returns true.
     bool improves(float step) {
         ReadoutTurn turn = turn_;
         turn.rad_per_row += step;
@@ -171,10 +171,10 @@ bool is_significant(const TurnFit& fit, int dots, Surface surface) {
 
 /// Removes the rotation `turn` from the frame, and passes the result to `locate`, which must call
 /// `confirm` to fit the rotation to the measured dots. Repeats this with the fitted rotation until
-/// a change of the rotation moves the dots in the image corners by less than kSettled_px. Sets
-/// `turn` to the fitted rotation. `pixels` is memory for the image. Returns the result of `locate`
-/// if it is not ok, and implausible if a rotation is out of range or still changes after kMaxRounds
-/// rounds.
+/// the rotation changes so little that the dots in the image corners move by less than kSettled_px.
+/// Sets `turn` to the fitted rotation. `pixels` is memory for the derotated image. If `locate`
+/// returns a result other than ok, returns this result. Returns implausible if a fitted rotation is
+/// out of range, or if the rotation still changes after kMaxRounds rounds.
 template <typename Locate>
 Confirmation settle(const Frame& frame, std::span<std::uint8_t> pixels,
                     const Measurement& measurement, ReadoutTurn& turn, Locate locate) {
@@ -245,8 +245,8 @@ bool find_isolated_dots(const Frame& frame, Patch& patch, Fix& fix) {
     return static_cast<float>(patch.dots.count) >= tuned::kMinIsolated * static_cast<float>(seen);
 }
 
-/// Measures the dots of a hypothesis in the image from which the rotation is removed, and fits the
-/// rotation (see `settle`). Returns implausible if the fitted rotation is not significant.
+/// Measures the dots of a hypothesis in the derotated image, and fits the rotation (see `settle`).
+/// Returns implausible if the fitted rotation is not significant.
 Confirmation confirm_turning(const Frame& frame, Hypothesis hypothesis,
                              const PlaceEvidence& evidence, std::span<std::uint8_t> pixels,
                              ReadoutTurn& turn, Measurement& measurement, Fix& fix) {

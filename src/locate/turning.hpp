@@ -13,8 +13,8 @@
 namespace dotpose::core {
 
 /// Returns true if the fix of a first or tracked attempt has large or correlated residuals that a
-/// rotation during the readout may explain, and `pixels` has room for the image without rotation.
-/// `measurement` must contain the results of the attempt. Changes the dots of `measurement`.
+/// rotation during the readout may explain. Returns false if `pixels` has no room for the derotated
+/// image. `measurement` must contain the results of the attempt. Changes the dots of `measurement`.
 bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t> pixels,
                 Measurement& measurement);
 
@@ -27,7 +27,7 @@ bool locate_turning(const Frame& frame, DesktopWorkspace& w);
 /// Removes the predicted rotation from the image, and measures the dots at their predicted
 /// positions. If their bits confirm the prediction, stores the fix in the workspace and returns
 /// true. Returns false if the bits do not confirm the prediction, if the rotation is out of range,
-/// or if the workspace has no room for the image without rotation.
+/// or if the workspace has no room for the derotated image.
 bool locate_tracked_turning(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

@@ -25,14 +25,14 @@ namespace dotpose::core {
 /// the whole workspace. They pass parts of it to the stages. The base class is the memory of a
 /// DeviceLocator, which `Effort::device` uses.
 struct DesktopWorkspace : DeviceWorkspace {
-    Patch* patch = nullptr;   ///< first attempt, and search for a rotation
-    Smoothing smoothing;      ///< second attempt
-    Measurement measurement;  ///< `confirm`
+    Patch* patch = nullptr;   ///< used by the first attempt and the search for a rotation
+    Smoothing smoothing;      ///< used by the second attempt
+    Measurement measurement;  ///< memory and results of `confirm`
     OtherCodes other_codes;   ///< odds of the codes in which the frame was not read
     EarlierBits earlier;
     WorkLimit work{WorkLimit::kOfFrame};  ///< see `PlaceEvidence::work`
     PushedImage pushed;
-    std::span<std::uint8_t> rolling_pixels;  ///< search for a rotation: the image without it
+    std::span<std::uint8_t> rolling_pixels;  ///< memory for the derotated image
     bool is_mirrored = false;                ///< true if an attempt found the mirrored code
 
     /// Sets the known sheets. On known sheets, smaller images and patches can be located.
@@ -110,8 +110,8 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
 
   private:
-    // Images have low tiles if their shorter side is at most kMaxSideWithLowTiles_px. Other images
-    // have high tiles, which need more memory. See `begin_threshold`.
+    // Maximum height of a threshold tile in this workspace. Only images whose shorter side exceeds
+    // kMaxSideWithLowTiles_px have high tiles, which need more memory. See `begin_threshold`.
     static constexpr int kBand_px =
         MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
@@ -133,8 +133,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // The side of a paper map block is a tenth of the shorter image side, and at least 6 px. There
-    // are at most 11 x 683 blocks.
+    // The side of a block of the PaperMap is a tenth of the shorter image side, and at least 6 px.
+    // There are at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};

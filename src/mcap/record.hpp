@@ -42,7 +42,7 @@ class Members {
         put(static_cast<std::uint32_t>(text.size()));
         bytes_.insert(bytes_.end(), text.begin(), text.end());
     }
-    /// Appends bytes that are not preceded by their length.
+    /// Appends bytes without their length.
     void put_raw(std::span<const std::uint8_t> bytes) {
         bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     }

@@ -14,12 +14,12 @@ namespace dotpose::png {
 namespace {
 
 constexpr double kInchesPerMetre = 1 / 0.0254;
-// Compression level of zlib. Most of a page is empty, so the default level takes 3.5 times as long
+// zlib compression level. Most of a page is empty, so the default level takes 3.5 times as long
 // for files that are only 20 % smaller. Slower compression does not make noisy frames much smaller.
 constexpr int kCompressionLevel = 4;
 
-/// Writes a PNG file. libpng reports errors with longjmp, so only `guarded` may call it, and no
-/// objects with destructors may be created in the scope of that call.
+/// Writes a PNG file. libpng reports errors with longjmp, so it must be called only through
+/// `guarded`, and the code passed to `guarded` must not create objects with destructors.
 class Writer {
   public:
     explicit Writer(base::ByteSink& file) {

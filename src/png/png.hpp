@@ -23,7 +23,7 @@ struct Header {
 };
 
 using RowSink = std::function<void(std::span<const std::uint8_t>)>;
-/// Calls a sink for each row of an image, from top to bottom.
+/// Calls the sink with each row of an image, from top to bottom.
 using RowSource = std::function<void(const RowSink&)>;
 
 /// Writes an image. Throws Error if libpng fails or the file cannot be written.

@@ -93,8 +93,8 @@ std::string cut_marks(const CardGrid& grid) {
 }
 
 QPDFObjectHandle card_form(QPDFPageObjectHelper page) {
-    // The form contains only the part of the page in the trim box, which may be smaller than the
-    // displayed page. The trim box is therefore set to the displayed page.
+    // qpdf clips the form to the trim box, which may be smaller than the displayed page. The trim
+    // box is therefore set to the displayed page.
     page.getObjectHandle().replaceKey("/TrimBox", QPDFObjectHandle::newArray(page_frame(page).box));
     return page.getFormXObjectForPage(true);
 }

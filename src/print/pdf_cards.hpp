@@ -13,7 +13,7 @@ namespace dotpose::print {
 /// Grid of cards in the middle of a page. Adjacent cards touch. The margin around the grid has
 /// space for cut marks.
 struct CardGrid {
-    Paper paper;  ///< turned by 90 degrees if more cards then fit
+    Paper paper;  ///< rotated by 90 degrees if this fits more cards
     Paper card;
     int columns = 0;
     int rows = 0;
@@ -27,8 +27,8 @@ struct CardGrid {
 CardGrid card_grid(Paper paper, Paper card);
 
 /// Returns the sheet of a card in the coordinate frame of the page. `slot` is the index of the card
-/// on the page, row by row. The card is shifted by less than a pixel at 300 dpi. This shift aligns
-/// its dots with the pixels of the printer, as on a separate page.
+/// on the page, row by row. The card is shifted by less than a pixel at 300 dpi to align its dots
+/// with the printer pixels, as on a page of its own.
 Sheet on_page(const CardGrid& grid, int slot, Sheet card);
 
 /// Returns the cut marks as PDF content, in points from the bottom left corner of the page.

@@ -15,8 +15,8 @@ class ColourFilter : public QPDFObjectHandle::TokenFilter {
   public:
     /// `spaces` contains the kind of each colour space that the operators `cs` and `CS` may select
     /// by name. If `starts_black` is true, as for pages, the initial colours are black. The filter
-    /// then first writes operators that set the converted black for fills and strokes. If it is
-    /// false, the initial colours are inherited.
+    /// then begins with operators that set fills and strokes to the converted black. Otherwise, the
+    /// initial colours are inherited.
     ColourFilter(InkChange change, std::map<std::string, ColourKind> spaces, bool starts_black);
 
     void handleToken(QPDFTokenizer::Token const& token) override;

@@ -20,7 +20,7 @@ namespace {
 using Token = QPDFTokenizer::Token;
 
 /// Reads the cross-reference tables and streams of a document. `startxref` near the end of the file
-/// contains the offset of the newest one, and /Prev and /XRefStm contain the offsets of others.
+/// contains the offset of the newest table or stream. /Prev and /XRefStm contain further offsets.
 class CrossReferences {
   public:
     CrossReferences(const std::filesystem::path& path, UnpackedBytes& unpacked)
@@ -34,8 +34,7 @@ class CrossReferences {
 
     void count() {
         // Number of bytes to search for the header at the beginning of the file, and for
-        // `startxref` at its end. The search is needed because some files contain other data before
-        // and after the document.
+        // `startxref` at its end. Some files contain other data before or after the document.
         constexpr qpdf_offset_t kNear = 1100;
         const std::string begin = text(0, kNear);
         std::smatch header;
@@ -124,7 +123,7 @@ class CrossReferences {
 
     std::shared_ptr<InputSource> file_;
     QPDFTokenizer tokenizer_;
-    QPDF stray_;  ///< empty document for streams, because qpdf requires one
+    QPDF stray_;  ///< empty document, because qpdf requires an owner for streams
     UnpackedBytes& unpacked_;
     qpdf_offset_t size_ = 0;
     qpdf_offset_t start_ = 0;

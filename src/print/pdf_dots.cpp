@@ -50,9 +50,9 @@ std::string glyph(const Pattern& pattern, Symbol symbol) {
            circle(x, y, r);
 }
 
-/// Returns the smallest shift in px, to the right or down, with which all renderers round the
+/// Returns the smallest shift in px, to the right or down, after which all renderers round the
 /// origin of a glyph to the same pixel. Tries shifts of up to 0.3 px. If none of them is
-/// sufficient, returns the shift that is farthest from all rounding limits.
+/// sufficient, returns the shift that is farthest from all rounding thresholds.
 ///
 /// Renderers count pixels from the top left or from the bottom left corner of the page, and either
 /// truncate or round to the nearest pixel. `near_px` and `far_px` are the distances of the origin
@@ -244,8 +244,8 @@ bool is_whole_pixels(const Pattern& pattern, double dpi) {
         const double px = mm * dpi / kInch_mm;
         return std::round(px) >= 1 && std::abs(px - std::round(px)) < tolerance_px;
     };
-    // The error of the spacing accumulates over the page, so the tolerance for the spacing is
-    // smaller than for the other lengths.
+    // Spacing errors accumulate over the page, so the spacing has a smaller tolerance than the
+    // other lengths.
     return is_whole(pattern.spacing_mm, 1e-6) && is_whole(pattern.displacement_mm, 0.01) &&
            is_whole(pattern.dot_mm, 0.01);
 }

@@ -25,7 +25,7 @@ inline constexpr const char* kDotsName = "/Dots";
 
 /// Progress of writing the rows of all pages. qpdf requests the rows while it writes the file. If
 /// `progress` throws an exception, qpdf replaces its message. The first exception is therefore
-/// stored here.
+/// stored in `stopped`.
 struct RowCount {
     Progress progress;
     std::int64_t done = 0;

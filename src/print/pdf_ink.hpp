@@ -31,7 +31,7 @@ ColourKind kind_of_space(QPDFObjectHandle space, QPDFObjectHandle spaces);
 /// `ColourKind::other`.
 double black_of(ColourKind kind, std::span<const double> colour);
 
-/// Changes of colours that `OverlayOptions` requests.
+/// Colour changes that `OverlayOptions` requests.
 struct InkChange {
     bool black_to_cmy = false;
     double lighten = 0;

@@ -137,8 +137,8 @@ std::optional<Arrows> arrows_of(const Sheet& sheet) {
     return Arrows{x_mm, y_mm};
 }
 
-/// Returns the position in the pattern of the top left corner of the page, which is the origin of
-/// the sheet's coordinate frame.
+/// Returns the pattern coordinates of the top left corner of the page, which is the origin of the
+/// sheet's coordinate frame.
 std::string corner_text(const Sheet& sheet) {
     const double spacing_mm = sheet.pattern.spacing_mm;
     return fmt::format("x_mm {:.3f}, y_mm {:.3f}", sheet.origin.x * spacing_mm - sheet.origin_x_mm,

@@ -124,7 +124,7 @@ void require_shallow_page_tree(QPDF& pdf) {
     while (!nodes.empty()) {
         auto [node, level] = nodes.back();
         nodes.pop_back();
-        // A node that was visited before is part of a cycle or a page that occurs twice. It is
+        // A node that was visited before is part of a cycle, or is a page that occurs twice. It is
         // skipped, because qpdf reports both faults.
         if (!node.isDictionary() || (node.isIndirect() && !seen.insert(node.getObjGen()).second)) {
             continue;
@@ -167,7 +167,7 @@ void UnpackedBytes::count(QPDFObjectHandle stream) {
         stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
     } catch (const std::runtime_error&) {
         // The exception can be ignored. If there were too many bytes, the code below throws an
-        // Error. If the stream is damaged, this is reported when it is read.
+        // Error. If the stream is damaged, the damage is reported when the stream is read.
     }
     page_ += bytes.bytes();
     document_ += bytes.bytes();

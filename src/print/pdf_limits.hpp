@@ -33,8 +33,8 @@ std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path);
 /// or because objects are nested too deeply.
 bool is_too_deep(const std::string& warning);
 
-/// Counts the bytes of streams after unpacking, before they are stored in memory. The limit is
-/// `max_mb` megabytes per page, and eight times as much for all pages together.
+/// Counts the unpacked bytes of streams without storing them. The limit is `max_mb` megabytes for
+/// each page, and eight times as much for all pages together.
 class UnpackedBytes {
   public:
     explicit UnpackedBytes(int max_mb) : max_mb_(max_mb) {}
@@ -46,8 +46,8 @@ class UnpackedBytes {
     /// of a predictor.
     void count(QPDFObjectHandle stream);
 
-    /// Counts the bytes of all object streams, which are streams that contain other objects. The
-    /// limit for one page applies to each of these streams, as if the stream were a page.
+    /// Counts the bytes of all object streams (streams that contain other objects). Each of them is
+    /// treated as a page, so the limit for one page applies to it.
     void count_object_streams(QPDF& pdf);
 
   private:

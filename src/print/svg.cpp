@@ -12,8 +12,8 @@
 namespace dotpose::print {
 namespace {
 
-// Drawing units per mm. Coordinates are integer multiples of 0.1 µm. They are short, but finer than
-// the resolution of any printer. Positions are rounded before they are subtracted, so rounding
+// Drawing units per mm. A unit is 0.1 µm, which is finer than the resolution of any printer, and
+// integer coordinates are short. Positions are rounded before they are subtracted, so rounding
 // errors do not accumulate.
 constexpr double kUnitsPer_mm = 10'000;
 

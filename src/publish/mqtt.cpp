@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
-/// Timeout of one wait for the socket.
+/// Maximum time to wait for the socket in one iteration of the network loop.
 constexpr int kWait_ms = 100;
 
 /// Initializes libmosquitto once per program.
@@ -85,7 +85,7 @@ void parse_url(const std::string& url, MqttOptions& options) {
     options.host = rest;
 }
 
-/// Callbacks of libmosquitto, which forward to the methods of the client.
+/// Callbacks for libmosquitto. They forward to the methods of MqttClient.
 struct MqttClient::Callbacks {
     static MqttClient& client(void* object) { return *static_cast<MqttClient*>(object); }
     static void on_connect(mosquitto*, void* object, int code) { client(object).answered(code); }
@@ -159,7 +159,7 @@ void MqttClient::start() {
     // Allows one more message in flight than `publish` uses, so that presence messages are sent
     // without waiting.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
-    // Messages are published by threads other than the thread of `run`.
+    // Messages are published by threads other than the one that executes `run`.
     mosquitto_threaded_set(mosquitto_, true);
     constexpr int kKeepAlive_s = 10;
     const int code =
@@ -201,8 +201,8 @@ int MqttClient::work() {
     return mosquitto_loop(mosquitto_, kWait_ms, 1);
 }
 
-// Runs the network loop. The thread of libmosquitto is not used, because it ends if the first
-// connection fails.
+// Runs the network loop. The thread that libmosquitto offers is not used, because it ends if the
+// first connection fails.
 void MqttClient::run() {
     for (;;) {
         int code = is_connected() ? work() : mosquitto_loop(mosquitto_, kWait_ms, 1);

@@ -1,5 +1,5 @@
 // Sends MQTT messages from a bounded queue, and receives messages by subscription, with
-// libmosquitto. Publisher and subscriber connect in the background and reconnect after the
+// libmosquitto. The publisher and the subscriber connect in the background, and reconnect after the
 // connection breaks.
 #pragma once
 
@@ -46,10 +46,9 @@ struct MqttOptions {
     std::string presence_topic;
     /// Returns a presence message. Two threads call this function, but never at the same time.
     std::function<std::string(Presence)> presence;
-    /// Maximum number of messages that are queued without a connection. If the queue is full, the
-    /// oldest messages are dropped.
+    /// Maximum number of queued messages. If the queue is full, the oldest message is dropped.
     std::size_t queue = 50;
-    /// Called with messages for the user, for example that the connection is lost or restored.
+    /// Called with messages for the user, for example when the connection is lost.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -84,12 +83,12 @@ class MqttClient {
     virtual void on_disconnected() {}
     virtual void on_published(int) {}
     virtual void on_message(std::string_view, std::string_view) {}
-    /// Sends and receives once while connected. Waits a short time for the socket. Returns an error
-    /// code of libmosquitto.
+    /// Runs one iteration of the network loop while connected: waits a short time for the socket,
+    /// then receives and sends. Returns an error code of libmosquitto.
     virtual int work();
 
-    /// Returns true if the latest attempt to connect failed or the connection is lost. Requires the
-    /// lock.
+    /// Returns true if the latest attempt to connect failed or the connection is lost. The caller
+    /// must hold `mutex_`.
     bool has_failed() const {
         return (was_reached_ && !is_connected_) || !failure_.empty() || !refusal_.empty();
     }
@@ -131,19 +130,18 @@ class MqttPublisher : public MqttClient {
     ~MqttPublisher() override;
 
     /// Sends a message, or queues it until there is a connection. Does not block. After an
-    /// interruption, the newest messages are sent first. The broker keeps a retained message for
-    /// later subscribers. An empty retained message removes the previous one.
+    /// interruption, the newest messages are sent first. If `is_retained` is true, the broker keeps
+    /// the message for later subscribers. An empty retained message removes the previous one.
     void publish(std::string topic, std::string payload, bool is_retained = false);
 
-    /// Waits until all messages are sent, but at most for `patience`. Returns false on timeout.
+    /// Waits up to `patience` until all messages are sent. Returns false on timeout.
     bool flush(std::chrono::milliseconds patience);
 
     std::int64_t sent() const;
     /// Returns the number of messages in the queue or being sent.
     std::int64_t unsent() const;
-    /// Returns the number of messages that were never sent. Such a message was replaced in the
-    /// queue by newer messages, was invalid, or was being sent with QoS 0 when the connection
-    /// broke.
+    /// Returns the number of messages that were never sent. They were dropped from a full queue,
+    /// were invalid, or were being sent with QoS 0 when the connection broke.
     std::int64_t dropped() const;
 
   private:

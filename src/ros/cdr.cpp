@@ -1,4 +1,4 @@
-// Serializes messages as OMG CDR, in the version and with the header that ROS 2 uses.
+// Serialises messages as plain little-endian OMG CDR, with the encapsulation header of ROS 2.
 #include <algorithm>
 #include <bit>
 #include <concepts>

@@ -64,7 +64,7 @@ const Definition& definition(std::string_view full_name) {
     return *found;
 }
 
-/// Appends the names of all types that occur in `members`, each once.
+/// Appends the names of all types that occur in `members`, without duplicates.
 void collect(std::string_view members, std::vector<std::string>& names) {
     std::istringstream lines{std::string(members)};
     std::string type;

@@ -174,8 +174,8 @@ RobotMessages RobotMessenger::messages(const RobotUpdate& update) {
     return result;
 }
 
-/// Updates `odom_from_base_`. Updates `map_from_odom_` instead if the motion does not continue the
-/// previous motion.
+/// Updates `odom_from_base_`. If the robot was found again or is on another plane, updates
+/// `map_from_odom_` instead, so that the odometry does not jump.
 void RobotMessenger::follow(const RobotUpdate& update) {
     const PlanarPose& map_from_base = update.motion->pose;
     if (update.is_found_again || plane_ != update.plane) {

@@ -102,7 +102,7 @@ Access::Access(const Address& address, std::string token, std::string hostname)
 
 /// Returns true if the Host header names this server. An IP address is safe, because only names can
 /// be rebound to another address. A server at a loopback address accepts only the names of the
-/// loopback interface. Any port is accepted, because the port of an ssh tunnel differs.
+/// loopback interface. Any port is accepted, because an ssh tunnel may use a different port.
 bool Access::is_own_host(std::string_view host) const {
     const std::string name = in_lower_case(without_port(host));
     if (name == "localhost" || name == "127.0.0.1" || name == "[::1]") return true;

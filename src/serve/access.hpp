@@ -26,11 +26,11 @@ std::string read_token(const std::string& path);
 /// Compares two strings. The running time depends only on their lengths.
 bool equals_in_constant_time(std::string_view a, std::string_view b);
 
-/// The properties of a request that determine whether it is answered. The member for a missing
-/// header is empty.
+/// The properties of a request that determine whether it is answered. Members for missing headers
+/// are empty.
 struct RequestHead {
     std::string host;           ///< header Host
-    std::string origin;         ///< header Origin, which browsers send from scripts
+    std::string origin;         ///< header Origin, which browsers add to requests from scripts
     std::string cookie;         ///< header Cookie
     std::string authorization;  ///< header Authorization
     std::string token;          ///< parameter `token` of the URL
@@ -55,7 +55,7 @@ class Access {
     Verdict judge(const RequestHead& head) const;
 
     /// Returns the value of a Set-Cookie header that stores the token. The name of the cookie
-    /// contains the port, because browsers do not separate the cookies of ports.
+    /// contains the port, because browsers share cookies between all ports of a host.
     std::string set_cookie() const;
 
   private:

@@ -10,7 +10,7 @@ namespace dotpose::serve {
 
 /// An address of this computer and a port.
 struct Address {
-    std::string ip = "127.0.0.1";  ///< IPv4 or IPv6 address; 0.0.0.0 and :: are all interfaces
+    std::string ip = "127.0.0.1";  ///< IPv4 or IPv6 address; 0.0.0.0 and :: mean all interfaces
     std::uint16_t port = 0;        ///< 0 to let the system choose a free port
 
     /// Returns true if only programs on this computer can reach the address.
@@ -26,7 +26,7 @@ Address parse_address(const std::string& text);
 /// Returns "IP:PORT", with IPv6 addresses in brackets.
 std::string text_of(const Address& address);
 
-/// Throws Error with the reason if it is not possible to listen at the address, for example because
+/// Throws Error with the reason if a server cannot listen at the address, for example because
 /// another program already does.
 void require_free(const Address& address);
 

@@ -15,12 +15,11 @@ namespace {
 
 using nlohmann::json;
 
-/// Maximum number of grid lines in each direction, and number of pieces into which a line is
-/// divided.
+/// Maximum number of grid lines in each direction, and number of straight segments per grid line.
 constexpr int kMaxLines = 64;
 constexpr int kPieces = 6;
 
-/// Returns the line of the grid from cell (i0, j0) to cell (i1, j1).
+/// Returns the grid line from cell (i0, j0) to cell (i1, j1).
 std::vector<draw::Point> grid_line(const draw::FrameView& view, int i0, int j0, int i1, int j1) {
     std::vector<draw::Point> line;
     for (int k = 0; k <= kPieces; ++k) {

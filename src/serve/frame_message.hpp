@@ -31,8 +31,8 @@ struct FrameOverlay {
 FrameOverlay overlay_of(ImageView image, const Trace& trace);
 
 /// Returns the message: the size of the JSON in bytes (32 bits, little-endian), the JSON, and the
-/// frame as JPEG, reduced to at most `max_side_px`. The JSON contains the number of the frame, the
-/// original size, and the overlay. `image` must not be empty.
+/// frame as JPEG, reduced until its longer side is at most `max_side_px`. The JSON contains the
+/// number of the frame, the original size, and the overlay. `image` must not be empty.
 std::string frame_message(ImageView image, const FrameOverlay& overlay, std::int64_t index,
                           int max_side_px);
 

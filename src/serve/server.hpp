@@ -1,5 +1,5 @@
-// An HTTP and WebSocket server on its own thread, for pages that show what a live program does.
-// Requires libwebsockets at build time.
+// An HTTP and WebSocket server on its own thread, for pages that display the state of a running
+// program. Requires libwebsockets at build time.
 //
 //     serve::Server server({.address = address, .pages = pages});
 //     serve::Topic& states = server.add_topic("state", serve::Format::text);
@@ -10,10 +10,11 @@
 //     }
 //
 // Protocol of the WebSocket /live: the client sends {"do": "subscribe", "topic": NAME}, then {"do":
-// "next", "topic": NAME} after each message that it has shown, and may send {"do": "unsubscribe",
-// "topic": NAME}. The values of some topics depend on further arguments of "subscribe", which the
-// client can change by sending "subscribe" again. Each message from the server consists of the name
-// of a topic, a line break, and the value. Other commands are passed to the program.
+// "next", "topic": NAME} after each message that it has displayed, and may send {"do":
+// "unsubscribe", "topic": NAME}. The values of some topics depend on further arguments of
+// "subscribe", which the client can change by sending "subscribe" again. Each message from the
+// server consists of the name of a topic, a line break, and the value. All other commands from
+// clients are passed to the program.
 //
 // The server never opens a file whose name is part of a request. Its limits are in limits.hpp.
 #pragma once
@@ -59,10 +60,10 @@ enum class Format { text, binary };
 
 struct ServerOptions {
     Address address;
-    std::string token;            ///< token of the clients; may be empty at a loopback address
+    std::string token;            ///< token for clients; may be empty at a loopback address
     std::span<const Page> pages;  ///< must outlive the server; the page "/" is the start page
-    /// Called with messages for the user, such as refused clients. Called on the thread of the
-    /// server.
+    /// Called with messages for the user, such as reports of refused clients. Called on the thread
+    /// of the server.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -100,8 +101,8 @@ class Server {
     /// (Topic::publish_for_each), and wakes the server.
     void publish_for_each(Topic& topic, Topic::EncodeFor encode);
 
-    /// Returns the next command from a client, or none. The queue contains at most 32 commands, and
-    /// further commands are refused.
+    /// Returns the next command from a client, or none. The queue contains at most 32 commands. If
+    /// it is full, a client that sends another command is disconnected.
     std::optional<Command> take_command();
 
     /// Returns the number of connected clients.

@@ -56,7 +56,8 @@ std::shared_ptr<const std::string> Topic::message(std::uint64_t& version, const 
         if (encode) message_version_ = version_;
         version = encode_for ? version_ : message_version_;
     }
-    // Only the server's thread uses the message, so the program may publish while it is encoded.
+    // The value is encoded without the lock, so that the program can publish meanwhile. Only the
+    // server's thread uses `message_`.
     if (encode_for) return message_of(encoded(*encode_for, request));
     if (encode) message_ = message_of(encoded(encode));
     return message_;

@@ -30,7 +30,7 @@ class Topic {
 
     Topic(std::string name, bool is_binary) : name_(std::move(name)), is_binary_(is_binary) {}
 
-    // Functions for the program, on any thread.
+    // The program may call the following functions on any thread.
 
     /// Returns true if at least one client is ready for a newer value.
     bool is_wanted() const { return ready_clients_.load(std::memory_order_relaxed) > 0; }
@@ -44,7 +44,7 @@ class Topic {
     /// client subscribed. It is not validated. If `encode` throws, the value is empty.
     void publish_for_each(EncodeFor encode);
 
-    // Functions for the thread of the server.
+    // The following functions are for the server's thread.
 
     const std::string& name() const { return name_; }
     bool is_binary() const { return is_binary_; }
@@ -72,10 +72,10 @@ class Topic {
     std::uint64_t message_version_ = 0;
 };
 
-/// The state of one client in one topic.
+/// The subscription of one client to one topic.
 struct Subscription {
-    /// Maximum number of unacknowledged messages. With two, the next message is on its way while
-    /// the client draws the previous one.
+    /// Maximum number of unacknowledged messages. With two, the next message is being transmitted
+    /// while the client draws the previous one.
     static constexpr int kMaxUnacknowledged = 2;
 
     bool is_on = false;
@@ -94,10 +94,10 @@ struct Subscription {
     void acknowledge() { unacknowledged -= unacknowledged > 0 ? 1 : 0; }
     /// Returns true if the client may receive a value.
     bool is_open() const { return is_on && unacknowledged < kMaxUnacknowledged; }
-    /// Returns true if the client should receive the value with the number `version`. After a
-    /// change of its request, a client receives the same value again, but only if it has
-    /// acknowledged all messages. Without this condition, a client that changes its request
-    /// continuously would receive no newer values.
+    /// Returns true if the client should receive the value with the number `version`. A client that
+    /// has changed its request receives the same value again, encoded for the new request, but only
+    /// if it has acknowledged all messages. Without this condition, a client that changes its
+    /// request continuously would receive no newer values.
     bool is_due(std::uint64_t version) const {
         const bool is_answer_due = is_on && is_changed && unacknowledged == 0 && version > 0;
         return is_answer_due || (is_open() && seen < version);

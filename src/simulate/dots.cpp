@@ -102,9 +102,9 @@ void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, doub
     if (away_u > view.camera.width_px / 2.0 + reach_px) return;
     if (away_v > view.camera.height_px / 2.0 + reach_px) return;
 
-    // Across the dot, the projection is approximated by a linear map, so the image of the dot is an
-    // ellipse. At 3 degrees of tilt and 60 px per spacing, this approximation moves the centroid by
-    // less than 0.001 px.
+    // The projection is linearised across the dot, so the image of the dot is an ellipse. At 3
+    // degrees of tilt and 60 px per spacing, the linearisation moves the centroid by less than
+    // 0.001 px.
     const auto half = [&](Vec2 step) {
         const Vec2 ahead =
             projection.pixel_from_offset({offset_mm.x + step.x, offset_mm.y + step.y});

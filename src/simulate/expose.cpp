@@ -325,7 +325,7 @@ std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
 
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections) {
-    // The sub-pixels have the same size as for dots of the default pattern.
+    // The number of sub-pixels is chosen as for dots of the default pattern.
     const Kernel kernel = make_kernel(imperfections, Pattern{}.dot_mm / view.camera.mm_per_px);
     const std::vector<float> paper = bare_paper(view, Page{}, imperfections, kernel.border_px);
     ImageRows rows(page, view, imperfections, kernel);

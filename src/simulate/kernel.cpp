@@ -22,8 +22,7 @@ double integral_of_edge(double x, double sigma) {
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
-    // edges[i] is `integral_of_edge` at the position half a pixel to the left of sub-pixel i of the
-    // kernel.
+    // edges[i] is `integral_of_edge` half a pixel to the left of the left edge of sub-pixel i.
     std::vector<double> edges;
     for (std::size_t i = 0; i <= (pixels + 1) * per_pixel; ++i) {
         edges.push_back(integral_of_edge(

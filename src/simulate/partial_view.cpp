@@ -10,7 +10,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the positions on the page, in spacings, that an even grid of image points shows.
+/// Returns the page positions, in spacings, of an even grid of image points.
 std::vector<Vec2> sample_points(const Shot& shot) {
     constexpr int kColumns = 64;
     constexpr int kRows = 48;
@@ -67,7 +67,8 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     // The corner moves into the view along a line near the diagonal of the square.
     const double across = is_corner ? rng.uniform(0.6, 1.0) : 0;
     const auto advance = [&](double by) {
-        // Places the square so that its edge or corner is `by` spacings beyond the image centre.
+        // Places the square so that its edge is `by` spacings beyond the image centre. For a
+        // corner, the adjacent edge is `across * by` spacings beyond the centre.
         const double u = by - size;
         const double v = is_corner ? across * by - size : 0;
         area.x_grid = x_grid(shot.pose) + u * along.x - v * along.y;

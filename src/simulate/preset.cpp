@@ -56,8 +56,8 @@ Imperfections draw_hard(Rng& rng) {
     return drawn;
 }
 
-/// The sensor of an optical mouse behind a simple lens. The lens has strong vignetting, and the
-/// pixels have different offsets.
+/// Draws the imperfections of an optical mouse: a simple lens with strong vignetting, and a sensor
+/// whose pixels have different offsets.
 Imperfections draw_mouse(Rng& rng) {
     Imperfections drawn;
     drawn.paper_level = rng.uniform(140, 200);

@@ -9,8 +9,8 @@ namespace {
 constexpr Vec2 kInvisible{1e9, 1e9};
 
 /// Returns the distorted position of an undistorted point, in px from the centre of distortion.
-/// Solves equation 2 of the paper for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. Selects the root
-/// that equals r_u for k = 0.
+/// Inverts the lens model (paper, equation 2) by solving k |r_u| |r_d|^2 - |r_d| + |r_u| = 0 for
+/// r_d. Selects the root that equals r_u for k = 0.
 Vec2 distorted(Vec2 undistorted, double k) {
     const double square = undistorted.x * undistorted.x + undistorted.y * undistorted.y;
     const double discriminant = 1 - 4 * k * square;

@@ -20,7 +20,7 @@ Raster::Raster(const Ink& ink, const Layout& layout)
                              1 - dot.reflectance});
         max_half_height_ = std::max(max_half_height_, ellipses_.back().half_height);
     }
-    // The sort is stable, because the rounding of sums depends on the order of the ellipses.
+    // The sort is stable, because the order of the ellipses affects the rounding of later sums.
     std::stable_sort(ellipses_.begin(), ellipses_.end(),
                      [](const Ellipse& a, const Ellipse& b) { return a.y < b.y; });
     for (const InkPolygon& shape : ink.polygons) {

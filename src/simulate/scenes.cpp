@@ -18,8 +18,8 @@ Symbol random_symbol(std::uint64_t seed, Cell cell) {
 
 simulate::DisplacementOf displacement_in(Scene scene, const Shot& shot) {
     const Pattern pattern = shot.page.pattern;
-    // The sections on both sides differ on both axes, so neither x nor y can be read across the
-    // border.
+    // The section beyond the seam differs in u and v, so neither x nor y can be read across the
+    // seam.
     Pattern beyond = pattern;
     beyond.section = {static_cast<std::uint8_t>((pattern.section.u + 29) % kSections),
                       static_cast<std::uint8_t>((pattern.section.v + 31) % kSections)};

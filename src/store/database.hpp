@@ -32,8 +32,8 @@ struct Place {
 struct State {
     std::shared_ptr<const std::string> robot;
     std::shared_ptr<const Place> place;
-    /// Time at which the robot sent the state, in microseconds since 1970. The state is stored
-    /// under the day of this time.
+    /// Time at which the robot sent the state, in microseconds since 1970. It determines the day to
+    /// which the state belongs.
     std::int64_t time_us = 0;
     std::int64_t number = 0;       ///< sequence number
     std::int32_t delay_us = 0;     ///< time from sending to receiving
@@ -81,8 +81,8 @@ class Database {
     virtual void prepare() = 0;
 
     /// Writes all states in one transaction. Skips states that are already stored. Throws Error if
-    /// the transaction fails. Either all states or none are then stored, so the call can safely be
-    /// repeated.
+    /// the transaction fails. After an Error, either all states or none are stored, so the call can
+    /// safely be repeated.
     virtual void write(std::span<const State> states) = 0;
 
     /// Removes the states of all days before the day of `time_us`. Throws Error if this fails.

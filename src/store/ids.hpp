@@ -9,8 +9,8 @@
 
 namespace dotpose::store {
 
-/// Maps keys to database IDs. The size of the cache is limited, because robots choose their names,
-/// so the number of names has no limit. A full cache is cleared.
+/// Maps keys to database IDs. A full cache is cleared. The cache size is limited, because robots
+/// choose their own names and may use any number of them.
 template <typename Key>
 class Ids {
   public:

@@ -19,8 +19,8 @@ inline constexpr int kVersion = 1;
 /// Parts of the table definitions that depend on the database.
 struct Dialect {
     std::string_view generated_key;  ///< definition of an integer primary key with generated values
-    std::string_view partition;      ///< end of the definition of the table `states`
-    std::string_view create_view;    ///< statement that creates a view or replaces it
+    std::string_view partition;      ///< last clause of the definition of the table `states`
+    std::string_view create_view;    ///< start of the statement that creates the view
     std::string_view time;           ///< SQL expression that converts `time_us` to a time
 };
 
@@ -47,8 +47,8 @@ std::string_view reason_text(Status reason);
 /// Returns the state of a row, without `robot` and `place`.
 State state_of(const Integers& integers, std::string_view state, std::string_view reason);
 
-/// Returns the name of the partition of a day, such as "states_20261128". `day` is counted from 1
-/// January 1970.
+/// Returns the name of the partition of a day, such as "states_20261128". `day` is the number of
+/// days since 1970-01-01.
 std::string partition_name(std::int64_t day);
 
 }  // namespace dotpose::store

@@ -1,4 +1,4 @@
-/// A lock between programs, based on a file.
+/// An inter-process lock, based on a file.
 #pragma once
 
 #include <cstdint>

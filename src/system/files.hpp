@@ -1,5 +1,5 @@
-/// File operations that the standard library lacks. If they fail, they set errno, unless their
-/// comments state otherwise.
+/// File operations that the standard library lacks. On failure, they set errno, unless documented
+/// otherwise.
 #pragma once
 
 #include <compare>
@@ -20,7 +20,7 @@ namespace dotpose::system {
 /// Opens a file as std::fopen does. Returns nullptr if that fails.
 std::FILE* open_file(const std::filesystem::path& path, const char* mode);
 
-/// Creates a file for writing, with the default mode as restricted by the user's umask. Returns
+/// Creates a file for writing, with the default permissions, which the umask restricts. Returns
 /// nullptr if that fails. errno is EEXIST if the file exists.
 std::FILE* create_new_file(const std::filesystem::path& path);
 

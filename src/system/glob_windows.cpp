@@ -9,8 +9,8 @@ namespace dotpose::system {
 namespace fs = std::filesystem;
 namespace {
 
-/// Removes the set at the beginning of `pattern`, such as [a-z] or [!0-9]. Returns true if the set
-/// is closed and matches the character.
+/// Removes the character set at the beginning of `pattern`, such as [a-z] or [!0-9]. Returns true
+/// if the set matches `c`. Returns false if the closing bracket is missing.
 bool matches_set(std::wstring_view& pattern, wchar_t c) {
     const std::size_t end = pattern.find(L']', 2);
     if (end == std::wstring_view::npos) return false;

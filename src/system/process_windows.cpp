@@ -25,8 +25,8 @@ void make_streams_binary() {
     for (std::FILE* const stream : {stdin, stdout, stderr}) {
         _setmode(_fileno(stream), _O_BINARY);
     }
-    // Windows has no line buffering, and with full buffering, lines written to a pipe would only
-    // arrive at the end.
+    // Windows has no line buffering. With full buffering, lines written to a pipe would not arrive
+    // until the buffer is full or the program ends.
     std::setvbuf(stderr, nullptr, _IONBF, 0);
 }
 
@@ -43,15 +43,15 @@ void prepare_console() {
 
 void (*end_handler)(int) = nullptr;
 
-/// Installs itself again, because Windows removes the handler of a signal before it calls the
-/// handler.
+/// Reinstalls itself as the handler, because Windows resets the handler of a signal before calling
+/// it.
 void on_end_signal(int signal_number) {
     std::signal(signal_number, on_end_signal);
     end_handler(signal_number);
 }
 
-/// Returns true if `read` would not block. For files other than pipes, this cannot be determined,
-/// so `read` may block.
+/// Returns true if reading from a pipe would not block. Also returns true for all other files,
+/// which cannot be checked and may block.
 bool has_bytes_or_end(int descriptor) {
     const auto handle = reinterpret_cast<HANDLE>(_get_osfhandle(descriptor));
     if (GetFileType(handle) != FILE_TYPE_PIPE) return true;

@@ -9,8 +9,8 @@ namespace {
 /// Time constant of the acceleration decay.
 constexpr float kHold_s = 0.5F;
 
-/// Factor by which a sighting raises or lowers the agility, which scales the process noise (see
-/// filter.hpp). The factor is the same in both directions. The agility therefore settles where
+/// Factor by which each sighting raises or lowers the agility. The agility scales the process noise
+/// (see filter.hpp). Because the factor is the same in both directions, the agility settles where
 /// consecutive innovations have equal signs as often as opposite signs, as in a filter with the
 /// correct noise variance.
 constexpr float kAgility_step = 1.5F;
@@ -18,12 +18,12 @@ constexpr float kMinAgility = 1e-6F;
 /// Maximum innovation, in standard deviations, that is attributed to noise.
 constexpr float kSurprise = 4;
 /// Number of sightings over which the scatter is averaged. The scatter is the ratio of the squared
-/// innovations to the variances that the filter expects.
+/// innovations to their expected variances.
 constexpr float kScatter_sightings = 32;
 constexpr float kMinScatter = 0.01F;
 constexpr float kMaxScatter = 9;
 
-/// Upper bound on the rounding error of the difference of two variances, relative to the larger
+/// Upper bound on the rounding error when two variances are subtracted, relative to the larger
 /// variance.
 constexpr float kRounding = 4e-6F;
 
@@ -31,7 +31,7 @@ float squared(float value) {
     return value * value;
 }
 
-/// Returns a sighting's covariance plus the minimum variances from the options.
+/// Returns the covariance of a sighting plus the variances of printing errors.
 Matrix3 noise_of(const Sighting& sighting, const TrackOptions& options) {
     Matrix3 noise = sighting.covariance;
     noise[0][0] += squared(options.min_sigma_mm);
@@ -45,7 +45,7 @@ std::int32_t turned(std::int32_t theta_bam, float angle_rad) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::int64_t{theta_bam} + turn));
 }
 
-/// Adds a correction to the state.
+/// Adds `step` to the state. The pose in `step` is in mm and rad.
 void move(MotionEstimate& motion, const Vector9& step) {
     constexpr float kNm_per_mm = 1e6F;
     TrackedPose& pose = motion.pose;
@@ -64,8 +64,8 @@ float kept(float dt_s) {
     return kHold_s / (kHold_s + dt_s);
 }
 
-/// Advances a state, or one row or column of its covariance, by `dt_s`. `at(i)` is a reference to
-/// element i. Assumes constant acceleration over the interval.
+/// Advances a state, or one row or column of its covariance, by `dt_s`. `at(i)` must return a
+/// reference to element i. The acceleration first decays and is then constant over the interval.
 template <typename State>
 void advance(const State& at, float dt_s) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -75,13 +75,13 @@ void advance(const State& at, float dt_s) {
     }
 }
 
-/// Returns the stationary standard deviation of the acceleration along an axis, for an agility of
+/// Returns the steady-state standard deviation of the acceleration along an axis, for an agility of
 /// 1.
 float spread(std::size_t axis, const TrackOptions& options) {
     return axis < 2 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2;
 }
 
-/// Returns the variance of the acceleration that process noise adds within `dt_s`, for an agility
+/// Returns the variance that process noise adds to the acceleration within `dt_s`, for an agility
 /// of 1.
 float push(std::size_t axis, float dt_s, const TrackOptions& options) {
     return squared(spread(axis, options)) * (1 - squared(kept(dt_s)));
@@ -156,10 +156,10 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         }
         p[i][i] += kRounding * before[i][i];
     }
-    // The upper three rows equal R S^-1 H P, a product without cancellation. After a long gap, the
-    // subtraction above would lose all significant digits of these rows in single precision. The
-    // other elements need the subtraction, so a bound on the rounding error was added to their
-    // diagonal.
+    // The upper three rows equal R S^-1 H P. This product involves no cancellation. With the
+    // subtraction above, these rows would lose all significant digits in single precision after a
+    // long gap. The other elements need the subtraction, so the loop adds a bound on the rounding
+    // error to their diagonal.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)
@@ -249,8 +249,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options) {
     const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
     const PlaneMotion seen = in_plane(measured, motion.pose.theta_bam, is_y_up);
-    // The agility is fitted to sightings and does not apply between them, so an agility of 1 is
-    // used.
+    // The agility is fitted to sightings. It does not apply between them, so this prediction uses
+    // an agility of 1.
     MotionEstimate later = motion;
     later.agility = {1, 1, 1};
     later = predicted(later, time_us, options);
@@ -260,8 +260,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
     //
     //     g = e_new - e_old - by_theta * e_old[2]
     //
-    // The last term is the effect of the error in the old theta, by which the displacement is
-    // rotated.
+    // The displacement is rotated by the old theta. The last term is the effect of the error in
+    // this angle.
     std::array<Vector9, 3> with_old{};  // covariance between old pose and new state
     for (std::size_t k = 0; k < 3; ++k) {
         with_old[k] = motion.covariance[k];
@@ -302,8 +302,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
         }
         later.covariance[i][i] += kRounding * before[i][i];
     }
-    // A scatter below 1 applies only to sightings, because odometry errors are independent of
-    // sighting errors.
+    // Computes the pose covariance with a scatter of at least 1. A scatter below 1 applies only to
+    // sightings, because odometry errors are independent of sighting errors.
     const float scatter = later.scatter;
     later.scatter = std::max(scatter, 1.0F);
     set_pose_covariance(later);
@@ -353,9 +353,10 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         const float needed = old + surprise() / (pushed * squared(effect[0]));
         motion.agility[i] = std::clamp(std::max(agility, needed), kMinAgility, 1.0F);
         add_noise(motion.covariance, i, (motion.agility[i] - old) * pushed, effect);
-        // An innovation that the agility does not explain may be a collision or an outlier. A
-        // collision changes the velocity abruptly. The first such innovation therefore changes only
-        // the position, and a second one in the same direction also changes the velocity.
+        // An innovation that the agility does not explain may be caused by a collision or an
+        // outlier. The first such innovation therefore increases only the variance of the position.
+        // A second one in the same direction indicates a collision, which changes the velocity
+        // abruptly, so it also increases the variance of the velocity.
         if (surprise() > 0) {
             const bool is_hit = repeated > squared(moved) / 2;
             add_noise(motion.covariance, i, surprise(), {1, is_hit ? 1 / dt_s : 0, 0});

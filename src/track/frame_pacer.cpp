@@ -11,7 +11,7 @@ bool is_beyond(std::int64_t difference, std::int64_t limit) {
     return difference > limit || difference < -limit;
 }
 
-/// Returns b - a, in the shorter direction.
+/// Returns the signed angle from a to b, in the shorter direction.
 std::int32_t turn_bam(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(b) - static_cast<std::uint32_t>(a));
 }
@@ -22,7 +22,7 @@ bool FramePacer::has_moved(const Fix& fix) const {
     const bool was_seen = rest_.status == Status::ok;
     if (fix.status != Status::ok) {
         // While the device moves, a frame without a fix is not evidence of further movement. A
-        // stationary device that had a fix, however, is assumed to lose it only by being moved.
+        // stationary device, however, is assumed to lose its fix only if it is moved.
         return options_.lost_is_moved && was_seen && motion_ == Motion::stationary;
     }
     if (!was_seen) return true;

@@ -10,8 +10,8 @@ namespace {
 using namespace dotpose::track;
 
 /// Minimum standard deviations of a prediction. They are needed because the covariance of the
-/// filter becomes too small when the robot rests for a long time. The dot search covers three
-/// standard deviations, so it covers at least 3/32 spacing and 0.53 degrees.
+/// filter becomes too small when the robot rests for a long time. The dot search extends to three
+/// standard deviations, that is, at least 3/32 of a spacing and 0.53 degrees.
 constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
 constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;
@@ -40,10 +40,10 @@ std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max
     return std::max(static_cast<std::int32_t>(value), min);
 }
 
-/// Returns the standard deviation of the predicted pose along an axis, from the covariances of the
-/// filter and of the fix. `unforeseen` is the largest motion that the filter cannot predict. A
-/// third of it is added, because the search covers three standard deviations and must include this
-/// motion.
+/// Returns the standard deviation of the predicted pose along an axis: the combined standard
+/// deviation of the filter and the fix, plus a third of `unforeseen`. `unforeseen` is the largest
+/// motion that the filter cannot predict. The search covers three standard deviations, and must
+/// include this motion.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

@@ -26,7 +26,7 @@ float seconds(std::int64_t from_us, std::int64_t to_us) {
 }
 
 /// Returns the maximum accepted differences from the prediction: `gate_sigmas` standard deviations
-/// of the innovation, plus a dt^2 / 2 for the maximum acceleration a.
+/// of the innovation, plus a dt^2 / 2, where a is the maximum acceleration.
 Vector3 gate(const Innovation& found, float dt, const TrackOptions& options) {
     Vector3 limits{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -45,8 +45,8 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
     return true;
 }
 
-/// Returns true if a robot can move from `from` to `sighting` within the limits of speed and turn
-/// rate.
+/// Returns true if a robot could have moved from `from` to `sighting` within the limits of speed
+/// and turn rate, with a tolerance of `gate_sigmas` standard deviations.
 bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
                   const TrackOptions& options) {
     if (from.pose.plane != sighting.plane) return false;

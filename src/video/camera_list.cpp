@@ -17,8 +17,8 @@ namespace dotpose::video {
 namespace {
 
 constexpr int kMaxDevices = 64;
-/// Maximum number of entries of each kind. The limit is needed because a faulty driver might return
-/// entries endlessly.
+/// Maximum number of entries read from each list of a driver. The limit is needed because a faulty
+/// driver might return entries endlessly.
 constexpr std::uint32_t kMaxEntries = 256;
 
 class Device {
@@ -133,7 +133,7 @@ std::vector<CameraSize> sizes_of(const Device& device) {
     return sizes;
 }
 
-/// Returns the kernel's name of the camera, for devices that cannot be opened.
+/// Returns the name of the camera in sysfs. Used for devices that cannot be opened.
 std::string name_in_sysfs(int number) {
     std::ifstream file(fmt::format("/sys/class/video4linux/video{}/name", number));
     std::string name;

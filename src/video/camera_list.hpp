@@ -24,8 +24,8 @@ struct FoundCamera {
 /// Returns the cameras among /dev/video0 to /dev/video63, or an empty list if there are none.
 std::vector<FoundCamera> find_cameras();
 
-/// Returns the cameras as a sentence without a full stop: "cameras are /dev/video0 (name), ...". If
-/// there are no cameras, returns a sentence that reports that none was found.
+/// Lists the cameras in a sentence without a full stop: "cameras are /dev/video0 (name), ...". If
+/// there are no cameras, the sentence reports that none was found.
 std::string in_one_line(const std::vector<FoundCamera>& cameras);
 
 }  // namespace dotpose::video

@@ -24,7 +24,7 @@ class GreyVideo {
     virtual void finish() = 0;
 };
 
-/// Functions of the module. They throw Error if they fail.
+/// Functions of the module. They throw Error on failure.
 struct Module {
     using OpenSource = std::unique_ptr<capture::FrameSource>(const std::string& name,
                                                              const capture::SourceOptions& options);
@@ -36,7 +36,7 @@ struct Module {
     std::unique_ptr<ScreenOutput> (*open_screen)(const ScreenOptions& options);
 };
 
-/// Returns the module, which is loaded by the first call. Throws Error if that fails.
+/// Returns the module. The first call loads it. Throws Error if the module cannot be loaded.
 const Module& module();
 
 }  // namespace dotpose::video

@@ -29,7 +29,7 @@ struct PathMark {
 struct Gauge {
     std::string label;
     std::string text;
-    double share = 0;  ///< reached fraction of the goal, at most 1
+    double share = 0;  ///< fraction of the goal that was reached, at most 1
     bool is_reached = false;
 };
 
@@ -48,7 +48,7 @@ struct CalibrationScene {
 struct Scene {
     ImageView image;
     Trace trace;
-    bool is_good = false;            ///< false to show captions and place in a warning colour
+    bool is_good = false;            ///< false to show captions and position in a warning colour
     std::vector<std::string> lines;  ///< captions: pose, rate, quality
     std::span<const PathMark> path;  ///< the path up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
@@ -61,7 +61,7 @@ struct ScreenOptions {
     bool has_window = false;
     std::string record;  ///< path of the video file, or empty for none
     double fps = 30;     ///< frame rate of the video file
-    /// Called with a message if the format of the recording is not the preferred one for its name.
+    /// Called with a message for the user if H.264 is not available and the file becomes larger.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -103,8 +103,8 @@ class Screen {
     std::unique_ptr<ScreenOutput> output_;
 };
 
-/// Returns true if a window can be opened because an X server answers, possibly within a Wayland
-/// session.
+/// Returns true if an X server answers, so a window can be opened. The X server may be the one of a
+/// Wayland session.
 bool has_display();
 
 }  // namespace dotpose::video

@@ -1,5 +1,5 @@
-// Tests `dotpose locate` on sheets whose code is not given. The tool must detect the code, or
-// report that several codes are possible.
+// Tests commands on sheets whose code is unknown. The tool must detect the code, or report that
+// several codes are possible.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -19,8 +19,8 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-/// Positions modulo 241, the period of the sequence a4. From position 222 to position 238, the
-/// digits of a4 in the code anoto are those in the code libdots, shifted by one position
+/// Positions modulo 241, the period of the sequence a4. Between positions 222 and 238, the digits
+/// of a4 in the code anoto equal those in the code libdots, shifted by one position
 /// (docs/position-code.md). A view centred on kShifted therefore occurs in both codes, but at
 /// different places. A view centred on kCommon occurs in both codes at the same place. A view
 /// centred on kBorder occurs in only one code.

@@ -13,8 +13,8 @@ using testing::HasSubstr;
 
 class CalibrateCommand : public ToolCommand {
   protected:
-    /// Simulates frames with the lens distortion of the camera in the paper, and writes them to a
-    /// folder.
+    /// Simulates frames with the lens distortion of the camera used in the paper, and writes them
+    /// to a folder.
     void simulate(const std::string& folder, int frames, const std::string& more = "") {
         ASSERT_EQ(run("simulate -o " + folder + " --seed 91 --k -8.7e-6 --frames " +
                       std::to_string(frames) + " " + more),
@@ -39,8 +39,8 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
-// Locates frames of an unknown lens, whose distortion moves the image corners inwards or outwards
-// by up to 5 % of their distance from the centre.
+// Locates frames taken with an unknown lens. Its distortion moves the image corners inwards or
+// outwards by up to 5 % of their distance from the centre.
 TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     const auto corner_px = [](int width, int height) {
         return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);

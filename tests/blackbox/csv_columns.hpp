@@ -13,7 +13,7 @@ inline nlohmann::json value_in(const nlohmann::json& line, const std::string& co
     if (line.contains(column)) return line[column];
     if (column == "section_u" && line.contains("section")) return line["section"][0];
     if (column == "section_v" && line.contains("section")) return line["section"][1];
-    // For example, covariance_mm_deg_12 is row 1, column 2 of a 3 x 3 matrix.
+    // For example, covariance_mm_deg_12 is row 1, column 2 (zero-based) of a 3 x 3 matrix.
     const std::size_t at = column.rfind('_');
     const std::string name = column.substr(0, at);
     if (at == std::string::npos || column.size() != at + 3 || !line.contains(name)) return {};

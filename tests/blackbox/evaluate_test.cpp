@@ -26,8 +26,8 @@ class EvaluateCommand : public ToolCommand {
   protected:
     json result() const { return json::parse(output_); }
 
-    /// Replaces columns in the first row of truth.csv. Each element is the index of a column and
-    /// its new text.
+    /// Replaces fields in the first data row of truth.csv. Each pair contains a column index and
+    /// the new text.
     void tamper(const std::vector<std::pair<std::size_t, std::string>>& cells) const {
         std::istringstream truth(file("frames/truth.csv"));
         std::ofstream out(directory_ / "frames/truth.csv");
@@ -129,7 +129,7 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
     // With the scale and tilt from the camera file, the fit has five parameters. With only the lens
-    // parameters, it has eight, and therefore yields other angles.
+    // parameters, it has eight, and therefore yields different angles.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 5);  // truth.csv contains the pose of the image centre
@@ -184,7 +184,7 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
 }
 
 /// Frames of a sheet whose poses were measured twice: with a ruler, in the coordinates of the
-/// sheet, and with a motion stage, in coordinates with another origin, direction and unit.
+/// sheet, and with a motion stage, in coordinates with a different origin, direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {

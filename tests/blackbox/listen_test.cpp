@@ -109,8 +109,8 @@ TEST_F(Listen, ReadsASerialDeviceUntilItGoes) {
     ASSERT_EQ(unlockpt(device), 0);
     const std::string name = ptsname(device);
     std::string stream;
-    for (std::uint16_t i = 0; i < 50; ++i)  // the packets contain bytes that a terminal would
-                                            // interpret
+    // The packets contain bytes that a terminal would interpret.
+    for (std::uint16_t i = 0; i < 50; ++i)
         stream += on_the_line(packet_at(i, 0x0D0A0304U));
     std::thread sender([&] {
         // Nothing reads the device before the tool has opened it, so the test waits until the

@@ -70,7 +70,7 @@ TEST_F(LiveCalibration, EndsByItselfOnceNothingIsMissing) {
     EXPECT_LT(used(), 45);
     EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "kept"), {}), used());
     // The video shows each image three times. The calibration must use each image only once, so
-    // that the result equals that of the images.
+    // its result must equal the result for the images.
     const std::string report = output_;
     const std::string file_of_images = file("camera.yaml");
     put_raw("resting.raw");
@@ -123,7 +123,7 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
     const Drive drive;
     const DriveCamera camera(188, 120);
     std::ofstream raw(directory_ / "drive.raw", std::ios::binary);
-    constexpr int kFirst = 180;  // first frame in motion
+    constexpr int kFirst = 180;  // at this frame, the robot is already moving
     constexpr int kStep = 5;
     for (int i = kFirst; i < kFirst + 60 * kStep; i += kStep) {
         const GreyImage image = camera.frame(drive, i);

@@ -100,8 +100,8 @@ class OutputLines : public ToolCommand {
     }
 
     static constexpr double kYaw_rad = 0.4;
-    static constexpr int kFirst =
-        320;  ///< frame at which the robot drives through a curve at 300 mm/s
+    /// First frame. The robot drives through a curve at 300 mm/s.
+    static constexpr int kFirst = 320;
     const Drive drive_;
     const JsonSchema schema_{
         json::parse(read_file(test::source_dir() + "/docs/schema/lines-1.json"))};

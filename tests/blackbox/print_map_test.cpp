@@ -35,7 +35,7 @@ class PrintMaps : public ToolCommand {
         }
     }
 
-    /// Calibrates the map desk.map from frames of the print.
+    /// Creates the print map desk.map from frames of the print.
     void make_map() {
         put_frames("map", print_, 100, 60);
         ASSERT_EQ(run("calibrate --print-map map-*.pgm --sheets sheets.json -o desk.map"), 0)

@@ -66,7 +66,7 @@ TEST_F(PrintCommand, images_carry_the_resolution_asked_for) {
     struct Case {
         const char* option;
         std::uint32_t dpi;
-        std::uint32_t per_metre;  ///< dpi / 0.0254, rounded to nearest
+        std::uint32_t per_metre;  ///< dpi / 0.0254, rounded to the nearest integer
     };
     for (const auto& [option, dpi, per_metre] :
          {Case{"--dpi 300", 300, 11811}, {"", 600, 23622}, {"--dpi 1200", 1200, 47244}}) {

@@ -107,7 +107,7 @@ TEST_F(Replay, PrintsAndDraws) {
     const std::string picture = file("run.svg");
     EXPECT_THAT(picture, HasSubstr("speed [mm/s]"));
     EXPECT_THAT(picture, HasSubstr("</svg>"));
-    // The intervals without a fix are marked in each of the three time plots.
+    // Each of the three time plots marks the only interval without a fix.
     std::size_t bands = 0;
     for (std::size_t at = picture.find("fill-opacity=\"0.10\""); at != std::string::npos;
          at = picture.find("fill-opacity=\"0.10\"", at + 1)) {

@@ -107,9 +107,9 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     EXPECT_NE(records().at(0)["status"], "ok") << records().at(0);
 }
 
-/// Returns the image that a camera sees above the printed page. Each camera pixel is the mean of 2
-/// x 2 printer pixels, and the image centre is at the upper left corner of the printer pixel (u,
-/// v). The surroundings of the page are white.
+/// Returns the image that a camera above the printed page sees. Each camera pixel is the mean of
+/// 2 x 2 printer pixels. The image centre is at the upper left corner of printer pixel (u, v). The
+/// surroundings of the page are white.
 GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
     const auto level_at = [&page](int column, int row) {
         const bool is_inside =
@@ -300,7 +300,7 @@ TEST_F(SheetFiles, the_print_scale_is_applied) {
 TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
     ASSERT_EQ(print("-o a.png --margin 0 --dpi 1200 --paper 30x30 --sheets sheets.json --name a"),
               0);
-    // The margin is so wide that some frames with their centre on b show only dots of a.
+    // The margin is so wide that some frames centred on b show only dots of a.
     ASSERT_EQ(print("-o b.png --margin 9 --dpi 1200 --paper 50x30 --sheets sheets.json --name b"),
               0);
     const GreyImage a = read_image((directory_ / "a.png").string());

@@ -146,8 +146,8 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
             continue;
         }
         sheets.insert(record["sheet"]);
-        // The sheets span 120 x 40 mm. The figure eight keeps a distance of 5 mm plus half a view
-        // of the camera (about 5 mm) from the outer edges.
+        // The sheets span 120 x 40 mm. The distance of the figure eight from the outer edges is
+        // 5 mm plus half the diagonal of the camera's view (about 5 mm).
         EXPECT_GT(record["x_m"], 0.0095);
         EXPECT_LT(record["x_m"], 0.1105);
         if (last) {
@@ -159,8 +159,8 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
     }
     EXPECT_LE(between_sheets, 2);
     EXPECT_THAT(sheets, testing::ElementsAre("a", "b"));
-    // Consecutive frames are 20 mm apart along the path. In curves, the straight distance between
-    // them is shorter.
+    // Consecutive frames are 20 mm apart along the path. In curves, the straight-line distance
+    // between them is shorter.
     for (const double step_mm : steps_mm) {
         EXPECT_LT(step_mm, 20.1);
         EXPECT_GT(step_mm, 12);

@@ -39,7 +39,7 @@ double sigmas_off(const Fix& fix, const Shot& shot) {
     return sigmas_off(fix, truth_of(shot));
 }
 
-// Regression: small steps in the middle of the view were not detected, so that only 97.6 % of the
+// Regression: small steps in the middle of the view were not detected, so only 97.6 % of the
 // errors were within 4 reported standard deviations. Now 99.8 % are.
 TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 400;
@@ -80,11 +80,11 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    // The limit of 3 % allows for the small number of frames. If the true fraction is 1 %, only one
-    // run in 70 exceeds 3 % by chance.
+    // The limit of 3 % of the fixes allows for the small number of frames. If the true fraction is
+    // 1 %, only one run in 70 exceeds the limit by chance.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
-    // Only half of the steps must be detected, because the others affect only a corner of the view
-    // or are smaller than the scatter of the dots.
+    // Only half of the steps need to be detected, because the others affect only a corner of the
+    // view or are smaller than the scatter of the dots.
     EXPECT_GE(divided, fixes / 2);
 }
 

@@ -19,8 +19,8 @@ using testing::Not;
 
 constexpr double kSpacing_mm = kDefaultSpacing_mm;
 constexpr int kSide_cells = 60;
-/// Position of the upper left corner of the second sheet in the first sheet, and its clockwise
-/// rotation.
+/// Position of the second sheet's upper left corner in the coordinates of the first sheet, and the
+/// clockwise rotation of the second sheet.
 constexpr double kRight_mm = 31.5;
 constexpr double kDown_mm = 0.7;
 constexpr double kTurn_rad = 0.012;
@@ -35,8 +35,8 @@ SheetEntry sheet(const std::string& name, std::uint32_t origin_x) {
     return entry;
 }
 
-/// Returns a frame of one sheet. Its centre is at (x_mm, y_mm), measured from the corner of the
-/// sheet.
+/// Returns a frame of one sheet. Its centre is at (x_mm, y_mm), measured from the upper left corner
+/// of the sheet.
 GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, double y_mm,
                       double theta_rad) {
     Shot shot = like;

@@ -21,7 +21,7 @@ inline std::string read_file(const fs::path& path) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// A camera file for images of 640 x 480 px, and the message for images of another size.
+/// A camera file for images of 640 x 480 px, and the error message for images of another size.
 inline constexpr const char* kLargeCamera =
     "{format: dotpose-camera, version: 1, width_px: 640, height_px: 480, k_per_px2: 0, "
     "centre_px: [319.5, 239.5]}";

@@ -22,7 +22,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kFrames = 8;
-constexpr int kMoving = 220;  ///< first frame, in which the robot drives on the first sheet
+constexpr int kMoving = 220;  ///< first frame. The robot is driving on the first sheet.
 
 class WatchCamera : public ToolCommand {
   protected:

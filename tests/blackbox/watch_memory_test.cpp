@@ -1,5 +1,5 @@
-// Tests the memory usage of `dotpose watch` in a long run. DOTPOSE_LONG_RUN sets the number of
-// frames: 180000 for an hour at 50 frames/s.
+// Tests the memory usage of `dotpose watch` in a long run. The environment variable
+// DOTPOSE_LONG_RUN sets the number of frames, for example 180000 for an hour at 50 frames/s.
 #include <cstdlib>
 #include <fstream>
 #include <sstream>

@@ -197,7 +197,7 @@ TEST_F(Watch, GoesThroughImages) {
     EXPECT_EQ(parsed(output_).size(), 3U);
 }
 
-/// Covers all of a frame except a window of `side` px in the middle.
+/// Covers the whole frame except a window of `side` x `side` px in the middle.
 void cover_all_but(GreyImage& image, int side) {
     for (int v = 0; v < image.height_px; ++v) {
         for (int u = 0; u < image.width_px; ++u) {
@@ -251,8 +251,8 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_NE(line["verdict"], "with_prior");
 }
 
-// The robot drives at 250 mm/s. If a frame had the time of its neighbour, its position would be
-// wrong by more than 1 mm.
+// The robot drives at 250 mm/s. A frame with the time of the next or previous frame would have a
+// position error of more than 1 mm.
 TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     constexpr int kFirst = 200;
     constexpr int kLength = 60;

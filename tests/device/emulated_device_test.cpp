@@ -45,7 +45,7 @@ constexpr double kStop_s = 2.2;
 constexpr double kEnd_s = 10;
 constexpr double kRadius_mm = 60;
 
-/// Returns the angle on the circle. The motion starts and ends smoothly.
+/// Returns the position on the circle as an angle in rad. The motion starts and ends smoothly.
 double angle_at(double t_s) {
     const double u = std::clamp((t_s - kStart_s) / (kStop_s - kStart_s), 0.0, 1.0);
     return 3.0 * u * u * u * (10 - 15 * u + 6 * u * u);
@@ -82,8 +82,8 @@ std::vector<GreyImage> drive() {
     return frames;
 }
 
-// The board of the desktop program. Its camera delivers the frames, and its serial line stores all
-// bytes.
+// The simulated board on which the desktop program runs. Its camera delivers the frames, and its
+// serial line stores all bytes.
 struct EndOfFrames {};
 std::vector<GreyImage> camera;
 std::string line;
@@ -149,8 +149,8 @@ class EmulatedDevice : public testing::Test {
         }
         out.close();
         const SerialLine serial;
-        // Waits until the line is configured, because bytes that arrive earlier would be changed.
-        // Waits until all bytes have arrived, because bytes in transit at the end would be lost.
+        // Waits until `listen` has configured the terminal, which would otherwise alter the bytes.
+        // At the end, waits until all packets have arrived, because bytes in transit would be lost.
         const std::string commands =
             "cd " + directory_.path().string() + "; " + test::tool_path() + " listen " +
             serial.name() +
@@ -232,7 +232,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         const CameraPose truth = pose_at(packet.time_us / 1e6);
         EXPECT_NEAR(packet.x_grid(), x_grid(truth), 0.012) << packet.time_us;
         EXPECT_NEAR(packet.y_grid(), y_grid(truth), 0.012) << packet.time_us;
-        // A `DeviceLocator` without a prediction gives the same pose.
+        // A `DeviceLocator` without a prediction must give nearly the same pose.
         const Fix fix =
             alone.locate(camera[static_cast<std::size_t>(packet.time_us / kFrameTime_us)].view());
         ASSERT_EQ(fix.status, Status::ok);
@@ -240,8 +240,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         EXPECT_NEAR(packet.y_grid(), fix.y_grid(), 0.012) << packet.time_us;
     }
     EXPECT_EQ(reader.damaged(), 0U);
-    // In the long run, 99.6 % of the frames are tracked (docs/firmware.md). The limit is 1 % of
-    // about 300 frames.
+    // At most 1 % of about 300 frames may fail to be tracked.
     EXPECT_LE(missed, 3);
     ASSERT_GT(times_us.size(), 300U);
     // During the drive and for 5 s after it, every frame is processed. After that, one frame per

@@ -1,4 +1,4 @@
-/* The program of use_cpp.cpp, in C. */
+/* The same program as use_cpp.cpp, in C. */
 #include <dotpose.h>
 #include <stdio.h>
 #include <string.h>

@@ -113,7 +113,7 @@ int give_frame(v4l2_buffer& buffer) {
     return 0;
 }
 
-/// Returns the frame size number `index`, or 0 x 0 if there is none.
+/// Returns the supported frame size with this index, or 0 x 0 if there is none.
 v4l2_frmsize_discrete size_at(unsigned index) {
     if (index == 0) {
         return {static_cast<unsigned>(camera.width_px), static_cast<unsigned>(camera.height_px)};

@@ -19,7 +19,7 @@
 namespace dotpose::test {
 namespace {
 
-// First byte of each type of packet (MQTT 3.1.1, section 2.2).
+// First byte of each packet type (MQTT 3.1.1, section 2.2).
 constexpr std::uint8_t kConnect = 0x10;
 constexpr std::uint8_t kConnectAnswer = 0x20;
 constexpr std::uint8_t kPublishQos1 = 0x32;

@@ -48,8 +48,8 @@ class Connection {
     std::string incoming_;
     std::int64_t published_ = 0;
     std::int64_t answered_ = 0;
-    bool is_ready_ = false;  ///< true after a connect acknowledgement or a subscribe request has
-                             ///< been received
+    /// True after a connect acknowledgement or a subscribe request has been received.
+    bool is_ready_ = false;
 };
 
 std::int64_t monotonic_us();

@@ -15,20 +15,19 @@ class Robots {
 
     int count() const { return static_cast<int>(topics_.size()); }
     const std::string& topic(int robot) const { return topics_[index(robot)]; }
-    /// Returns the message with the given number of a robot. `timestamp` is the time of the
-    /// message.
+    /// Returns message `number` of a robot. `timestamp` is the time at which the message is sent.
     std::string state(int robot, std::int64_t number, const std::string& timestamp) const;
 
   private:
     static std::size_t index(int robot) { return static_cast<std::size_t>(robot); }
 
     std::vector<std::string> topics_;
-    /// For each robot and each point of its circle, the part of a message after the number and the
-    /// time.
+    /// The part of a message that follows its number and time, indexed by robot and point of the
+    /// circle.
     std::vector<std::vector<std::string>> tails_;
 };
 
-/// Returns the current time in the format of messages.
+/// Returns the current time in the format used in messages.
 std::string timestamp_now();
 
 }  // namespace dotpose::test

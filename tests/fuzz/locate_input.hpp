@@ -16,7 +16,7 @@
 
 namespace dotpose::fuzz {
 
-/// Header of an input, in the byte order of the machine. All values are permitted.
+/// Header of an input, in native byte order. All values are permitted.
 struct LocateHeader {
     enum Flag : std::uint8_t {
         default_options = 1,

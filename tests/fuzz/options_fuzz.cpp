@@ -12,7 +12,7 @@ namespace {
 
 using namespace dotpose;
 
-/// A field and its value, in the byte order of the machine.
+/// The index of a field and its new value, in native byte order.
 struct Change {
     std::uint8_t field = 0;
     std::int32_t value = 0;

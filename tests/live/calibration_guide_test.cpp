@@ -53,8 +53,8 @@ std::vector<capture::Frame> frames_of_sheet() {
         frame.image =
             render(page_of(sheet), CameraModel{}, pose, test::DriveCamera::nominal(), 1 + i);
         frame.index = i;
-        frame.file = std::to_string(i);  // frames from files are treated as frames of a camera at
-                                         // rest
+        // Frames from files are treated as frames of a camera at rest.
+        frame.file = std::to_string(i);
     }
     return frames;
 }
@@ -89,7 +89,7 @@ TEST(CalibrationGuide, TakesNewSheetsWhileCommandsWait) {
     ASSERT_NO_FATAL_FAILURE(collect(guide, frames));
     guide.finish();
     ASSERT_TRUE(reaches(guide, is_in(GuidePhase::solving)));
-    // Eight commands can wait. The guide ignores further commands.
+    // The guide queues up to eight commands and ignores further ones.
     for (int i = 0; i < 8; ++i)
         guide.save();
     guide.set_sheets(sheets_with_scale(1.02));

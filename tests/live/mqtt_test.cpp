@@ -69,7 +69,7 @@ TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     wait_until([&] { return !publisher.is_connected(); });
     publish(100);
     EXPECT_EQ(publisher.dropped(), 70);
-    std::this_thread::sleep_for(3s);  // several failing attempts
+    std::this_thread::sleep_for(3s);  // long enough for several failed attempts to connect
     broker.start();
     wait_until([&] { return publisher.is_connected(); });
     ASSERT_TRUE(publisher.flush(10s));
@@ -193,9 +193,9 @@ TEST_F(Mqtt, FindsItsBrokerAgainAsFastWithTls) {
     ASSERT_TRUE(publisher.is_connected()) << news_.text();
     broker.stop();
     wait_until([&] { return !publisher.is_connected(); });
-    std::this_thread::sleep_for(1500ms);  // several failing attempts
+    std::this_thread::sleep_for(1500ms);  // long enough for several failed attempts
     broker.start();
-    // The publisher retries every half second. The library alone would wait for ten seconds.
+    // The publisher retries every half second. On its own, the library would wait for ten seconds.
     wait_until([&] { return publisher.is_connected(); }, 4s);
 }
 

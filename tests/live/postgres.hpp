@@ -20,7 +20,7 @@ class Postgres {
   public:
     Postgres() : port_(free_port()) {
         directory_ = checked("mktemp -d /tmp/dotpose-postgres-XXXXXX");
-        directory_.pop_back();  // the line break
+        directory_.pop_back();  // removes the line break
         if (geteuid() == 0) checked("chown postgres " + directory_);
         checked(as_user("initdb -D data -A trust -U robots --no-sync -E UTF8"));
         start();

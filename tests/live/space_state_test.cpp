@@ -53,7 +53,7 @@ TEST_F(SpaceState, HasThePoseOfTheCameraInTheWorld) {
         const json& track = received[i]["cameraTrack"];
         expect_true_space_pose(i, track, track["orientation"], track["covariance"]);
     }
-    // The camera moves along +x of the world, and rotates about -y of the image.
+    // The camera moves along the x axis of the world, and rotates about the negative image y axis.
     const json& track = received.back()["cameraTrack"];
     EXPECT_GT(track["velocity"]["x"], 0.03);
     EXPECT_NEAR(track["turn"]["y"], -1.5, 0.2);

@@ -369,7 +369,7 @@ TEST(StoreQueue, ReportsOldDaysThatAreNotRemoved) {
     EXPECT_TRUE(queue.finish(10s));
     EXPECT_EQ(queue.status().stored, 21);
     EXPECT_EQ(contents.kept_from.size(), 1U);
-    // The states are stored, so only the removal is reported, and only once.
+    // The states are stored, so only the failed removal is reported, and only once.
     EXPECT_EQ(news.text(), "cannot remove old days from fake: locked; trying again\n");
 }
 

@@ -165,7 +165,7 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
                 ASSERT_EQ(check(draw), "") << describe(draw);
                 ++n;
             }
-            ++n;  // gives the next draw of each x another code variant
+            ++n;  // so that each x occurs with every code variant
         }
     }
 }

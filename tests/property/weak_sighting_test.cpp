@@ -90,8 +90,8 @@ int claim(View& view) {
                : 1;
 }
 
-/// Returns, for each line from `first` - kReach to `first` + kReach + kMaxSide - 1, the index in
-/// the main sequence of the first cell of the line that is in view.
+/// Returns the main-sequence index of the first cell in view, for each line from `first` - kReach
+/// to `first` + kReach + kMaxSide - 1.
 std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std::uint32_t cross) {
     std::vector<int> result;
     for (int i = -kReach; i < kReach + kMaxSide; ++i) {
@@ -147,8 +147,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
 }
 
 /// Draws views of a place until the p_wrong of one view is between 2^-30 and 2^-10. For this view,
-/// returns the minimum margin of the tracker's bound over all gate sizes. The margin is log2 of the
-/// bound divided by the sum of the odds in the gate.
+/// returns the minimum margin of the tracker's bound over all gate sizes. The margin is log2 of
+/// the ratio between the bound and the sum of the odds in the gate.
 double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     View view;
     view.code = code;

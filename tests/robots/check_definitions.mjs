@@ -21,7 +21,7 @@ const typeIds = { message: 1, uint8: 3, int32: 6, uint32: 7, float64: 11, byte: 
 const kOfArrays = 48;
 const kOfSequences = 144;
 
-/** Members whose original type `byte` the npm package has replaced with another type. */
+/** ROS types of members to which the npm package gives a different type. */
 const asInRos = { "diagnostic_msgs/DiagnosticStatus level": "byte" };
 
 function described({ name, definitions }) {

@@ -89,8 +89,8 @@ TEST_F(Mcap, CutOffAnywhereItHasAllFinishedChunks) {
     McapFile file(path_);
     write(file, 456);
     file.finish();
-    // The file is truncated in the middle of the data, as on a full disk, so it has neither an end
-    // nor an index.
+    // The file is truncated in the middle of the data, as on a full disk, so it has neither a
+    // footer nor an index.
     std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
     const auto messages = read_mcap(path_, "--stream");
     EXPECT_GT(messages.size(), 100U);

@@ -88,7 +88,7 @@ TEST_F(Recording, HasTheFramesIfAskedFor) {
     const json& message = images[3]["message"];
     EXPECT_EQ(message["format"], "png");
     EXPECT_EQ(message["header"]["frame_id"], "camera_optical");
-    // The image must have the same pixels as the frame after another program has decoded it.
+    // If another program decodes the image, its pixels must equal those of the frame.
     const auto bytes = message["data"].get<std::vector<std::uint8_t>>();
     std::ofstream(directory_ / "frame.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),

@@ -28,8 +28,8 @@ using nlohmann::json;
 constexpr int kPages = 5;
 constexpr double kPageWidth_mm = 60;
 constexpr double kPageHeight_mm = 80;
-// Minimum distance of the centre of a frame from the edge of the page. It is larger than the extent
-// of a frame from its centre, which is up to 5.2 mm.
+// Minimum distance between a frame's centre and the page edge. It is larger than half the diagonal
+// of a frame, so frames do not extend beyond the page.
 constexpr double kEdge_mm = 8;
 constexpr int kPrinter_dpi = 1200;
 // Tolerance of a position. A renderer may shift all dots by one of its pixels, which is 0.021 mm,
@@ -48,8 +48,8 @@ struct Camera {
     const char* overlay_options;
     bool is_infrared;
     int places;
-    int min_found;  ///< minimum number of located frames. Cameras that see black text miss the dots
-                    ///< under it.
+    /// Minimum number of located frames. Cameras that see black text miss the dots under it.
+    int min_found;
 };
 
 class OverlaidBook : public testing::TestWithParam<Camera> {
@@ -77,7 +77,7 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
                      GetParam().overlay_options);
     }
 
-    /// Writes frames at random places, and lists their names in list.txt in the order of the
+    /// Writes frames at random places. list.txt contains the file names, in the same order as the
     /// result.
     std::vector<TakenFrame> take_frames() const {
         constexpr std::uint64_t kSeed = 41;

@@ -54,7 +54,7 @@ DotErrors measure_dots(const GreyPage& page, const Sheet& sheet, double dpi) {
     const double um_per_px = 25'400 / dpi;
     DotErrors result;
     Point offset;
-    // The second pass repeats the measurement with the mean offset found in the first pass.
+    // The second pass shifts the windows by the mean offset found in the first pass.
     for (int pass = 0; pass < 2; ++pass) {
         std::vector<Point> errors;
         result = DotErrors{};

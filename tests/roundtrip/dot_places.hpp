@@ -8,11 +8,12 @@ namespace dotpose::roundtrip {
 
 struct DotErrors {
     int dots = 0;
-    int missing = 0;        ///< number of dots without any ink
-    int wrong_symbols = 0;  ///< number of dots that are closer to the position of another symbol
-                            ///< than to that of `symbol_at`
-    double mean_um = 0;     ///< mean distance of the centroids from their nominal positions, after
-                            ///< subtracting one constant offset
+    int missing = 0;  ///< number of dots without any ink
+    /// Number of dots that are closer to the position of another symbol than to the correct one.
+    int wrong_symbols = 0;
+    /// Mean and maximum distance of the centroids from their nominal positions, after subtracting
+    /// the mean offset.
+    double mean_um = 0;
     double largest_um = 0;
     double offset_x_um = 0;
     double offset_y_um = 0;

@@ -14,8 +14,8 @@
 namespace dotpose::roundtrip {
 namespace {
 
-/// Limits of the distances between the centroids of dots and their nominal positions, after
-/// subtracting one constant offset from all centroids.
+/// Limits on the distances between the centroids of dots and their nominal positions, after
+/// subtracting the mean offset from all centroids.
 struct Limits {
     double mean_um;
     double largest_um;

@@ -1,4 +1,4 @@
-"""A client of the pages of dotpose that can violate the HTTP and WebSocket protocols, for tests."""
+"""A test client for the web pages of dotpose that can violate the HTTP and WebSocket protocols."""
 
 import json
 import socket
@@ -8,7 +8,7 @@ PATIENCE_S = 60
 
 
 class Client:
-    """A TCP connection that speaks HTTP and WebSocket, and violates them if a test requires it."""
+    """A TCP connection that speaks HTTP and WebSocket, and can violate both protocols."""
 
     def __init__(self, port):
         self.socket = socket.create_connection(("127.0.0.1", port), PATIENCE_S)

@@ -50,7 +50,7 @@ function rotated(v, axis, angle) {
     return v.map((value, i) => value * c + cross[i] * s + axis[i] * dot * (1 - c));
 }
 
-/** Renders a pen whose tip rests at one point. It is turned, and then leaned over to a side of the sheet. */
+/** Renders the view of a pen whose tip rests at one point. The pen is turned, and then tilted in a direction. */
 function pen(index, tilt_deg, side_deg, turn_deg) {
     const [tilt, side, turn] = [tilt_deg, side_deg, turn_deg].map((angle) => (angle * Math.PI) / 180);
     const on_sheet = (v) => rotated(rotated(v, [0, 0, 1], turn), [Math.sin(side), -Math.cos(side), 0], tilt);
@@ -105,14 +105,14 @@ function fastDrive(frames, step_mm) {
     );
 }
 
-/** Frames of a camera that rests for a moment at each of 30 places, at any angle. */
+/** One frame at each of 30 random places, at random angles. */
 function places() {
     const into = join(folder, "places");
     dotpose("simulate", "-o", into, "--frames", "30", "--seed", "5", "--section", "3,5", "--k", String(kLens_per_px2));
     return Array.from({ length: 30 }, (_, i) => pixelsOf(join(into, `frame_${String(i).padStart(6, "0")}.pgm`)));
 }
 
-/** `dotpose watch` with the page. Its camera repeats the frames that were shown last. */
+/** Runs `dotpose watch` with the page. Its camera repeats the frames of the latest call of `show`. */
 class Run {
     #frames = [];
     #next = 0;
@@ -143,7 +143,7 @@ class Run {
         [this.#frames, this.#next] = [frames, 0];
     }
 
-    /** Writes the next frame, unless the program has not yet read the previous ones, for example on a busy machine. */
+    /** Writes the next frame if the program has read all previous ones. A program on a busy machine may be late. */
     #write() {
         if (this.#reads && this.#frames.length > 0 && this.program.stdin.writableLength === 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
     }
@@ -235,7 +235,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
         const shown = /reference([-+][\d.]+), ([-+][\d.]+)/.exec(await page.textContent("#calibration-report"));
         assert.ok(Math.hypot(Number(shown[1]) - kMount_mm.x, Number(shown[2]) - kMount_mm.y) < 0.01, String(shown));
 
-        // The run uses the mount: the robot turns on the spot.
+        // The run uses the calibrated mount, so it shows that the robot turns on the spot.
         const { page: live } = await open(browser.context, run.url);
         await live.waitForFunction(
             ([x_mm, y_mm]) => {
@@ -355,7 +355,7 @@ test("the tip of a pen is calibrated by pivoting, and the run uses it", async ()
         assert.ok(Math.abs(camera.focal_px - kPen.focal_px) < 1e-6);
         assert.match(await page.textContent("#calibration-steps"), /0\.50\d ± .* mm from the camera/);
 
-        // The next frames contain the tip.
+        // The lines of the next frames contain the position of the tip.
         run.show(shots.pivot.slice(5, 6));
         await page.waitForFunction(() => document.getElementById("live-status").textContent === "live");
         let line;
@@ -388,7 +388,7 @@ test("the page says why there is no result", async () => {
         await page.click("#calibration-finish");
         await page.waitForFunction(problemIs, "at least 3 are needed");
 
-        // Two places are not enough.
+        // Frames at two places are not enough to calibrate the lens.
         run.show(shots.rests.slice(0, 6));
         await page.click("[data-step=lens]");
         await page.click("#calibration-finish");

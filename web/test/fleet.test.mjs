@@ -159,7 +159,7 @@ test("a click on the map chooses a robot, and a restart forgets it", async () =>
     const { page } = await open(browser.context, url);
     await untilInView(page, 1);
     const box = await page.locator("#fleet-map").boundingBox();
-    // A single robot is in the middle, or drives there, because the map shows all robots.
+    // The map is fitted to its only robot, so the robot is near the middle. Repeats the click, because the robot moves.
     await until(async () => {
         await page.click("#fleet-fit");
         await page.waitForTimeout(200);

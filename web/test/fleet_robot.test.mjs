@@ -1,4 +1,4 @@
-// Tests what the page of `dotpose fleet --web` shows of a single robot: its stored history, its trail and its camera.
+// Tests what the page of `dotpose fleet --web` shows about a single robot: its stored history, trail and camera.
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -114,7 +114,7 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
     await untilInView(page, 1);
     await page.click("#fleet-fit");
     await page.waitForTimeout(2000);
-    // Measures the segments of the ends of trails, which are recognised by their opacity.
+    // Measures the line segments that extend the trails. Their opacity distinguishes them from other lines.
     const longest = await page.evaluate(async () => {
         const { moveTo, lineTo } = CanvasRenderingContext2D.prototype;
         const [segments, xs] = [[], []];
@@ -136,7 +136,7 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
         const radius = (Math.max(...xs) - Math.min(...xs)) / 2;
         return { share: Math.max(...segments) / radius, count: segments.length };
     });
-    // The robot moves by 0.22 radii from state to state. Some states may not be drawn.
+    // The robot moves by 0.22 radii of its circle per state. The limit allows for states that are not drawn.
     assert.ok(longest.count > 100 && longest.share < 1, JSON.stringify(longest));
     await page.close();
     await stop();
@@ -144,7 +144,8 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
 
 test("the chosen robot has height and tilt of its camera", async () => {
     const [anna, bert, carl] = ["anna", "bert", "carl"].map((name, i) => new Robot(name, { y_m: 0.1 * i }));
-    // The camera looks down, and is turned about the y axis of the world. Its track is preferred to the newest frame.
+    // The camera looks down, and is tilted about the y axis of the world. The page prefers the tracked pose to that of
+    // the newest frame.
     const camera = (z, tilt_deg) => {
         const half = (tilt_deg * Math.PI) / 360;
         return { x: 0.1, y: 0, z, orientation: { x: Math.cos(half), y: 0, z: -Math.sin(half), w: 0 } };

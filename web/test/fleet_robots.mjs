@@ -1,6 +1,6 @@
-// A broker, robots and `dotpose fleet --web` for the tests of its page. A robot is a mosquitto_pub with a last will, so it
-// can be killed and stopped like the program of a robot. Each test file that imports this module gets a browser and a
-// folder, and each of its tests a broker.
+// Provides a broker, robots and `dotpose fleet --web` for the tests of the page. A robot is a mosquitto_pub process
+// with a last will, so it can be stopped or killed like the program of a real robot. Each test file that imports this
+// module gets a browser and a folder, and each of its tests gets a broker.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -66,7 +66,7 @@ async function startBroker() {
     return { port, url: `mqtt://127.0.0.1:${port}`, stop: () => program.kill() };
 }
 
-/** Starts `dotpose fleet --web`. Returns the address of the page and a function that ends it. */
+/** Starts `dotpose fleet --web`. Returns the address of the page and a function that ends the program. */
 export async function fleet(options = [], port = 0) {
     const always = ["--mqtt", broker.url, "--web", String(port), "--silent-after", String(kSilentAfter_s), ...options];
     const started = run(kTool, "fleet", ...always);
@@ -78,7 +78,7 @@ export async function fleet(options = [], port = 0) {
     return { url, stop };
 }
 
-/** A robot that drives along x by 10 mm from state to state, usually ten times per second. */
+/** A robot that drives along x. It sends a state every `period_ms`, and moves by 10 mm per state. */
 export class Robot {
     constructor(name, place = {}, period_ms = 100) {
         this.name = name;

@@ -143,7 +143,7 @@ test("a picture is read, and one of something else gets a hint", async () => {
     await page.close();
 });
 
-/** Cells of the A4 sheet "table", and a place on it under the image centre, in cells. */
+/** First cell of the A4 sheet "table", and the place on this sheet that is shown at the image centre, in cells. */
 const kOrigin = [1000, 2000];
 const kOnTable = [1200.3, 2300.6];
 
@@ -197,7 +197,7 @@ test("a small view is located on a known sheet, and only there", async () => {
     assert.deepEqual([line.prior, line.sheet], ["only_sheets", "table"]);
     assert.ok(Math.abs(line.x_sheet_mm - expected_mm[0]) < 0.02 && Math.abs(line.y_sheet_mm - expected_mm[1]) < 0.02);
 
-    // The list is kept, and a forgotten sheet is no longer known.
+    // The view "Print" lists the sheet. After the user removes it there, it is no longer known.
     await page.click("nav [data-view=print]");
     await page.click("[aria-label='Forget the sheet table']");
     await page.click("nav [data-view=look]");

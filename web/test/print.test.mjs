@@ -75,7 +75,7 @@ for (const code of ["anoto", "libdots"]) {
 test("what is printed passes check-print and is located where it should be", async () => {
     const { page, path } = await printed({ paper: "148x210", x: "410815000", y: "2000", name: "a5" });
     const rendered = render(path, 600);
-    // The exit status is nonzero if the check finds faults.
+    // Throws if the check finds faults, because the exit status is then nonzero.
     const verdict = dotpose("check-print", rendered.path, "--dpi", "600");
     assert.match(verdict, /\b600\b|100(\.0+)? ?%|ok/i);
     const fix = JSON.parse(dotpose("locate", "--code", "anoto", rendered.path));

@@ -1,5 +1,5 @@
-// Tests the view of the sheets in the page of `dotpose watch --web`. The command-line tool checks what is written to
-// the sheet file, and also changes the file.
+// Tests the view "Sheets" on the page of `dotpose watch --web`. The tests read the sheet file with the command-line
+// tool, and also change it with the tool while the page is open.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { copyFileSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -159,7 +159,7 @@ test("a sheet is moved and turned by mouse and keyboard, and the edits are undon
         await message(page, /Done again/);
         assert.deepEqual(placeOf("shelf"), moved);
 
-        // A sheet without a pose gets one where it is dropped.
+        // A sheet without a pose in the world gets one when the user moves it.
         await select(page, "door");
         assert.equal(placeOf("door"), null);
         await page.focus("#sheets-map");
@@ -250,7 +250,7 @@ test("sheets are renamed and removed like on the command line, and both are undo
         assert.deepEqual(names(), [kTable, "door", "shelf"]);
         assert.deepEqual(placeOf("shelf"), { x_mm: 150, y_mm: 0, yaw_deg: 0 });
 
-        // A page that another program prints in the meantime gets the free cells.
+        // Another program prints a page, which gets the free cells. The removal can then no longer be undone.
         await select(page, "shelf");
         await page.click("#sheet-remove");
         await message(page, /^shelf is removed/);
@@ -259,7 +259,7 @@ test("sheets are renamed and removed like on the command line, and both are undo
         await undo(/^Refused: .*'window'.*can no longer be undone/);
         assert.deepEqual(names(), [kTable, "door", "window"]);
 
-        // The run needs at least one sheet.
+        // The only sheet of the file cannot be removed, because the run needs at least one.
         for (const name of ["window", "door"]) {
             await select(page, name);
             await page.click("#sheet-remove");

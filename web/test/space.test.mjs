@@ -39,7 +39,7 @@ after(async () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
 });
 
-/** Opens the page of a run, waits for its first frame, and returns what `look` finds there. */
+/** Opens the page of a run, waits for its first frame, and returns the result of `look`. */
 async function seen(frames, options, look) {
     const run = await watchSource([join(folder, frames), "--realtime", "--fps", "3"], options);
     try {
@@ -82,7 +82,7 @@ test("the page shows height, tilt, azimuth and turn, and draws the camera", asyn
         await requireAccessible(page);
         return shownIn(page);
     });
-    // The paper comes nearer along the image x axis, so the camera leans in this direction.
+    // The paper gets closer to the camera along the image x axis, so the camera leans in this direction.
     near(shown, "height_mm", kHeight_mm, 0.05);
     near(shown, "tilt_deg", kTilt_deg, 0.1);
     near(shown, "azimuth_deg", kTurn_deg, 0.3);

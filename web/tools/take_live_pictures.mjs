@@ -1,6 +1,6 @@
 // Takes the pictures of docs/web.md and docs/fleet.md. Run `node tools/take_live_pictures.mjs [PART]` after the build
 // of the tool. PART is watch, sheets, stitch or fleet. With DOTPOSE_PICTURES=../docs/pictures,
-// test/calibration.test.mjs takes those of the calibration. Needs ffmpeg.
+// test/calibration.test.mjs takes the pictures of the calibration. Needs ffmpeg.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";
@@ -108,7 +108,7 @@ const kParts = {
         const { page } = await open(browser.context, /the page is at (\S+)/.exec(fleet.messages)[1]);
         await page.click("#fleet-rows button:text-is('robot7')");
         await page.waitForSelector("#fleet-stored", { state: "visible" });
-        // The size of the page has changed. The map shows the whole track again after the form is submitted.
+        // After a change of the page size, the map shows the whole track only if the form is submitted again.
         const ready = async () => {
             await page.click("#fleet-stored-form button[type=submit]");
             await page.waitForSelector("#fleet-stored-figure", { state: "visible" });

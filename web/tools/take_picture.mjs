@@ -10,7 +10,7 @@ import { takeForms } from "./forms.mjs";
 
 const kPictures = fileURLToPath(new URL("../../docs/pictures/", import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), "dotpose-pictures-"));
-// A tilted camera 30 mm above a sheet, with 640 x 480 px of 0.046 mm.
+// A tilted camera 30 mm above a sheet. Its images have 640 x 480 px, and a pixel shows 0.046 mm of the paper.
 makeClip(folder, { frames: 1, size: "640x480", options: ["--working-distance", "30", "--tilt=12,20", "--angle", "25"] });
 writeFileSync(
     join(folder, "camera.yaml"),

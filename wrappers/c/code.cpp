@@ -1,4 +1,4 @@
-// The position code: displacements of the dots of a sheet.
+// C functions of the position code, which return the displacements of dots.
 #include "dotpose/code.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using namespace dotpose;
 
 constexpr std::int32_t kMaxCells = 65535;
 
-/// Number of columns in a block. The rolls of the columns of a block are computed once and used for
+/// Number of columns in a block. The roll of each column in a block is computed once and used for
 /// all rows.
 constexpr std::uint32_t kBlock_columns = 64;
 

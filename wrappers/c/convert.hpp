@@ -78,13 +78,13 @@ dotpose_status to_core(const dotpose_fix* given, Fix& fix);
 /// Reads a fix. Returns NO_FIX if the status of the fix is not ok.
 dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix);
 
-/// Returns true if the prediction can be moved without overflow, as is always the case for
-/// predictions made from fixes.
+/// Returns true if the prediction can be moved without overflow. This is true for all predictions
+/// made from fixes.
 bool can_move(const Prediction& prediction);
 
 void to_c(const Prediction& prediction, dotpose_prediction& result);
 
-/// Sets the result of an invalid call to a fix without a pose, and returns the status of the call.
+/// Writes a fix without a pose as the result of an invalid call, and returns `status`.
 dotpose_status refuse(dotpose_status status, dotpose_fix& result);
 
 }  // namespace dotpose::c

@@ -1,5 +1,5 @@
-// Functions that device locators do not support: detection of the code, and the dots
-// of the last frame.
+// Functions that device locators do not support: detection of the code, and access to the dots of
+// the last frame.
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -14,11 +14,10 @@ namespace {
 
 using namespace dotpose;
 
-/// Layout of CodeEvidence in the core. `log2_q8` contains the log2 odds of each code from the
-/// frames at earlier places. For each code, `factors` contains the sum, over the frames at the
-/// current place, of the factor by which a frame reduces the odds of the code. `x` and `y` are the
-/// cell of the first frame at the current place, and `frames` is the number of frames at this
-/// place.
+/// Layout of CodeEvidence in the core (dotpose/code_evidence.hpp). `log2_q8` contains the log2 odds
+/// of each code, from the frames at earlier places. `factors` contains a sum for each code: the sum
+/// of the likelihood ratios of the frames at the current place. `x` and `y` are the cell of the
+/// first frame at this place, and `frames` is the number of frames at this place.
 struct State {
     std::int32_t log2_q8[kCodeVariantCount];
     float factors[kCodeVariantCount];

@@ -15,8 +15,8 @@
  * (`dotpose_device_init`) and push the rows as the camera delivers them (`dotpose_begin`,
  * `dotpose_push_row`, `dotpose_finish`).
  *
- * Every function that can fail returns a dotpose_status, which is 0 (DOTPOSE_OK), the reason why a
- * frame has no pose, or the kind of misuse. No function throws or prints. Only
+ * Every function that can fail returns a dotpose_status: DOTPOSE_OK (0), the reason why a frame has
+ * no pose, or the kind of misuse. No function throws or prints. Only
  * dotpose_locator_create allocates memory. There are no globals, so different objects may be used
  * concurrently.
  *
@@ -102,8 +102,8 @@ const char* dotpose_status_name(dotpose_status status);
 /* Returns a status description: one sentence without a full stop. Never returns null. */
 const char* dotpose_status_message(dotpose_status status);
 
-/* Version of this header. DOTPOSE_VERSION_NUMBER is for the preprocessor. It increases with every
- * version. */
+/* Version of this header. DOTPOSE_VERSION_NUMBER increases with every version, and can be compared
+ * by the preprocessor. */
 #define DOTPOSE_VERSION "0.2.0"
 #define DOTPOSE_VERSION_NUMBER 200
 
@@ -379,8 +379,8 @@ typedef struct dotpose_locator dotpose_locator;
 size_t dotpose_locator_bytes(int32_t kind);
 
 /* Sets up a locator in memory provided by the caller. The address must be a multiple of 8. The
- * memory must not be modified or copied while the locator is in use. No call is needed before the
- * memory is released. If `options` is null, uses the defaults. */
+ * memory must not be modified or copied while the locator is in use. The memory may be released
+ * without destroying the locator. If `options` is null, uses the defaults. */
 dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
                                     const dotpose_options* options, dotpose_locator** locator);
 
@@ -453,10 +453,10 @@ typedef struct dotpose_measured_motion {
     float sigma_rad; /* 16: standard deviation of the rotation */
 } dotpose_measured_motion;
 
-/* Locates an image after the camera has moved by `since_last` since the previous image. If the
- * position from this image alone is not certain, also reads the previous images in the series. The
- * fix's `frames` is the number of images read together. Locating an image with any other function
- * ends the series. The options must contain the spacing. Returns WRONG_KIND for device locators. */
+/* Locates an image. `since_last` is the camera motion since the previous image. If the position
+ * from this image alone is not certain, also uses the previous images in the series. The fix's
+ * `frames` is the number of images used. Locating an image with any other function ends the series.
+ * The options must contain the spacing. Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pixels,
                                     int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                     const dotpose_measured_motion* since_last, dotpose_fix* fix);
@@ -482,10 +482,10 @@ typedef struct dotpose_dot {
     int32_t area_px; /* 12 */
 } dotpose_dot;
 
-/* Writes the dots of the last frame to `dots`, but at most `capacity` of them. Sets `count` to the
- * total number of dots, which may exceed `capacity`. `dots` may be null if `capacity` is 0. Unless
- * the option show_stages is set, some attempts do not store their dots, so `count` may be 0.
- * Returns WRONG_KIND for device locators. */
+/* Writes up to `capacity` dots of the last frame to `dots`. Sets `count` to the total number of
+ * dots, which may exceed `capacity`. `dots` may be null if `capacity` is 0. Some attempts store
+ * their dots only if the option show_stages is set. Without this option, `count` may be 0. Returns
+ * WRONG_KIND for device locators. */
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
 
@@ -677,7 +677,7 @@ typedef struct dotpose_packet {
     uint32_t section_u;      /* 36 */
     uint32_t section_v;      /* 40 */
     uint32_t certainty;      /* 44: p_wrong is at most 2^-certainty; at most 255 */
-    uint32_t deviation_q12;  /* 48: larger sigma of x and y, spacings; 255: more or unknown */
+    uint32_t deviation_q12;  /* 48: larger sigma of x and y, spacings; 255 if larger or unknown */
 } dotpose_packet;
 
 /* Returns the packet for a fix with any status. The packet contains the lower 16 bits of

@@ -83,8 +83,8 @@ inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
 /// Members common to all kinds of locators, at the beginning of each object.
 struct dotpose_locator {
     std::uint32_t mark = 0;
-    std::int32_t rows_left = 0;  ///< number of rows of the current frame that were not pushed yet
-    bool has_begun = false;      ///< true if a frame was begun and not finished
+    std::int32_t rows_left = 0;  ///< number of rows of the current frame not pushed yet
+    bool has_begun = false;      ///< true if a frame has been begun but not finished
     const dotpose::c::Actions* actions = nullptr;
     dotpose::RowLocator* locator = nullptr;
     void* allocation = nullptr;  ///< memory to be freed by dotpose_locator_destroy, or null
@@ -94,7 +94,7 @@ namespace dotpose::c {
 
 /// Checks that a locator can be used.
 dotpose_status check(const dotpose_locator* locator);
-/// Discards the frame that was begun.
+/// Discards the unfinished frame, if there is one.
 void drop_frame(dotpose_locator& locator);
 
 /// An image and its prediction, as core types.

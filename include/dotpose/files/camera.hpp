@@ -2,8 +2,8 @@
 ///
 /// Coordinate frames:
 /// - *pixel*: the centre of the first pixel is (0, 0), and v points down.
-/// - *undistorted* pixel: the pixel that a camera without distortion would show at the same point.
-///   It may be outside the image.
+/// - *undistorted* pixel: the pixel at which a camera without distortion would show the same point
+///   of the scene. It may be outside the image.
 /// - *camera*: coordinates on the paper in mm, relative to the point that is visible at the
 ///   distortion centre. x is along the image x axis, and y points DOWN.
 #pragma once
@@ -37,7 +37,8 @@ struct PaperScale {
     double mm_per_px_x = 0;
     double mm_per_px_y = 0;
     double skew = 0;  ///< shift of each image row relative to the row above, in px
-    /// Change of d per px along u. 0 if the optical axis is perpendicular to the paper.
+    /// Change of d per px along u and v. Both are 0 if the optical axis is perpendicular to the
+    /// paper.
     double perspective_u = 0;
     double perspective_v = 0;
 };
@@ -51,8 +52,8 @@ struct Tilt {
     double y_rad = 0;
 };
 
-/// Minimum value in `Camera::flat_field`. `validate` rejects smaller values, because such dark
-/// areas of an image are too noisy to show dots.
+/// Minimum value in `Camera::flat_field`. `validate` rejects smaller values, because image areas
+/// that dark are too noisy to show dots.
 inline constexpr double kMinFlatField = 0.05;
 
 /// Pinhole model of the undistorted image. Undistorted pixel (u, v) shows the points in the
@@ -83,8 +84,8 @@ struct PenTip {
 struct Camera {
     int width_px = 0;
     int height_px = 0;
-    /// Coefficient k of the radial distortion about `centre_px` (paper, equations 1 and 2, a
-    /// division model). Negative for barrel distortion.
+    /// Coefficient k of the radial distortion about `centre_px`, a division model (paper, equations
+    /// 1 and 2). Negative for barrel distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
     /// View of the paper: the map from the undistorted image to the paper. None if the camera is
@@ -112,15 +113,16 @@ struct Camera {
     bool flip = false;
 
     /// Flat field: the brightness of white paper in the image, relative to its maximum. It includes
-    /// the vignetting of the lens and the uneven light of the lamps. Contains rows of samples from
-    /// kMinFlatField to 1, evenly spaced from the first to the last pixel along each axis. The
-    /// brightness between the samples is interpolated bilinearly. Empty if the brightness is
-    /// uniform or unknown.
+    /// the vignetting of the lens and the uneven light of the lamps. The samples are in rows, and
+    /// evenly spaced from the first to the last pixel along each axis. Each sample is in
+    /// [kMinFlatField, 1]. The brightness between the samples is interpolated bilinearly. Empty if
+    /// the brightness is uniform or unknown.
     std::vector<std::vector<double>> flat_field;
 
-    /// Time from the first to the last row of an image, if the sensor has a rolling shutter. If the
-    /// time is known, the velocity of the camera is fitted together with the pose, and the pose
-    /// refers to the time at which the middle row is read.
+    /// Readout time of a rolling shutter: the time from the first to the last row of an image. None
+    /// for a global shutter, or if the time is not known. If it is known, the velocity of the
+    /// camera is fitted together with the pose, and the pose refers to the time at which the middle
+    /// row is read.
     std::optional<double> readout_ms;
 
     /// Sensor settings, for information only. dotpose does not use them.
@@ -135,8 +137,8 @@ struct Camera {
 /// Checks all values except `sigma`. Throws BadArgument in these cases:
 /// - `locate` does not accept the image size.
 /// - The distortion is too strong: 1 + k r^2 is outside [0.5, 2] in a corner of the image.
-/// - The distortion centre is more than 1000 px from the image centre along an axis.
-/// - The reference point is more than 10,000 px from the image centre along an axis.
+/// - The distortion centre is more than 1000 px from the image centre along either axis.
+/// - The reference point is more than 10,000 px from the image centre along either axis.
 /// - The perspective of `paper` is so strong that the horizon is in the image or near it.
 /// - `flat_field` has rows of different lengths, fewer than two rows or columns, or more rows or
 ///   columns than the image.
@@ -145,9 +147,9 @@ void validate(const Camera& camera);
 
 /// Returns the undistorted pixel of `pixel` (paper, equations 1 and 2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Inverse of the function `undistorted`. If k is positive, the inverse does not exist far from the
-/// distortion centre. In this case, returns the pixel in the same direction from the distortion
-/// centre as the argument, at twice its distance.
+/// Inverse of the function `undistorted`. If k is positive, points far from the distortion centre
+/// have no distorted pixel. For such a point, returns the pixel in the same direction from the
+/// distortion centre, at twice the distance.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// Returns `pinhole` if there is one. Otherwise, returns a model with square pixels, `focal_px`,
@@ -173,10 +175,9 @@ double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
 /// Returns the point on the paper that an undistorted pixel shows, in mm relative to the point
 /// under the image centre. x is along the image x axis at the image centre. Throws
-/// std::bad_optional_access if `camera.paper` is none. This frame is suitable for comparing two
-/// calibrations of the same camera: the coordinates of a point on the paper differ by only microns
-/// between the calibrations, even far outside the image. The undistorted pixels of the point differ
-/// by more.
+/// std::bad_optional_access if `camera.paper` is none. Use this frame to compare two calibrations
+/// of the same camera: the coordinates of a point on the paper differ by only microns between the
+/// calibrations, even far outside the image. Its undistorted pixels differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Inverse of `from_image_centre`: returns the undistorted pixel that shows `point`. Throws
 /// std::bad_optional_access if `camera.paper` is none.
@@ -199,9 +200,9 @@ double brightness_at(const Camera& camera, PixelPoint pixel);
 /// `validate`).
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
-/// Sets `options` for images of the given size: the lens, and the reference point if the camera has
-/// one. If the view of the camera is known, also sets `show_stages`, because `with_camera` needs
-/// the dots in the trace. Throws BadArgument if the given size is not the image size of the camera.
+/// Sets the lens in `options`, and the reference point if the camera has one. If the view of the
+/// camera is known, also sets `show_stages`, because `with_camera` needs the dots in the trace.
+/// Throws BadArgument if `width_px` x `height_px` is not the image size of the camera.
 void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options);
 
 }  // namespace dotpose

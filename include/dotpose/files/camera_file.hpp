@@ -21,17 +21,16 @@ namespace dotpose {
 /// Version of the camera file format. `read_camera` accepts no other version.
 inline constexpr int kCameraFileVersion = 1;
 
-/// Reads a camera file, or a camera_info file of ROS. Throws Error, with the names of the file and
-/// the key, in these cases:
+/// Reads a camera file, or a camera_info file of ROS. Throws Error, with the file name and the key
+/// in the message, in these cases:
 /// - The file cannot be read, or has another format or version.
 /// - A key is missing, unknown, of the wrong type or out of range.
 /// - The distortion model is not plumb_bob, or the paper's equation 2 cannot approximate the lens
 ///   to within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
-/// Reads a camera from the text of a camera file or of a camera_info file. `name` is the name of
-/// the file in messages. Throws Error if the text is not valid, in the cases listed for
-/// `read_camera`.
+/// Reads a camera from the text of a camera file or of a camera_info file. `name` is the file name
+/// for error messages. Throws Error if the text is not valid (see `read_camera`).
 Camera parse_camera(const std::string& text, const std::string& name);
 
 /// Returns true if the file is a camera_info file of ROS. Do not write a camera to such a file,
@@ -39,8 +38,8 @@ Camera parse_camera(const std::string& text, const std::string& name);
 /// cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 
-/// Writes the file atomically. Throws Error if the file cannot be written, and BadArgument if the
-/// camera is not valid (see `validate` in camera.hpp).
+/// Writes a camera file atomically. Throws Error if the file cannot be written, and BadArgument if
+/// the camera is not valid (see `validate` in camera.hpp).
 void write_camera(const std::filesystem::path& path, const Camera& camera);
 
 }  // namespace dotpose

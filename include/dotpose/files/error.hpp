@@ -1,5 +1,5 @@
-/// Exceptions of the layers around the core (printing, simulation, files, the command-line tool).
-/// The core never throws, but returns a Status.
+/// Exceptions thrown by the layers around the core (printing, simulation, files, the command-line
+/// tool). The core never throws. It returns a Status instead.
 #pragma once
 
 #include <stdexcept>
@@ -11,15 +11,15 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Thrown if an operation fails. `what()` is one sentence for the user, without a full stop, that
-/// names the file or the value concerned.
+/// Thrown if an operation fails. `what()` is one sentence for the user, without a full stop. It
+/// contains the name of the file or the value concerned.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
 /// Thrown if an argument is invalid, regardless of the state of files and devices, for example a
-/// margin wider than the page or an unknown paper size. `what()` contains the wrong value and the
+/// margin wider than the page or an unknown paper size. `what()` contains the invalid value and the
 /// permitted values.
 class BadArgument : public Error {
   public:

@@ -11,7 +11,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// All values of Decoder and of Effort, for tables.
+/// All values of Decoder and Effort, for iteration.
 inline constexpr std::array kDecoders = {Decoder::window, Decoder::all};
 inline constexpr std::array kEfforts = {Effort::device, Effort::once, Effort::twice};
 /// Return the name of an option value, for example "window" or "twice".

@@ -6,7 +6,8 @@
 ///     require_pages(map, sheets);  // throws Error if the map is for other pages
 ///
 /// The file is binary and little-endian. It contains 5 bytes for each dot: 2 bytes for the offset
-/// along each axis, and 1 byte for the number of views (docs/print-map.md).
+/// along each axis, and 1 byte for the number of frames in which the dot was measured
+/// (docs/print-map.md).
 #pragma once
 
 #include <array>
@@ -28,8 +29,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Offset of a dot from its nominal place, in 2^-14 printed spacings along x and y of the pattern.
-/// The printed spacing is the nominal spacing times the print scale of the axis.
+/// Offset of a dot from its nominal place, along x and y of the pattern, in units of 2^-14 printed
+/// spacings. The printed spacing is the nominal spacing times the print scale of the axis.
 struct DotOffset {
     std::int16_t x_q14 = 0;
     std::int16_t y_q14 = 0;
@@ -38,9 +39,9 @@ struct DotOffset {
     double y() const { return y_q14 / 16384.0; }
 };
 
-/// Error of a map. It varies slowly over the page, so all dots in a view have nearly the same
-/// error. This struct contains the covariance of the error at the nodes of a grid, which extends
-/// from the first to the last column and row of dots.
+/// Errors of a map. They vary slowly over the page, so all dots in a view have nearly the same
+/// error. This struct contains the covariance of the error at the nodes of a grid that spans all
+/// dots of the page.
 struct MapErrors {
     /// Covariance of the shift along x and y, in spacings, and of the rotation, in rad: the
     /// elements (x, x), (x, y), (y, y), (x, rotation), (y, rotation), (rotation, rotation).
@@ -72,7 +73,8 @@ struct MapPage {
     /// Offsets of the dots, row by row. A dot that was never seen is assigned the mean offset of
     /// the dots around it.
     std::vector<DotOffset> offsets;
-    std::vector<std::uint8_t> views;  ///< number of views of each dot, at most 255
+    std::vector<std::uint8_t> views;  ///< number of frames in which each dot was measured, at most
+                                      ///< 255
     MapErrors errors;                 ///< empty in a map of file version 1
 
     /// Returns the index of a dot in `offsets` and `views`. Returns none if the place of the dot is
@@ -85,9 +87,10 @@ struct MapPage {
         return std::size_t{y} * std::size_t(columns) + x;
     }
 
-    /// Returns the covariance of the map error in a view that is centred at `place`: shift along x
-    /// and y, in spacings, and rotation, in rad. All elements are 0 if the errors are unknown.
-    /// `with_print_map` adds this covariance to the covariance of the fix.
+    /// Returns the covariance of the map error in a view that is centred at `place`. The error
+    /// consists of a shift along x and y, in spacings, and a rotation, in rad. All elements are 0
+    /// if the errors are unknown. `with_print_map` adds this covariance to the covariance of the
+    /// fix.
     std::array<std::array<double, 3>, 3> error_covariance(const Place& place) const;
 };
 
@@ -104,7 +107,8 @@ const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& pla
 enum class MapUse : std::uint8_t {
     no_map,  ///< there is no map of the page, or there is no fix
     used,    ///< the fix is corrected by the map
-    /// Fewer than 20, or less than 75 %, of the dots in view were seen in the frames of the map.
+    /// Fewer than 20 of the dots in view, or less than 75 % of them, were seen in the frames of the
+    /// map.
     not_covered,
     contradicted  ///< the dots in view contradict the map, for example because the print was moved
                   ///< or replaced
@@ -114,7 +118,7 @@ enum class MapUse : std::uint8_t {
 inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
 
 /// Parses the contents of a map file. Throws Error if the contents are not a map, are truncated or
-/// damaged, or have a newer version. Files of version 1 do not contain the errors of the map.
+/// damaged, or have a newer file version. Files of version 1 do not contain the errors of the map.
 PrintMap parse_print_map(std::string_view bytes);
 
 /// Reads a map file. Throws Error, with the name of the file, if the file cannot be read or if its
@@ -126,8 +130,8 @@ PrintMap read_print_map(const std::filesystem::path& path);
 /// `views` do not contain one element per dot, or `errors` is not a grid of covariances.
 std::string print_map_bytes(const PrintMap& map);
 
-/// Throws Error unless each page of the map is one of `sheets`, with the same code variant,
-/// section, region and spacing. The names may differ.
+/// Throws Error if a page of the map is not one of `sheets`. Code variant, section, region and
+/// spacing must be equal. The names may differ.
 void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets);
 
 }  // namespace dotpose

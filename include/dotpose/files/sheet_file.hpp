@@ -81,8 +81,8 @@ struct SheetEntry {
     /// Position of the top left corner of the page in the world, and direction of the upper edge of
     /// the page from this corner. None if not known.
     std::optional<WorldPose> world;
-    /// Print parameters. None if the entry was created by an earlier version, or not created by
-    /// printing.
+    /// Print parameters. None if the entry was created by an earlier version of dotpose, or was not
+    /// created by printing.
     std::optional<SheetPrint> print;
     /// True if the region is reserved for a page that may not exist yet, because it is still being
     /// written, or because the program was stopped while writing it.
@@ -99,11 +99,11 @@ struct SheetEntry {
 void validate(const SheetEntry& entry);
 
 /// Returns true if two sheets share cells. Sheets in different sections never overlap. The code
-/// variants anoto and libdots are treated as one variant, because they print the same dots on most
+/// variants anoto and libdots are treated as one variant, because their dots are identical on most
 /// of the plane.
 bool overlap(const Sheet& a, const Sheet& b);
 
-/// Reads a sheet file. Throws Error, with the names of the file and the key, in these cases:
+/// Reads a sheet file. Throws Error, with the file name and the key in the message, in these cases:
 /// - The file cannot be read, is not a sheet file, or has another version.
 /// - A key is missing, has the wrong type, or has a value out of range.
 /// - A name occurs twice, or two regions overlap.
@@ -140,7 +140,8 @@ class SheetFile {
     ///
     /// A free region is at least kSheetGap_cells away from the ends of the plane and from all other
     /// regions, regardless of their code variant and section. A cell alone therefore identifies an
-    /// allocated sheet. The next free region is the topmost, then leftmost free region.
+    /// allocated sheet. The next free region is the topmost one. Ties are broken by taking the
+    /// leftmost.
     ///
     /// Returns the added entries. Throws BadArgument if an entry would not be valid (see
     /// `validate`), if the name is taken, if the plane is full, or if the count is below 1.
@@ -170,7 +171,7 @@ class SheetFile {
 
     /// Writes the file atomically. Preserves unrecognised keys of the previous file. Throws Error
     /// if the file cannot be written, or if a program that does not use the lock, such as an
-    /// editor, has changed it since it was read.
+    /// editor, has changed the file since it was read.
     void save();
 
   private:
@@ -181,7 +182,7 @@ class SheetFile {
     /// Contents of the file as read or saved. None if the file did not exist.
     std::optional<std::string> text_;
     std::vector<SheetEntry> sheets_;
-    /// Name in `text_` of each renamed sheet, indexed by its new name.
+    /// Maps the new name of each renamed sheet to its name in `text_`.
     std::map<std::string, std::string> names_in_text_;
 };
 
@@ -197,7 +198,7 @@ class SheetReservation {
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
     /// Removes the entries that were not confirmed. Restores the previous file if no other program
     /// has changed it. If the file cannot be changed, the entries remain reserved, and
-    /// SheetFileWait::tell reports this.
+    /// SheetFileWait::tell is called with a message.
     ~SheetReservation();
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;

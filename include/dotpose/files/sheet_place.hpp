@@ -30,7 +30,7 @@ using PoseCovariance = std::array<std::array<float, 3>, 3>;
 /// Place of a fix on a page of a sheet file.
 struct SheetPlace {
     const SheetEntry* entry = nullptr;  ///< entry of the page, in the span passed to `find_sheet`
-    double x_mm = 0;                    ///< position in the sheet frame, corrected by the print
+    double x_mm = 0;                    ///< position in the sheet frame, corrected for the print
                                         ///< scale
     double y_mm = 0;
     double theta_rad = 0;  ///< angle of the image x axis, from the sheet's +x towards +y, in (-pi,

@@ -78,8 +78,8 @@ const char* name(CalibrationVerdict verdict);
 struct CalibrationDot {
     int frame = 0;      ///< index of the frame in the series
     PixelPoint pixel;   ///< measured pixel of the dot
-    PixelPoint before;  ///< residual before the calibration, for a camera without distortion, skew
-                        ///< or tilt
+    PixelPoint before;  ///< residual before the calibration, with a camera model without
+                        ///< distortion, skew or tilt
     PixelPoint after;   ///< residual after the calibration
 };
 
@@ -94,15 +94,17 @@ struct LensCalibration {
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
     int frames = 0;                         ///< number of input frames
     int located = 0;                        ///< number of distinct frames with a fix
-    int duplicates = 0;             ///< number of unused frames, which repeat an earlier image
+    int duplicates = 0;             ///< number of frames not used, because they repeat an earlier
+                                    ///< frame
     int dots = 0;                   ///< number of dots used
     int outliers = 0;               ///< number of dots rejected as outliers
-    double residual_before_px = 0;  ///< rms residual per axis before the calibration, for a camera
-                                    ///< without distortion, skew or tilt
+    double residual_before_px = 0;  ///< rms residual per axis before the calibration, with a camera
+                                    ///< model without distortion, skew or tilt
     double residual_px = 0;         ///< rms residual per axis after the calibration
     double px_per_spacing = 0;      ///< mean grid spacing at the image centre over all frames, in
                                     ///< px
-    /// Mean width of the dots at half darkness, in spacings. Sharp dots have a width of 1/6.
+    /// Mean width of the dots at half of their darkness, in spacings. Sharp dots have a width of
+    /// 1/6.
     double dot_width = 0;
     double coverage = 0;  ///< fraction of the parts of the image (see ImageCoverage) that show dots
     CalibrationVerdict verdict = CalibrationVerdict::good;
@@ -118,7 +120,7 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 
 /// Position of the image centre in one frame of a turn on the spot, relative to the centre of
-/// rotation, along the pattern's axes.
+/// rotation. x and y are along the axes of the pattern.
 struct SpinStation {
     double x_mm = 0;
     double y_mm = 0;
@@ -142,8 +144,8 @@ const char* name(MountVerdict verdict);
 /// point is the centre of rotation.
 struct SpinCalibration {
     Camera camera;  ///< the given camera with `reference_px` set
-    /// Reference point in mm, relative to the point under the image centre and along the image axes
-    /// at that point.
+    /// Reference point relative to the point under the image centre, in mm along the image axes at
+    /// that point.
     CameraPoint offset_mm;
     int frames = 0;
     int located = 0;
@@ -198,7 +200,7 @@ struct PivotCalibration {
     Camera camera;  ///< the given camera with `tip` set
     int frames = 0;
     int located = 0;
-    int used = 0;  ///< number of frames used, in which the tip is at the common point of rest
+    int used = 0;  ///< number of frames used: those with the tip at the common point of rest
     /// Rms angle by which the pen rotated about the axis of least rotation. A larger angle gives a
     /// more accurate position of the tip.
     double pivot_rad = 0;
@@ -233,16 +235,17 @@ struct FlatFieldCalibration {
     int frames = 0;
     double min_brightness = 0;  ///< minimum brightness of the flat field, relative to its maximum
     /// Rms deviation of the mean frame from the flat field, relative to the flat field. It is
-    /// caused by remaining dots, and by differences in the sensitivity of the pixels.
+    /// caused by dots that have not averaged out, and by differences in the sensitivity of the
+    /// pixels.
     double residual = 0;
 };
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
-/// with constant exposure and light. The dots must be at different places in each frame, so that
-/// they average out over all frames. If no camera is given, the result is a new camera with the
-/// size of the frames. Uses only `progress` of the options. Throws Error in these cases:
+/// with constant exposure and light. The dots must be at different places in different frames, so
+/// that they average out. If no camera is given, the result is a new camera with the size of the
+/// frames. Of the options, only `progress` is used. Throws Error in these cases:
 /// - There are fewer than 20 frames, or frames differ in size.
-/// - In the darkest part of the image, the flat field is less than kMinFlatField.
+/// - The flat field is less than kMinFlatField in the darkest part of the image.
 /// - The mean frame deviates from the flat field by more than 8 % (rms).
 FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                                           const std::optional<Camera>& camera,
@@ -261,7 +264,7 @@ struct ReadoutCalibration {
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
 /// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
-/// - There are fewer than 5 located frames whose previous and next frames are also located.
+/// - Fewer than 5 frames are located together with their previous and next frames.
 /// - The standard deviation of the readout time is 10 % of the readout time or more.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
@@ -270,7 +273,8 @@ ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const 
 /// and axes relative to each other, but not the absolute scale.
 struct ScaleReference {
     enum class By {
-        /// No measurement. The mean of the two print scales of the fixed sheet remains unchanged.
+        /// There is no absolute reference. The mean of the two print scales of the fixed sheet
+        /// remains unchanged.
         fixed_sheet,
         /// The scale of the camera, in mm per px, is assumed to be true. Requires a camera that was
         /// calibrated with the true spacing.
@@ -327,20 +331,22 @@ struct Stitching {
     std::vector<SheetEntry> sheets;
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
-    std::vector<SeamMeasurement> measurements;  ///< measurements of pairs of connected sheets
+    std::vector<SeamMeasurement> measurements;  ///< from all frames that show two connected sheets
     /// Names of the sheets that are not connected to the fixed sheet by any chain of frames.
     std::vector<std::string> unconnected;
     int frames = 0;
-    int used = 0;              ///< number of frames that show two sheets
+    int used = 0;              ///< number of frames that show at least two sheets
     ScaleReference reference;  ///< reference for the print scales
 };
 
 /// Computes the world poses and print scales of sheets from frames that show parts of two sheets.
-/// The first stitched sheet that has a world pose keeps this pose. If no sheet has a world pose,
-/// the first sheet defines the world: its corner is the origin, and its upper edge is the x axis.
+/// Candidates for the fixed sheet are the sheets that some frame shows together with another sheet.
+/// The first candidate with a world pose is fixed and keeps this pose. If no sheet has a world
+/// pose, the first candidate is fixed and defines the world: its corner is the origin, and its
+/// upper edge is the x axis.
 ///
 /// `camera` contains the lens and, for mounted cameras, the view of the paper. If the view is not
-/// known, it is fitted to each sheet in a frame separately. The poses are then less accurate, and
+/// known, it is fitted separately for each sheet in a frame. The poses are then less accurate, and
 /// correct only if the fixed sheet was printed with the print scales in the sheet file.
 ///
 /// Throws Error in these cases:
@@ -348,11 +354,12 @@ struct Stitching {
 /// - Some sheets have a world pose, but no frame shows one of them together with another sheet.
 /// - The reference is the width of a sheet, and no chain of frames connects this sheet to the fixed
 ///   sheet.
-/// - The reference is the camera, and it implies a print scale that differs from 1 by more than
+/// - The reference is the camera, and the mean print scale of a sheet differs from 1 by more than
 ///   25 %.
 ///
-/// Throws BadArgument if the reference is the camera, but the view of the paper is not known, or if
-/// the reference is the width of a sheet, but the sheet does not exist or the width is not above 0.
+/// Throws BadArgument if the reference is the camera, but the view of the paper is not known. Also
+/// throws BadArgument if the reference is the width of a sheet, but the sheet does not exist or the
+/// width is not above 0.
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference = {});

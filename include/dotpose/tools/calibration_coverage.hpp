@@ -1,6 +1,6 @@
-/// Coverage of a lens calibration: which parts of the image, places and directions the frames cover
-/// so far, and which requirements are not met yet. Intended for programs that capture frames while
-/// the camera moves, such as `dotpose calibrate --live`.
+/// Coverage of a lens calibration: the parts of the image, the places and the directions that the
+/// frames cover so far, and the requirements that are not met yet. Intended for programs that
+/// capture frames while the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -23,8 +23,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Minimum fraction of the parts of the image (see ImageCoverage) that must show dots. With a
-/// smaller fraction, the verdict of a calibration is `corners_unseen`.
+/// Minimum fraction of the parts of the image (see ImageCoverage) that show dots. Below this
+/// fraction, the verdict of a calibration is `corners_unseen`.
 inline constexpr double kMinCoverage = 0.85;
 /// Maximum width of dots in focus, in spacings. Dots that are blurred to twice their printed width
 /// begin to touch.
@@ -32,9 +32,9 @@ inline constexpr double kWidestDot = 0.32;
 /// Required number of distinct places on the sheet at which frames were taken (see
 /// `CalibrationCoverage::places`).
 inline constexpr int kWantedPlaces = 4;
-/// Required number of distinct frame directions, counted in `CalibrationCoverage::kDirections`
-/// sectors. With different directions, lens distortion can be distinguished from a print that is
-/// stretched along one axis.
+/// Required number of distinct directions of the camera, counted in
+/// `CalibrationCoverage::kDirections` sectors. Frames in different directions are needed to
+/// distinguish lens distortion from a print that is stretched along one axis.
 inline constexpr int kWantedDirections = 3;
 /// Maximum standard deviation of the undistorted position of the farthest corner of the image (see
 /// `corner_sigma_px`).
@@ -94,13 +94,13 @@ struct CalibrationNeed {
 /// The combined coverage of all frames taken so far.
 class CalibrationCoverage {
   public:
-    /// Number of sectors of a full turn in which directions are counted.
+    /// Number of equal sectors into which a full turn is divided to count directions.
     static constexpr int kDirections = 8;
 
     /// Creates an empty coverage for images of the given size, which must be positive.
     CalibrationCoverage(int width_px, int height_px);
 
-    /// Returns how many parts of the image the frame would add to the coverage.
+    /// Returns the number of parts of the image that the frame would add to the coverage.
     int parts_added_by(const CalibrationView& view) const;
     /// Adds a frame.
     void add(const CalibrationView& view);

@@ -9,8 +9,8 @@
 ///
 /// Calls `locate` on overlapping crops to find the pattern anywhere in the image, at any angle.
 /// Neighbouring crops with consistent positions form a field, and every dot of a field is measured
-/// in the image. A comparison of the measured with the nominal positions of the dots gives the
-/// scale, rotation and skew of the print.
+/// in the image. Comparing the measured with the nominal positions of the dots gives the scale,
+/// rotation and skew of the print.
 ///
 /// A page may contain several fields: patches of a test page (test_page.hpp), or sheets side by
 /// side. Functions throw Error or BadArgument. They share no state.
@@ -43,17 +43,17 @@ struct CheckPrintOptions {
     /// `pattern`.
     bool any_code = false;
     /// Sheets that the scan may contain, for example the sheets of a sheet file. A field within the
-    /// region of a sheet is compared with the dimensions of that sheet. A sheet is ignored if,
-    /// because of its code variant, it cannot overlap with sheets in the code variant of `pattern`
-    /// (see `overlap` in sheet_file.hpp).
+    /// region of a sheet is compared with the dimensions of that sheet. Sheets are ignored if their
+    /// code variant cannot overlap with the given or detected code variant (see `overlap` in
+    /// sheet_file.hpp).
     std::vector<Sheet> sheets;
     /// Resolution of the scan. An image is treated as a photo if it has no resolution, or if it
     /// shows the perspective or lens distortion of a camera. The check of a photo allows for
     /// perspective and lens distortion, and does not judge the scale. If the resolution contradicts
     /// the spacing, the check reports a fault.
     std::optional<Resolution> resolution;
-    /// True if the image file states that a camera took the image. In this case, the resolution is
-    /// ignored.
+    /// True if the image was taken with a camera, according to its file. In this case, the
+    /// resolution is ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. It cannot be measured, because
     /// dots are only a few pixels wide. The measured diameter of a dot is that of a disc of this
@@ -64,9 +64,9 @@ struct CheckPrintOptions {
     std::function<bool(int done, int total)> progress;
 };
 
-/// Scale and angles of a print in a flatbed scan. They include the scale and angles of the scanner.
-/// A second scan, with the page turned by 90 degrees, separates the errors of the printer from
-/// those of the scanner.
+/// Scale and angles of a print in a flatbed scan. They include the errors of the scanner. A second
+/// scan, with the page turned by 90 degrees, separates the errors of the printer from those of the
+/// scanner.
 struct PrintScale {
     double scale_x = 1;       ///< ratio of the printed to the nominal length along the pattern's x
                               ///< axis
@@ -126,7 +126,8 @@ struct PrintField {
     int merged = 0;      ///< number of dots that touch a neighbour
     int dots = 0;        ///< number of dots found
     int bits_wrong = 0;  ///< number of wrong bits, at most two per dot found
-    /// Median diameter of equivalent discs (see CheckPrintOptions::ink_reflectance).
+    /// Median diameter of the dots. The diameter of a dot is that of an equivalent disc (see
+    /// CheckPrintOptions::ink_reflectance).
     double dot_mm = 0;
     double dot_sigma_mm = 0;  ///< standard deviation of the diameter, from the median absolute
                               ///< deviation
@@ -157,13 +158,13 @@ enum class FindingKind {
     uneven_scale,  ///< horizontal and vertical scale differ
     rotated,       ///< the page is turned in the scan, which is harmless
     skewed,        ///< the axes are not perpendicular
-    distorted,     ///< the dots of some regions are displaced
+    distorted,     ///< dots in some regions deviate from their nominal places
     swollen,       ///< dots are too large or run together
     thin,          ///< dots are too small or too pale
     missing,       ///< dots are missing
     covered,       ///< other print covers some of the dots
-    /// Many bits are wrong, because dots are displaced too much or the page has another code
-    /// variant.
+    /// Many bits are wrong, because dots are too far from their nominal places, or the page was
+    /// printed in another code variant.
     bits_wrong,
     too_coarse,     ///< the scan has too few pixels per dot
     pale,           ///< the contrast of the dots is low
@@ -204,7 +205,7 @@ struct CameraSigns {
 struct PrintCheck {
     /// All fields, the largest first. Empty if there is no pattern in the image.
     std::vector<PrintField> fields;
-    /// True if the pattern is found only in the flipped image. There are then no fields.
+    /// True if the pattern is found only in the flipped image. In this case, `fields` is empty.
     bool is_mirrored = false;
     CodeVariant code = CodeVariant::anoto;  ///< code variant that was given or detected
     /// Probability that the detected code variant is wrong. 0 if the code variant was given.
@@ -223,8 +224,9 @@ struct PrintCheck {
     /// patch is the one with the dot diameter closest to a sixth of the spacing. Patches with many
     /// faulty cells are excluded.
     std::vector<std::size_t> best_per_spacing;
-    /// Index of the best patch overall: the first element of `best_per_spacing`, because more dots
-    /// of a finer pattern are in view. Valid if `best_per_spacing` is not empty.
+    /// Index of the best patch overall: the best patch with the finest spacing, because more dots
+    /// of a finer pattern are in view. Equals `best_per_spacing.front()`. Valid only if
+    /// `best_per_spacing` is not empty.
     std::size_t best = 0;
     std::vector<Finding> findings;
 };

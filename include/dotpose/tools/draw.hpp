@@ -4,7 +4,7 @@
 ///     const dotpose::Fix fix = locator.locate(image.view());
 ///     draw_frame("frame.svg", image.view(), locator.trace());
 ///
-/// Functions throw Error if a file cannot be written. They share no state. Texts must be UTF-8.
+/// Functions throw Error if a file cannot be written. They share no state. Text must be UTF-8.
 /// Invalid bytes are replaced.
 #pragma once
 
@@ -48,7 +48,8 @@ struct DrawOptions {
     /// is in world coordinates, or in sheet coordinates if the world pose of the sheet is unknown.
     /// If no place is given, the caption shows the pose in the pattern.
     std::optional<SheetPlace> place{};
-    /// Reason and remedy for the caption if there is no fix. Default: the message of the status.
+    /// Text of the caption if there is no fix: the reason and the remedy. Default: the message of
+    /// the status.
     std::string reason{};
 };
 
@@ -63,8 +64,8 @@ struct DrawOptions {
 /// pose, or the reason why there is none.
 ///
 /// Everything is drawn at its position in the image, so grid lines are curved if the lens has
-/// distortion. To keep the picture of a photo below 1 MB, large images are embedded at a lower
-/// resolution, and dots too close together for letters are drawn as points.
+/// distortion. To keep the file size below 1 MB, large images are embedded at a lower resolution,
+/// and dots that are too close together for letters are drawn as points.
 void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
@@ -79,7 +80,7 @@ struct PathPoint {
     double measured_y_mm = 0;
 };
 
-/// Draws the true path on the page with the measured points. The errors are too small to be visible
+/// Draws the true path and the measured points on the page. The errors are too small to be visible
 /// on the page, so they are also drawn as a scatter plot, and as a function of the frame number.
 void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint> path,
                const std::string& title = {});
@@ -89,8 +90,8 @@ void draw_path(const std::filesystem::path& file, const Sheet& sheet,
 /// Draws the residual fields before and after calibration, and the coverage of the image by dots.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
-/// Sums of the residuals of a lens calibration in square parts of the image, as `draw_calibration`
-/// draws them. Programs can use this struct to draw the residuals themselves.
+/// Residuals of a lens calibration, summed over square parts of the image, as in the pictures of
+/// `draw_calibration`. Programs can use this struct to draw the residuals themselves.
 struct ResidualField {
     struct Part {
         PixelPoint before;  ///< sum of the residuals before the calibration, in px
@@ -123,8 +124,8 @@ void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 /// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the deviations in `PrintField::distortion` of all fields of a printed page, exaggerated,
-/// over the outline of the scan.
+/// Draws the deviations of the dots in all fields (`PrintField::distortion`), enlarged, over the
+/// outline of the scan.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

@@ -47,11 +47,11 @@ struct KnownFrame {
 /// from several threads.
 using FrameSource = std::function<KnownFrame(int index)>;
 
-/// Returns the images listed in a truth.csv. A file that cannot be read becomes a frame with a
-/// `problem`.
+/// Returns a source of the images listed in a truth.csv. A file that cannot be read becomes a frame
+/// with a `problem`.
 FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<TruthRow> rows);
 
-/// Returns the rendered frames of `draw_shot(setup, index)`.
+/// Returns a source that renders the frames `draw_shot(setup, index)`.
 FrameSource frames_of_setup(const Setup& setup);
 
 /// Called regularly, from the thread that called `evaluate`. Returning false aborts the evaluation
@@ -62,7 +62,7 @@ using Progress = std::function<bool(int done, int total)>;
 struct FrameRun {
     int frames = 0;
     FrameSource frame_at;
-    /// Every frame is located with each of these options.
+    /// Sets of options for `locate`. Every frame is located with each of them.
     std::vector<DeviceOptions> options = {DeviceOptions{}};
     /// True to detect the code variant of each frame for which `KnownFrame::code` is not set. Each
     /// frame is judged independently of the other frames.

@@ -21,7 +21,7 @@ class FlatFieldCorrection {
   public:
     /// Computes the gain of each pixel from `camera.flat_field`. The flat field must not be empty,
     /// and `camera` must be valid (see `validate` in camera.hpp). The constructor does not check
-    /// this.
+    /// these conditions.
     explicit FlatFieldCorrection(const Camera& camera);
 
     /// Returns the image with each grey level divided by the brightness at its pixel. Levels are

@@ -58,11 +58,11 @@ struct FollowerOptions {
     /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
     /// a camera file with a focal length.
     bool fits_space_pose = false;
-    /// Map of the print, used to correct fixes and poses in space (print_mapping.hpp). Requires the
-    /// sheets of the map.
+    /// Map of the print, used to correct fixes and poses in space (print_mapping.hpp). `sheets`
+    /// must contain the sheets of the map.
     PrintMap print_map;
     TrackOptions track;
-    SpaceTrackOptions space_track;  ///< with `fits_space_pose`
+    SpaceTrackOptions space_track;  ///< used only if `fits_space_pose` is set
 };
 
 /// The result of a single image.
@@ -70,10 +70,10 @@ struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix, or none if it is not on any sheet
-    /// Code variant of the fix and, if a place in another code variant also explains the image,
-    /// this other place. In results of `locate`, `reading.fix` does not include the correction by
-    /// the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong` does not
-    /// include the prior (see Followed).
+    /// Code variant of the fix and, if there is one, a place in another code variant that also
+    /// explains the image. In results of `locate`, `reading.fix` is the fix before the correction
+    /// by the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong` does
+    /// not include the prior (see Followed).
     CodeReading reading;
     /// Nominal spacing, in mm, of the sheet of the fix. If the fix is not on any sheet, this is the
     /// common spacing of all sheets, or NaN if the sheets differ in spacing. If there are no
@@ -88,8 +88,8 @@ struct Located {
     /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None if there is
     /// no fix, if the spacing is not known, or if too few dots are in view (see `space_pose`).
     std::optional<SpacePose> space;
-    /// Tip of the pen in the pattern frame, if `space` is known and not ambiguous, and the camera
-    /// file contains a tip.
+    /// Tip of the pen in the pattern frame. None if `space` is none or ambiguous, or if the camera
+    /// file contains no tip.
     std::optional<TipPose> tip;
     bool is_pen_down = false;  ///< true if `tip` is on the paper; see PenContact
     /// Result of applying `FollowerOptions::print_map` to the fix.
@@ -99,15 +99,15 @@ struct Located {
     int reduced_by = 1;  ///< factor by which the image was downscaled before it was located
 };
 
-/// The result for one image of a sequence, which depends on the previous images.
+/// The result for one image of a sequence. It depends on the previous images.
 struct Followed {
     /// Result of the image. If the fix was accepted only because it is at the predicted place, its
     /// `p_wrong` includes the prior probability of that place.
     Located located;
     Track track;
-    /// Track of the camera in space. It is in the frame of `world_sighting` if the robot is tracked
-    /// in the world, and otherwise in the pattern frame. None unless
-    /// `FollowerOptions::fits_space_pose` is set.
+    /// Track of the camera in space. If the robot is tracked in the world, the track is in the
+    /// frame of `world_sighting` (space_track.hpp). Otherwise, it is in the pattern frame. None if
+    /// `FollowerOptions::fits_space_pose` is not set.
     std::optional<SpaceTrack> space_track;
 };
 
@@ -146,8 +146,8 @@ class Follower {
 
     /// Replaces the sheets, for example after one of them was moved in the world. The next image
     /// starts a new track. Invalidates `SheetPlace::entry` of earlier results. Throws BadArgument
-    /// if there are no sheets, or if the region of a sheet is not inside the code plane, and Error
-    /// if the print map contains a page that is not among the sheets.
+    /// if there are no sheets, or if the region of a sheet is not inside the code plane. Throws
+    /// Error if the print map contains a page that is not among the sheets.
     void set_sheets(std::vector<SheetEntry> sheets);
 
     bool fits_space_pose() const { return options_.fits_space_pose; }
@@ -222,7 +222,7 @@ class Follower {
     /// Code variants in the order in which they are tried, starting with the code variant of the
     /// last fix. If empty, all code variants are tried.
     std::vector<CodeVariant> codes_;
-    CodeEvidence evidence_;       ///< evidence of the previous images
+    CodeEvidence evidence_;       ///< evidence for the code variant, from the previous images
     double unplaced_spacing_mm_;  ///< spacing for a fix that is not on any sheet
     bool is_in_world_ = false;
     DeviceOptions used_;
@@ -235,7 +235,8 @@ class Follower {
     Tracker tracker_;
     SpaceTracker space_tracker_;
     PenContact contact_;
-    std::optional<Seen> seen_;  ///< none if there was no fix, or if it is too old for a prediction
+    std::optional<Seen> seen_;  ///< none if there was no fix, or if the last fix is too old for a
+                                ///< prediction
 };
 
 }  // namespace dotpose

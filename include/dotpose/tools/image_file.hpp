@@ -51,8 +51,8 @@ struct ImageTooLarge : Error {
 /// larger than 8 * max_pixels bytes + 1 MiB are refused. `page` is the number of a page of a TIFF
 /// file, from 1. Throws Error with the name of the file and the reason: no such page, no such file,
 /// a directory, no permission, empty, unknown image format, truncated, damaged, too large, not
-/// enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or kMaxImagePixels.
-/// Thread-safe.
+/// enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or kMaxImagePixels
+/// pixels. Thread-safe.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 
@@ -62,8 +62,8 @@ GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaul
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
                      int page = 1);
 
-/// Returns the number of pages in a file. Only TIFF files can have more than one page. A file that
-/// is not regular, such as a pipe, is not read and counts as one page. Throws Error if the file
+/// Returns the number of pages in a file. Only TIFF files can have more than one page. Returns 1
+/// for a file that is not regular, such as a pipe, without reading it. Throws Error if the file
 /// cannot be read (see `read_image`).
 int count_pages(const std::filesystem::path& path);
 
@@ -73,7 +73,7 @@ struct Resolution {
     double y_dpi = 0;
 };
 
-/// Origin of an image according to its file.
+/// Origin of an image, according to the metadata in its file.
 struct ImageOrigin {
     /// True if the image is from a camera: its EXIF data (JPEG, PNG, TIFF, WebP, HEIC) contain
     /// exposure time, f-number, sensitivity or focal length.
@@ -95,15 +95,16 @@ enum class ImageEncoding : std::uint8_t {
     pgm,   ///< lossless and uncompressed
 };
 
-/// Returns the contents of an image file. Throws Error if the image is empty or the encoder fails.
+/// Encodes an image, and returns the contents of the image file. Throws Error if the image is empty
+/// or the encoder fails.
 std::vector<std::uint8_t> encode_image(ImageEncoding encoding, ImageView image);
 
-/// Writes binary PGM (P5), replacing the file. Throws Error if the image is empty or the file
-/// cannot be written.
+/// Writes a binary PGM file (P5). Replaces an existing file. Throws Error if the image is empty or
+/// the file cannot be written.
 void write_pgm(const std::filesystem::path& path, ImageView image);
 
-/// Writes 8-bit grey PNG, replacing the file. Identical images produce identical files. Throws
-/// Error if the image is empty or the file cannot be written.
+/// Writes an 8-bit grey PNG file. Replaces an existing file. Identical images produce identical
+/// files. Throws Error if the image is empty or the file cannot be written.
 void write_png(const std::filesystem::path& path, ImageView image);
 
 }  // namespace dotpose

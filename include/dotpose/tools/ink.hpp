@@ -4,8 +4,8 @@
 ///     for (const InkPage& page : pages)
 ///         write_file(page.name + ".svg", ink_svg(page));
 ///
-/// `ink_of` is in the library for following robots and pens. `ink_svg` and `ink_ml`, which return
-/// the contents of files, are in the library for drawing. All functions are pure and thread-safe.
+/// `ink_of` is in the library dotpose::follow. `ink_svg` and `ink_ml`, which return the contents of
+/// files, are in dotpose::draw. All functions are pure and thread-safe.
 #pragma once
 
 #include <span>
@@ -28,7 +28,7 @@ struct InkSample {
     double sigma_x_mm = 0;  ///< standard deviations, above 0
     double sigma_y_mm = 0;
     double sigma_height_mm = 0;
-    double tilt_rad = 0;  ///< as in CameraLean
+    double tilt_rad = 0;  ///< tilt and azimuth are those of CameraLean
     double azimuth_rad = 0;
 };
 
@@ -58,8 +58,8 @@ struct InkPage {
 /// Maximum interval between consecutive samples of a stroke. A longer interval ends the stroke.
 inline constexpr double kMaxInkGap_s = 0.1;
 
-/// Returns the strokes on each page. The pages are in the order of their first strokes. `samples`
-/// must be in the order of their times.
+/// Returns the strokes on each page. The pages are ordered by their first strokes. `samples` must
+/// be ordered by time.
 ///
 /// The path is estimated by a fixed-interval smoother (Rauch, Tung and Striebel 1965). The motion
 /// model is an acceleration driven by white noise, with the noise power that maximises the
@@ -72,7 +72,7 @@ std::vector<InkPage> ink_of(std::span<const InkSample> samples);
 std::string ink_svg(const InkPage& page);
 
 /// Returns the page as W3C InkML, with the channels X and Y (in mm from the top left corner), T (in
-/// ms), OTx and OTy (tilts, in degrees).
+/// ms), and OTx and OTy (tilts, in degrees).
 std::string ink_ml(const InkPage& page);
 
 }  // namespace dotpose

@@ -90,7 +90,7 @@ struct Measurement {
     bool is_in_world = false;
 
     // Numbers of correct and wrong fixes, and statistics of the errors of correct fixes. A fix
-    // without a found place counts as wrong.
+    // without a found place is counted as wrong.
     int located = 0;
     int wrong = 0;
     Quantiles position_um;
@@ -110,8 +110,8 @@ void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
 /// Writes positions.csv, figure-13 and figure-14. If the true angles are not all equal, also writes
 /// angles.csv and figure-15. They correspond to the figures with the same numbers in the paper.
-/// Each figure is written as .svg and .png. Frames with the same true place are samples of one
-/// position. Throws Error if no frame has a true place, or if a file cannot be written.
+/// Each figure is written as .svg and .png. Frames with the same true place are treated as samples
+/// of one position. Throws Error if no frame has a true place, or if a file cannot be written.
 void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);
 
 }  // namespace dotpose

@@ -11,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Maximum deviation of a correct fix from the truth, in spacings and in degrees. Wrong fixes do
-/// not count as located, and are excluded from the error statistics.
+/// Maximum deviation of a correct fix from the truth, in spacings and in degrees. Wrong fixes are
+/// not counted as located, and are excluded from the error statistics.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 
@@ -29,7 +29,7 @@ Deviation deviation_of(const Fix& fix, const Truth& truth);
 struct Outcome {
     Fix fix;
     Truth truth;
-    double elapsed_us = 0;  ///< time of `locate`, without reading the frame
+    double elapsed_us = 0;  ///< duration of `locate`, without the time to read the frame
     std::string problem;    ///< error while reading the file; if not empty, `fix` and `elapsed_us`
                             ///< are not valid
 

@@ -4,7 +4,7 @@
 ///     options.origin = {.x = 5000, .y = 0};
 ///     const dotpose::OverlayReport report = dotpose::overlay_pdf("in.pdf", "out.pdf", options);
 ///
-/// Pages keep their content and functions, such as text, links, forms, outlines, boxes and
+/// Pages keep their content and features, such as text, links, forms, outlines, page boxes and
 /// rotation. Each page with dots has its own region of the code plane. Copies of a page also have
 /// different regions. The functions share no state.
 #pragma once
@@ -48,13 +48,14 @@ struct OverlayOptions {
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.
     /// All pages with dots must have the same size. Cards have no links or form fields, and pages
-    /// without dots are omitted. Without card paper, each page of the document remains a page.
+    /// without dots are omitted. If none, each page of the document is printed as a page of its
+    /// own.
     std::optional<Paper> card_paper;
     /// True to draw the dots below the content of the page instead of above it.
     bool under = false;
     std::string password;  ///< password of an encrypted file; the result is also encrypted
-    /// True to replace black ink with the other inks, because black ink is visible in infrared
-    /// light.
+    /// True to replace black ink with cyan, magenta and yellow. Infrared cameras see black ink, but
+    /// not the other inks.
     bool black_to_cmy = false;
     double lighten = 0;  ///< fraction of the ink that is removed from the document, in [0, 1)
     /// Maximum size of the uncompressed content of one page, in megabytes. The limit for all pages

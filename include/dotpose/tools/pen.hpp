@@ -46,7 +46,7 @@ TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
 /// be on the paper again once its height falls below `kLift_mm`.
 class PenContact {
   public:
-    /// Maximum height above the nominal plane due to unevenness of paper on a table.
+    /// Maximum height of paper on a table above the nominal plane. The paper is not perfectly flat.
     static constexpr double kLift_mm = 0.05;
 
     /// `is_down` is the state before the first pose.

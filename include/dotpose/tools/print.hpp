@@ -125,7 +125,7 @@ struct PrintOptions {
     /// PDF only: total number of pages, as shown in the labels. If 0, the labels show the number of
     /// sheets.
     int page_count = 0;
-    /// Called often, so it must be fast. Default: none.
+    /// Progress callback, none by default. It is called often, so it must be fast.
     Progress progress;
 };
 

@@ -48,17 +48,17 @@ struct MappedPage {
     std::size_t seen = 0;          ///< number of dots that were seen
     std::size_t observations = 0;  ///< number of measured dots in all frames
     std::size_t outliers = 0;      ///< number of measured dots that were rejected as outliers
-    double noise_mm = 0;           ///< standard deviation of a measured dot, per axis
+    double noise_mm = 0;           ///< standard deviation of a measured dot centre, per axis
     /// Standard deviation of the print jitter, per axis (see MapPage::jitter).
     double jitter_mm = 0;
-    /// Rms offset of the dots, per axis, after subtraction of the jitter: the smooth distortion of
-    /// the page.
+    /// Rms smooth distortion of the page, per axis: the rms offset of the dots after subtraction of
+    /// the jitter variance.
     double slow_mm = 0;
     /// True if all frames had the same scale, because the camera was mounted at a constant height.
     bool is_rigid = true;
     int iterations = 0;  ///< conjugate gradient iterations in the last round
-    /// Standard deviation per axis of the map error in a view (see MapErrors), as the rms over all
-    /// dots that were seen. 0 if unknown, because the earlier map does not contain it.
+    /// Standard deviation of the map error in a view, per axis (see MapErrors): the rms value over
+    /// all dots that were seen. 0 if unknown, because the earlier map does not contain its errors.
     double error_mm = 0;
 };
 
@@ -84,7 +84,7 @@ class PrintMapping {
     /// the image does not have the size in the camera file.
     bool add(const ImageView& image);
 
-    /// Minimum number of frames of a page. If fewer frames were used, the page is not mapped.
+    /// Minimum number of frames required to map a page.
     static constexpr std::size_t kMinFrames = 10;
 
     /// Computes the map. `progress` is called with the completed fraction of the current page.

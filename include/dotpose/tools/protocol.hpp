@@ -20,10 +20,10 @@ namespace dotpose {
 /// Options for the simulated experiment.
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
-    /// Conditions of the experiment. Light, blur and noise are drawn once and are the same for all
-    /// frames. The other conditions are ignored, because the device is at rest and not tilted, and
-    /// the page has no dirt or graphics. The experiment determines the poses and the printing
-    /// errors.
+    /// Conditions of the experiment. Light, blur and noise are drawn at random once and are the
+    /// same for all frames. The other conditions are ignored, because the device is at rest and not
+    /// tilted, and the page has no dirt or graphics. The experiment determines the poses and the
+    /// printing errors.
     Setup setup;
     DeviceOptions locate;
     int threads = 0;
@@ -51,9 +51,9 @@ struct Station {
 
 /// The results of the experiment on one page.
 struct ProtocolResult {
-    /// 11 x 11 positions on 200 x 200 mm, in a spiral from the middle.
+    /// Results at 11 x 11 positions in the area of 200 x 200 mm, in a spiral from the middle.
     std::vector<Station> positions;
-    std::vector<Station> angles;  ///< 36 angles at the middle position
+    std::vector<Station> angles;  ///< results at 36 angles at the middle position
 };
 
 /// The experiment on a perfect page and on a printed page.

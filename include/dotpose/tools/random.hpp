@@ -1,5 +1,6 @@
-/// Random numbers that are the same on every machine, unlike the distributions of `<random>`, whose
-/// results depend on the standard library. For simulation only, not for secrets.
+/// Random numbers that are the same on every machine. The distributions of `<random>` are not
+/// suitable, because their results depend on the standard library. For simulation, not for
+/// cryptography.
 #pragma once
 
 #include <cstdint>
@@ -63,8 +64,8 @@ class Rng {
     }
 
   private:
-    /// Returns the number of set bits among 128 bits. Does not use std::popcount, which is a slow
-    /// function call on processors that may lack the instruction.
+    /// Returns the number of set bits among 128 bits. Does not use std::popcount, which is compiled
+    /// to a slow function call if the target processor may lack the instruction.
     static constexpr int ones_in(std::uint64_t a, std::uint64_t b) noexcept {
         constexpr std::uint64_t kOdd2 = 0x3333333333333333u;
         constexpr std::uint64_t kOdd4 = 0x0F0F0F0F0F0F0F0Fu;

@@ -16,9 +16,9 @@
 ///   x axis.
 ///
 /// `camera_optical` is the camera, with z along the optical axis and x and y along the axes of the
-/// image. It is constant in `base_link` (`camera_mount`). With poses in space
-/// (`FollowerOptions::fits_space_pose`), it is in `map` instead, with a new pose in each frame. In
-/// that case, do not publish the mount, because a frame can have only one parent.
+/// image. Its parent is `base_link`, in which its pose is constant (`camera_mount`). With poses in
+/// space (`FollowerOptions::fits_space_pose`), its parent is `map`, and each frame gives a new
+/// pose. In that case, do not publish the mount, because a frame can have only one parent.
 ///
 /// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
 /// robot is found again after being lost or moved by hand, and when the robot enters another plane.
@@ -67,7 +67,7 @@ struct PlanarMotion {
     double vx_m_s = 0;  ///< velocity along the x axis of the plane
     double vy_m_s = 0;
     double turn_rad_s = 0;
-    /// Covariance of these six values, in this order.
+    /// Covariance of the six values above, in the same order.
     std::array<std::array<double, 6>, 6> covariance{};
 };
 

@@ -139,8 +139,8 @@ struct CompressedImage {
     std::vector<std::uint8_t> data;
 };
 
-/// Serialises a message in the format of ROS 2: CDR (XCDR1), little endian, after the four bytes of
-/// the encapsulation header.
+/// Serialises a message in the format of ROS 2: the encapsulation header of four bytes, then CDR
+/// (XCDR1), little endian.
 std::vector<std::uint8_t> to_cdr(const PoseWithCovarianceStamped& message);
 std::vector<std::uint8_t> to_cdr(const Odometry& message);
 std::vector<std::uint8_t> to_cdr(const TFMessage& message);

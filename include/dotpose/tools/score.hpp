@@ -35,7 +35,8 @@ struct Score {
     int unreadable = 0;
     int located = 0;                               ///< number of correct fixes
     int wrong = 0;                                 ///< number of wrong fixes
-    std::array<int, kStatusCount> by_status = {};  ///< `ok` counts correct and wrong fixes
+    std::array<int, kStatusCount> by_status = {};  ///< number of frames with each status; `ok`
+                                                   ///< includes wrong fixes
 
     // The following statistics are computed over the correct fixes, except `largest_p_wrong` and
     // `elapsed_us`.

@@ -48,7 +48,7 @@ struct Vec2 {
 struct CameraModel {
     int width_px = 188;   ///< 1 to 16384
     int height_px = 120;  ///< 1 to 16384
-    /// Size on the paper of the pixel at the image centre, without tilt. Above 0.
+    /// Size of the pixel at the image centre, measured on the paper, without tilt. Above 0.
     double mm_per_px = 0.046;
     /// Radial distortion k, in px^-2: p_u = m + r_d / (1 + k |r_d|^2), where m is the image centre
     /// (paper, equations 1 and 2). Negative for barrel distortion. |k| |r|^2 must be at most
@@ -130,7 +130,7 @@ enum class Preset : std::uint8_t {
     hard,     ///< a poor print, little light, dirt, tilt
     mouse,    ///< the sensor of an optical mouse
 };
-/// All values of Preset, for tables.
+/// All values of Preset, for iteration.
 inline constexpr std::array kPresets = {Preset::clean, Preset::nominal, Preset::hard,
                                         Preset::mouse};
 /// Returns the identifier, such as "nominal".
@@ -197,9 +197,9 @@ class Projection {
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
-    /// Returns where a scene point appears at `time` if it appears at `undistorted` at the time of
-    /// the middle row. Points are in px from the image centre of the undistorted image. `time` is
-    /// in units of the readout time, from the middle row.
+    /// Returns the position, at `time`, of a scene point that is at `undistorted` when the middle
+    /// row is read. Points are in px from the image centre of the undistorted image. `time` is in
+    /// units of the readout time, from the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
     /// Returns the displacement of the pose point in the undistorted image, along an arc, from the
     /// time of the middle row to `time`.
@@ -289,8 +289,8 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Kinds of frames without a unique valid position. A locator must reject them. At the two seams,
-/// however, a fix with the position and section of either side is also correct.
+/// Kinds of frames without a unique valid position. A locator must reject them. In the two seam
+/// scenes, however, a fix with the position and section of either side is also correct.
 enum class Scene : std::uint8_t {
     black,
     white,
@@ -305,7 +305,7 @@ enum class Scene : std::uint8_t {
                       ///< centre
     mirrored,         ///< the pattern seen from behind
 };
-/// All values of Scene, for tables.
+/// All values of Scene, for iteration.
 inline constexpr std::array kScenes = {
     Scene::black,         Scene::white,           Scene::noise,          Scene::text,
     Scene::plain_grid,    Scene::random_symbols,  Scene::scattered_dots, Scene::checkerboard,
@@ -313,8 +313,8 @@ inline constexpr std::array kScenes = {
 /// Returns the identifier, such as "seam_vertical".
 const char* name(Scene scene);
 
-/// Renders `scene` with the shot's camera, pose and imperfections instead of its page. `density`, 0
-/// to 1, is used only for `noise` and `scattered_dots`.
+/// Renders `scene` in place of the shot's page, with the shot's camera, pose and imperfections.
+/// `density`, 0 to 1, is used only for `noise` and `scattered_dots`.
 GreyImage render_scene(Scene scene, const Shot& shot, double density = 0.5);
 
 }  // namespace dotpose

@@ -92,8 +92,8 @@ struct SpacePose {
     /// The second pose that explains the view, if there is one. It may be improbable.
     std::optional<SecondPose> second;
 
-    /// Limit of `SecondPose::odds_log2`, at or below which the dots exclude the second pose. The
-    /// limit is low because the errors of dots on bent paper are not independent.
+    /// Maximum `SecondPose::odds_log2` at which the dots exclude the second pose. The value is low
+    /// because the errors of dots on bent paper are not independent.
     static constexpr double kMaxOdds_log2 = -30;
     /// Returns true if the dots do not exclude the second pose.
     bool is_ambiguous() const { return second && second->odds_log2 > kMaxOdds_log2; }

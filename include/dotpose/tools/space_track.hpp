@@ -104,10 +104,10 @@ struct CameraMotion {
     SpaceCovariance velocity_covariance{};  ///< covariance of `velocity_m_s` and `turn_rad_s`
 };
 
-/// Converts a track from a frame with y down and z into the paper, in mm, to the frame with y up
-/// and z out of the paper, in metres. The result is in the world if the sightings are from
-/// `world_sighting`, and in the pattern with y up if they are in the pattern frame. Returns none
-/// while the camera is lost.
+/// Converts a track to metres, with y up and z out of the paper. The track is in mm, with y down
+/// and z into the paper. The result is in the world if the sightings are from `world_sighting`. If
+/// they are in the pattern frame, the result is in the pattern frame with y up. Returns none while
+/// the camera is lost.
 std::optional<CameraMotion> motion_of(const SpaceTrack& track);
 
 /// Implementation details of SpaceTracker: the filter state. Not part of the public API.
@@ -125,11 +125,11 @@ struct Motion {
     std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
     std::array<double, kStates * kStates> covariance{};
     /// Process noise along each axis: the ratio of the variance of the acceleration noise to the
-    /// variance in the options. The first three axes are those of the position after subtraction of
-    /// the part that a sighting cannot distinguish from a rotation. The last three axes are those
-    /// of the rotation.
+    /// variance in the options. The first three axes are those of the position, after subtraction
+    /// of the position error that is correlated with the rotation error of the sighting. The last
+    /// three axes are those of the rotation.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
-    /// Innovation of the latest accepted sighting, along these axes.
+    /// Innovation of the latest accepted sighting, along the axes of `agility`.
     std::array<double, 6> innovation{};
     SpaceCovariance noise{};  ///< covariance of the latest accepted sighting
     /// Fraction of `noise` that is independent of the errors of earlier sightings, and the Fisher
@@ -170,9 +170,9 @@ class SpaceTracker {
     SpaceTrack track_;
     space_track::Motion motion_;
     std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
-    // The newest unambiguous sighting that was rejected after `accepted_us_`, and the number of
-    // consecutive rejected sightings that end with this sighting and are each consistent with the
-    // previous one.
+    // The newest unambiguous sighting that was rejected after `accepted_us_`. `rejections_` is the
+    // length of the run of rejected sightings that ends with it. In a run, each sighting is
+    // consistent with the previous one.
     std::optional<SpaceSighting> rejected_;
     int rejections_ = 0;
 };

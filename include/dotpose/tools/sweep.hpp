@@ -27,7 +27,7 @@ enum class SweepKind : std::uint8_t {
     occlusion,  ///< percentage of the image covered by a dark area with a straight edge, from a
                 ///< random side
 };
-/// All values of SweepKind, for tables.
+/// All values of SweepKind, for iteration.
 inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
                                            SweepKind::missing, SweepKind::tilt,
                                            SweepKind::spacing, SweepKind::occlusion};

@@ -42,8 +42,8 @@ BitLines backwards(const BitLines& lines) {
     return result;
 }
 
-/// Returns the range from the first to the last line with bits. If the range has more than
-/// `max_count` lines, keeps the lines nearest the middle of the block.
+/// Returns the range from the first to the last line that has a valid bit. If the range has more
+/// than `max_count` lines, keeps the lines nearest the middle of the block.
 LineRange lines_with_bits(const BitLines& lines, int max_count) {
     int first = 0;
     int last = BitBlock::kSide - 1;
@@ -57,10 +57,10 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
 }
 
 /// Returns the best score of a line after a half turn, minus its best score as read. If the line is
-/// exact (see `exact_roll`) in only one of these directions, computes no scores. Instead, returns
-/// 127 (n - 6) if the line is exact after the half turn, and -127 (n - 6) if it is exact as read,
-/// where n is the number of valid bits. Six bits provide no evidence, because the main sequence
-/// contains almost every string of six bits.
+/// exact (see `exact_roll`) in only one of the two directions, skips the scoring: returns
+/// 127 (n - 6) if the line is exact after the half turn, or -127 (n - 6) if it is exact as read,
+/// where n is the number of valid bits. Six bits are subtracted, because the main sequence contains
+/// almost every string of six bits.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -85,7 +85,7 @@ int backwardness(const Kernels& kernels, const BitLines& lines) {
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
-        // The voters are in the middle half of the range, because these lines are the longest.
+        // The voting lines are in the middle half of the range, because lines are longest there.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;
@@ -95,7 +95,7 @@ int backwardness(const Kernels& kernels, const BitLines& lines) {
     return sum;
 }
 
-/// Finds the place of cell (0, 0). `find` is the search for the position of an axis.
+/// Finds the place of cell (0, 0). `find` is the function that finds the position on one axis.
 bool find_place_with(decltype(find_axis) find, CodeVariant code, const BlockLines& lines,
                      Place& place) {
     constexpr int kMinLines = 6;

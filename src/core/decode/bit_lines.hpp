@@ -1,5 +1,5 @@
-// Bit lines: a block of 64 x 64 cells as bits, with one word per column and one word per row.
-// Reversing a line, comparing two lines or counting the bits of a line takes only a few
+// Bit lines: the bits of a block of 64 x 64 cells, stored as one 64-bit word per column and one per
+// row. Reversing a line, comparing two lines or counting the bits of a line takes only a few
 // instructions. The decoder follows the paper (sections II-B.4 to II-B.7), but uses hard bits (0, 1
 // or not read) instead of probabilities.
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace dotpose::core {
 
-/// A block of cells. `columns` contains the x bits, and `rows` contains the y bits. Grid cell (0,
-/// 0) is in column kMiddle and row kMiddle.
+/// A block of cells. `columns` contains the x bits, and `rows` contains the y bits. Column kMiddle
+/// and row kMiddle intersect in grid cell (0, 0).
 struct BitBlock {
     static constexpr int kSide = 64;
     static constexpr int kMiddle = 32;
@@ -27,8 +27,8 @@ struct BlockRanges {
     LineRange rows;
 };
 
-/// Returns, for each axis, the range from the first to the last line with bits. If a range has more
-/// than `max_count` lines, keeps the lines nearest the middle of the block.
+/// Returns, for each axis, the range from the first to the last line that has a valid bit. If a
+/// range has more than `max_count` lines, keeps the lines nearest the middle of the block.
 BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
 /// The scored lines of a block. `first_column` and `first_row` are the block indices of the first
@@ -52,14 +52,15 @@ BitBlock turned(int quarters, const BitBlock& block);
 /// rotated block.
 FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 
-/// Scores the columns and rows of an upright block, except empty lines at the ends. Columns use the
-/// first half of `storage`, and rows use the second half. If a half is too small, scores only the
-/// lines nearest the middle of the block.
+/// Scores the columns and rows of an upright block. Skips empty lines at both ends of each axis.
+/// The column scores are stored in the first half of `storage`, and the row scores in the second
+/// half. If a half is too small, scores only the lines nearest the middle of the block.
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,
                        std::span<ScoredLine> storage);
 
-/// Returns the place of cell (0, 0) in an upright block. `column` is the reading at column
-/// `first_column`, and `row` is the reading at row `first_row`.
+/// Returns the place of cell (0, 0) in an upright block. `column` is the reading of the columns,
+/// starting at column `first_column`. `row` is the reading of the rows, starting at row
+/// `first_row`.
 Place place_of_middle(CodeVariant code, int first_column, int first_row, const AxisReading& column,
                       const AxisReading& row);
 

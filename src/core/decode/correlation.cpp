@@ -40,7 +40,7 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Packs kAtOnce weights of both lines, starting at index `first`. Weights beyond the end of a line
+/// Packs kAtOnce weights of each line, starting at index `first`. Weights beyond the end of a line
 /// are 0.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
@@ -61,8 +61,9 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
-/// Computes the sum of a group for each string of bits. A 0 bit negates its weight. Unrolling the
-/// loop halves the time, but the unrolled code is too long to inline.
+/// Computes the signed sum of a group of weights for each string of kGroup bits. A 0 bit negates
+/// the corresponding weight. Unrolling the loop halves the time, but the unrolled code is too long
+/// to inline.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);

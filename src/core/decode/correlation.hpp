@@ -19,15 +19,15 @@ struct Match {
 /// `weights` contains at most 256 values in [-127, 127]. Doubtful bits have small weights.
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
-/// Correlates two lines. This takes only slightly longer than `correlate` takes for one line.
+/// Correlates two lines. Takes only slightly longer than one call to `correlate`.
 void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t> b,
                     LineScores& scores_a, LineScores& scores_b);
 
 /// Returns the roll with the highest score. Ties are broken by taking the smallest roll.
 Match best_match(const LineScores& scores);
 
-/// Returns the match that follows `last` in the order of decreasing scores. Matches with equal
-/// scores are in the order of increasing rolls. There must be a match after `last`.
+/// Returns the match after `last` in order of decreasing score. Matches with equal scores are
+/// ordered by increasing roll. At least one match must follow `last`.
 Match next_match(const LineScores& scores, Match last);
 
 /// Returns the highest score and its margin over the second highest score.

@@ -42,8 +42,8 @@ std::int8_t quasi_probability(std::int32_t projection_q16) {
 
 namespace {
 
-/// Fills the grid. `point_of(dot)` returns the cell nearest the dot, and the offset of the dot from
-/// the cell centre.
+/// Fills the grid. `point_of(dot)` returns the cell nearest the dot, and the dot's offset from the
+/// intersection of this cell.
 template <typename PointOf>
 Status assign(std::span<const DetectedDot> dots, int min_side, PointOf point_of, Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};
@@ -75,7 +75,8 @@ Status assign(std::span<const DetectedDot> dots, int min_side, PointOf point_of,
             const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
                                 quasi_probability(g.offset_q16.y + g.offset_q16.x), index};
             GridCell& cell = here.storage[j * columns + i];
-            if (quality(read) > quality(cell)) cell = read;  // the better dot (paper, figure 8)
+            // Keeps the better dot (paper, figure 8).
+            if (quality(read) > quality(cell)) cell = read;
         }
         ++index;
     }

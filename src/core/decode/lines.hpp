@@ -41,7 +41,7 @@ struct AxisReading {
     std::uint32_t position = 0;  ///< position of the first line
     std::uint8_t roll = 0;       ///< roll of the first line at its first cell
     std::int32_t score = 0;      ///< total score over all lines
-    /// Upper bound on `score`: the sum of the highest scores of all lines.
+    /// Upper bound on `score`: the sum of each line's highest score.
     std::int32_t max_possible = 0;
 
     /// Returns true if the score exceeds 7/8 of `max_possible`. The search then stops, because it

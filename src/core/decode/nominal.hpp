@@ -23,8 +23,7 @@ class Nominal {
   private:
     QuarterTurn turn_;
     FixedVec first_;  ///< smallest column and smallest row of the grid in the upright pattern
-    /// Main-sequence index of the first cell of each column. `rows_` contains the index for each
-    /// row.
+    /// Main-sequence index of the first cell of each column (`columns_`) and each row (`rows_`).
     std::array<std::uint8_t, kMaxGridSide> columns_;
     std::array<std::uint8_t, kMaxGridSide> rows_;
 };

@@ -8,7 +8,7 @@ namespace dotpose::core {
 namespace {
 
 /// Number of lines per axis that vote on the turn. The voting lines are in the middle half of the
-/// region, because lines are longest there.
+/// region, because the lines are longest there.
 constexpr int kVoters = tuning::turns::kVoters;
 
 /// The columns or rows that vote on the turn. Reads one bit (x or y) of each cell.
@@ -87,7 +87,8 @@ std::int32_t max_possible(const Voters& voters) {
     return sum;
 }
 
-/// Returns the best of four agreements: for both reading directions, with bits as read and flipped.
+/// Returns the best of four agreements: for each reading direction, with the bits as read and with
+/// the bits flipped.
 std::int32_t best_agreement(const Voters& voters) {
     const auto [forwards, backwards] = agreement(voters);
     return std::max(std::max(forwards.as_is, forwards.flipped),

@@ -17,8 +17,8 @@ struct Orientation {
 /// after a half turn, with the main sequence. A half turn reverses the line and flips its bits.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
-/// Returns true if the agreement of the bits of the region with a mirrored pattern is more than
-/// `tuning::turns::kMirrored_4ths` / 4 times their agreement with the upright pattern. In a
+/// Returns true if the region seems to be mirrored: its agreement with a mirrored pattern is more
+/// than `tuning::turns::kMirrored_4ths` / 4 times its agreement with the upright pattern. In a
 /// mirrored pattern, columns contain y bits and rows contain x bits. `agreement` is the region's
 /// `Orientation::agreement`.
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);

@@ -22,8 +22,8 @@ Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> s
 Status decode_all(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                   Decoding& decoding);
 
-/// Variant of `decode_all` that takes bounded time, for devices. A position that takes longer to
-/// find is rarely certain. Errors: grid_too_small, not_in_code.
+/// Bounded-time variant of `decode_all`, for devices. Few fixes are lost, because positions that
+/// take longer to find are rarely certain. Errors: grid_too_small, not_in_code.
 Status decode_briefly(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                       Decoding& decoding);
 

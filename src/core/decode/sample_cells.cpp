@@ -21,12 +21,12 @@ FixedVec place_60th(Symbol symbol) {
     return {10 * dx(symbol), 10 * dy(symbol)};
 }
 
-/// Measurements at one of the four places of a cell.
+/// Measurements at one of the four dot positions of a cell.
 struct PlaceView {
     bool is_seen = false;
-    int darkness_q8 = 0;  ///< darkness relative to the paper level, in 1/256
-    /// Mean darkness of a square around the place, relative to the paper level, in 1/256. The
-    /// square is 2/5 of a spacing wide.
+    int darkness_q8 = 0;  ///< darkness relative to the paper level, in units of 1/256
+    /// Mean darkness of a square around the dot position, relative to the paper level, in units of
+    /// 1/256. The square is 2/5 of a spacing wide.
     int shade_q8 = 0;
 };
 
@@ -34,7 +34,7 @@ struct CellView {
     FixedVec centre_q8;               ///< image point of the intersection, in 2^-8 px
     FixedVec u_q8;                    ///< step to the next column, in 2^-8 px
     FixedVec v_q8;                    ///< step to the next row, in 2^-8 px
-    int half_px = 0;                  ///< half side of the `shade_q8` square, in px
+    int half_px = 0;                  ///< half-width of the `shade_q8` square, in px
     std::array<PlaceView, 4> places;  ///< indexed by Symbol
 
     CellView(const ImageView& image, FixedVec centre, FixedVec right, FixedVec below)
@@ -60,28 +60,29 @@ class CellSampler {
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Calls `use(cell, view)` for each cell that has at least one place in the image. The places
-    /// of `view` are not sampled yet.
+    /// Calls `use(cell, view)` for each cell that has at least one dot position in the image. The
+    /// dot positions of `view` have not been sampled yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
-    /// Sets `half_px`, and the darkness and shade of each place in the image.
+    /// Sets `half_px`, and the darkness and shade of each dot position in the image.
     void sample(CellView& view) const;
-    /// Returns the paper level at the cell divided by the paper level at the image centre, in
-    /// 1/256.
+    /// Returns the paper level at the cell divided by the paper level at the image centre, in units
+    /// of 1/256.
     int light_q8(const CellView& view) const;
-    /// Returns the maximum shade of eight squares around each place. Their centres are about 2/15
-    /// of a spacing from the place. The result is 0 for places outside the image.
+    /// Returns, for each dot position, the maximum shade of the eight squares around it. The centre
+    /// of each square is about 2/15 of a spacing from the dot position. The result is 0 for dot
+    /// positions outside the image.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
     FixedVec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
-    /// Returns the mean darkness of a square, relative to the paper level, in 1/256. Subsamples
-    /// large squares.
+    /// Returns the mean darkness of a square, relative to the paper level, in units of 1/256.
+    /// Subsamples large squares.
     int shade_q8(FixedVec centre_q8, int half_px) const;
-    /// Returns the mean darkness of a square relative to the paper level, in 1/256. `sum` is the
-    /// sum of the grey levels of `pixels` pixels. Returns 0 if `pixels` is 0.
+    /// Returns the mean darkness of a square relative to the paper level, in units of 1/256. `sum`
+    /// is the sum of the grey levels of `pixels` pixels. Returns 0 if `pixels` is 0.
     int darkness_q8(FixedVec centre_q8, int sum, int pixels) const;
     template <typename Shade>
     static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
@@ -172,9 +173,10 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // Maximum distance between the cell centre and a pixel of a square, along an image axis. The
-    // offsets of the square along the two grid axes add up to at most a third of a spacing, so a
-    // third of the largest component of `u_q8` and `v_q8` is enough.
+    // Maximum distance along an image axis from the intersection to a pixel of any square. The
+    // offsets of a square's centre along the two grid axes add up to at most a third of a spacing.
+    // The centre is therefore no farther away than a third of the largest component of `u_q8` and
+    // `v_q8`.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -195,8 +197,9 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns the median darkness and the median shade of a dot, each at least 1. Uses the darkest
-/// places of up to kMedianSample cells that are completely in the image.
+/// Returns the median darkness and the median shade of a dot, each at least 1. Samples up to
+/// kMedianSample cells that are completely in the image, and uses the darkest dot position of each
+/// cell.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -217,28 +220,29 @@ PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
             std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
 }
 
-/// Converts the darkness at the four places of a cell to bit weights.
+/// Converts the darkness at the four dot positions of a cell to bit weights.
 class Ink {
   public:
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // A place is considered to be under graphics if its shade, or the shade beside it, exceeds
-        // this value. The value is the geometric mean of the shades of a typical dot and of solid
-        // ink.
+        // A dot position is considered to be under graphics if its shade, or the shade beside it,
+        // exceeds this value. The value is the geometric mean of the shades of a typical dot and of
+        // solid ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness at the four places of a cell. `reliability_q4` is a factor for the cell's bit
-    /// weights, in 1/16. `light_q8` is the result of `CellSampler::light_q8`, at most kMaxLight_q8.
+    /// Darkness at the four dot positions of a cell. `reliability_q4` is a factor for the cell's
+    /// bit weights, in units of 1/16. `light_q8` is the result of `CellSampler::light_q8`, clamped
+    /// to kMaxLight_q8.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;
         int light_q8 = 256;
     };
-    /// Returns the sample of a cell. If graphics cover some of its dot places, records the covered
-    /// places in `cell`.
+    /// Returns the sample of a cell. If graphics cover some of its dot positions, records the
+    /// covered positions in `cell`.
     Sample sample(const CellView& view, GridCell& cell) const {
         Sample sample;
         unsigned hidden = 0;
@@ -247,8 +251,8 @@ class Ink {
         const std::array<int, 4> darkest_around_q8 = sampler_.darkest_around_q8(view);
         for (std::size_t i = 0; i < view.places.size(); ++i) {
             const PlaceView& place = view.places[i];
-            // A place outside the image or under graphics is treated as half a dot, which favours
-            // neither bit value.
+            // A dot position outside the image or under graphics gets half the darkness of a
+            // typical dot, which favours neither bit value.
             sample.darkness_q8[i] = contrast_q8_ / 2;
             if (!place.is_seen) continue;
             const int around_q8 = darkest_around_q8[i];
@@ -276,7 +280,7 @@ class Ink {
         return sample;
     }
 
-    /// Returns true if two places of the cell look like dots.
+    /// Returns true if the cell seems to contain two dots.
     bool is_crowded(const Sample& sample) const {
         std::array<int, 4> sorted = sample.darkness_q8;
         std::sort(sorted.begin(), sorted.end());
@@ -284,8 +288,9 @@ class Ink {
                4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
-    /// Returns the weight of a bit, in [-127, 127]. The bit is 1 at two of the four places, and 0
-    /// at the other two. `one_q8` and `zero_q8` are the darkness of the darker place of each pair.
+    /// Returns the weight of a bit, in [-127, 127]. The bit is 1 at two of the four dot positions,
+    /// and 0 at the other two. `one_q8` and `zero_q8` are the darkness of the darker position of
+    /// each pair.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
         // The weight is proportional to the log-likelihood ratio of the bit. With constant sensor
         // noise, this ratio is proportional to the level difference times the contrast. Both are
@@ -302,13 +307,13 @@ class Ink {
 
   private:
     const CellSampler& sampler_;
-    int contrast_q8_ = 1;  ///< darkness of a typical dot relative to the paper level, in 1/256
-    /// Shade above which graphics are assumed to cover a place, in 1/256.
+    int contrast_q8_ = 1;  ///< darkness of a typical dot relative to paper, in units of 1/256
+    /// Shade above which graphics are assumed to cover a dot position, in units of 1/256.
     int graphics_q8_ = 0;
 };
 
-/// Clears the grid and extends it over the whole image. The extent is computed from the cells at 5
-/// x 5 evenly spaced points, which include the image corners.
+/// Clears the grid and extends it over the whole image. The extent is computed from the cells at an
+/// evenly spaced array of 5 x 5 points, which includes the image corners.
 void cover_image(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};

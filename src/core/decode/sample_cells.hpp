@@ -12,10 +12,10 @@
 namespace dotpose::core {
 
 /// Extends the grid over the whole image, up to `grid.side` cells per axis, and sets all bit
-/// weights. Places outside the image or under graphics favour neither bit value. Marks cells with
-/// places under graphics as hidden. Reduces the weights at the image border, near graphics and in
-/// dirty cells. Returns false if more than 3/8 of the completely visible cells seem to contain two
-/// dots, because the image then probably shows two patterns.
+/// weights. Dot positions outside the image or under graphics favour neither bit value. Marks cells
+/// with dot positions under graphics as hidden. Reduces the weights at the image border, near
+/// graphics and in dirty cells. Returns false if more than 3/8 of the completely visible cells seem
+/// to contain two dots, because the image then probably shows two patterns.
 bool sample_cells(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
                   const PlaneFromImage& grid_from_image, Grid& grid);
 

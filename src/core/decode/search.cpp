@@ -71,7 +71,7 @@ AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32
 using Run = std::array<Choices, kMaxRunLength>;
 
 /// Chooses the number of rolls to try for each line of a run. Repeatedly adds the roll with the
-/// smallest loss, as long as the number of combinations is at most `max_readings`.
+/// smallest loss among those that keep the number of combinations within `max_readings`.
 std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);

@@ -25,8 +25,8 @@ AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll,
 Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best);
 
 /// Variant of `find_axis` for first attempts and devices. Tries only a few runs, with a few
-/// readings each, and does not call `search_by_steps`. A position that takes longer to find is
-/// rarely certain.
+/// readings each, and does not call `search_by_steps`. Few fixes are lost, because positions that
+/// take longer to find are rarely certain.
 Status find_axis_briefly(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

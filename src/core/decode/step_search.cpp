@@ -14,8 +14,8 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// For each secondary sequence and digit, the score that is lost if the step has this digit: the
-/// highest score over all step sizes minus the highest score over the step sizes with this digit.
+/// Losses of a step, indexed by secondary sequence and digit. A loss is the highest score over all
+/// step sizes, minus the highest score over the step sizes with this digit.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
 /// Returns the highest total score of two adjacent lines whose rolls differ by `step`.

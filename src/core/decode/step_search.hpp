@@ -8,9 +8,10 @@
 namespace dotpose::core {
 
 /// Searches by steps, and replaces `best` if a position has a higher score. For each secondary
-/// sequence, finds the places whose digits agree best with all steps, and then evaluates all
-/// combinations of these places. Unlike a search by runs of lines (decode/search), this search also
-/// finds positions in frames where every sixth line is hidden, or where no line has a clear roll.
+/// sequence, finds the starting indices at which its digits agree best with all steps. Then
+/// evaluates all combinations of these indices. Unlike a search by runs of lines (decode/search),
+/// this search also finds positions in frames where every sixth line is hidden, or where no line
+/// has a clear roll.
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -14,56 +14,59 @@
 
 namespace dotpose::core::tuning {
 
-/// Bit weights, computed from the darkness at the four places of a cell (decode/sample_cells).
+/// Bit weights, computed from the darkness at the four dot positions of a cell
+/// (decode/sample_cells).
 namespace sample_cells {
-/// Maximum number of cells in the sample for the median darkness and the median shade of a dot. The
+/// Maximum number of cells that are sampled to find the median darkness and shade of a dot. The
 /// medians hardly change if graphics cover a quarter of the cells.
 inline constexpr std::size_t kMedianSample = 256;
-/// Ratio of the spacing to half the side of the square around a place. The mean darkness of this
-/// square is the *shade* of the place. The square is wider than a dot, but does not reach the dots
-/// of neighbouring cells.
+/// The *shade* of a dot position is the mean darkness of a square around it. The half-width of this
+/// square is 1/kShadePart of the spacing. The square is wider than a dot, but does not reach the
+/// dots of neighbouring cells.
 inline constexpr int kShadePart = 5;
-/// Offsets from a place to the eight squares that are tested for graphics, in 1/60 spacing. Four
-/// squares are offset along one axis, and four squares are offset diagonally. Together, they detect
-/// any stroke that touches the dot.
+/// Offsets from a dot position to the eight squares that are tested for graphics, in units of 1/60
+/// of the spacing. Four squares are offset along one axis, and four squares are offset diagonally.
+/// Together, they detect any stroke that touches the dot.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
-/// Darkness of solid ink relative to the paper level, in 1/256. A place is considered to be under
-/// graphics if its shade, or the shade beside it, exceeds the geometric mean of this value and the
-/// shade of a typical dot. If this value is halved or doubled, only 1,992 frames are located.
+/// Darkness of solid ink relative to the paper level, in units of 1/256. A dot position is
+/// considered to be under graphics if its shade, or the shade beside it, exceeds the geometric mean
+/// of this value and the shade of a typical dot. If this value is halved or doubled, only 1,992
+/// frames are located.
 inline constexpr int kSolidInk_q8 = 230;
-/// Reliability of the bits in a cell: a factor for their weights, in 1/16. The index is the number
-/// of places of the cell that are in the image.
+/// Reliability of the bits in a cell: a factor for their weights, in units of 1/16. The index is
+/// the number of dot positions of the cell that are in the image.
 inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
-/// Reliability of a cell with a place under graphics, in 1/16.
+/// Reliability of a cell that has a dot position under graphics, in units of 1/16.
 inline constexpr int kReliabilityCovered_q4 = 10;
-/// A cell is near graphics if the shade beside one of its places exceeds kNearGraphics_5ths / 5 of
-/// the shade above which a place is considered to be under graphics.
+/// A cell is near graphics if the shade beside one of its dot positions exceeds
+/// kNearGraphics_5ths / 5 of the limit above which a dot position is considered to be under
+/// graphics.
 inline constexpr int kNearGraphics_5ths = 3;
-/// Reliability of a cell near graphics, in 1/16. The number of located frames is 1,993 with a value
-/// of 3, and 1,994 with a value of 14.
+/// Reliability of a cell near graphics, in units of 1/16. The number of located frames is 1,993
+/// with a value of 3, and 1,994 with a value of 14.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
-/// If the darkest place of a cell is darker than this, it may be dirt. The unit is a tenth of the
-/// darkness of a typical dot.
+/// If the darkest dot position of a cell is darker than this, it may be dirt. The unit is a tenth
+/// of the darkness of a typical dot.
 inline constexpr int kDark_10ths = 13;
-/// Reliability of a cell whose darkest place may be dirt, in 1/16.
+/// Reliability of a cell whose darkest dot position may be dirt, in units of 1/16.
 inline constexpr int kReliabilityDark_q4 = 12;
-/// If the darkest place of a cell is darker than this, it is probably dirt. The unit is a tenth of
-/// the darkness of a typical dot.
+/// If the darkest dot position of a cell is darker than this, it is probably dirt. The unit is a
+/// tenth of the darkness of a typical dot.
 inline constexpr int kTooDark_10ths = 16;
-/// Reliability of a cell whose darkest place is probably dirt, in 1/16.
+/// Reliability of a cell whose darkest dot position is probably dirt, in units of 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Bit weight per unit of contrast, before clamping to 127. The contrast of a bit is the difference
-/// in darkness between the places for its two values, relative to a typical dot. A contrast of 0.42
-/// is enough for the maximum weight. The number of located frames is 1,994 with a value of 150, and
-/// 1,992 with a value of 600.
+/// in darkness between the dot positions for bit values 1 and 0, relative to a typical dot. A
+/// contrast of 0.42 is enough for the maximum weight. The number of located frames is 1,994 with a
+/// value of 150, and 1,992 with a value of 600.
 inline constexpr int kGain = 300;
-/// Maximum ratio of the paper level at a cell to the paper level at the image centre, in 1/256.
-/// Larger ratios are clamped to this value.
+/// Maximum ratio of the paper level at a cell to the paper level at the image centre, in units of
+/// 1/256. Larger ratios are clamped to this value.
 inline constexpr int kMaxLight_q8 = 1024;
 /// Limits of the test for two patterns in one image. A cell is considered to have two dots if the
-/// darkness of its second darkest place exceeds both kSecondDot_3rds / 3 of the darkness of a
-/// typical dot and kSecondDot_4ths / 4 of the darkness of its darkest place. The image is
+/// darkness of its second darkest dot position exceeds both kSecondDot_3rds / 3 of the darkness of
+/// a typical dot and kSecondDot_4ths / 4 of the darkness of its darkest dot position. The image is
 /// considered to show two patterns if more than kMaxCrowded_8ths / 8 of the completely visible
 /// cells have two dots. In hard frames, at most a quarter of these cells had two dots.
 inline constexpr int kSecondDot_3rds = 2;
@@ -89,8 +92,8 @@ inline constexpr int kReadingsBriefly = 8;
 
 /// Search by steps between adjacent lines (decode/step_search).
 namespace step_search {
-/// Number of places kept for each secondary sequence. All combinations of these places are
-/// evaluated.
+/// Number of starting indices kept for each secondary sequence. All combinations of these indices
+/// are evaluated.
 inline constexpr std::size_t kChoices = 3;
 }  // namespace step_search
 

@@ -10,8 +10,8 @@ namespace dotpose::core {
 /// all columns (or rows).
 GridRegion choose_window(const Grid& grid, int side);
 
-/// Returns the mean quality of the cells in a region, in 1/256 of the maximum quality. The result
-/// is 256 if every cell has a dot exactly at one of its four places.
+/// Returns the mean quality of the cells in a region, in units of 1/256 of the maximum quality. The
+/// result is 256 if every cell has a dot exactly at one of its four dot positions.
 int mean_quality_q8(const Grid& grid, const GridRegion& region);
 
 }  // namespace dotpose::core

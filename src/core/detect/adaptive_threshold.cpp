@@ -104,9 +104,9 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
 /// 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
-/// Adds the contrasts of all tiles with at least `min_contrast` to the histogram, and returns the
-/// number of these tiles. Sets the mean of all other tiles, which are blank, to 0. Updates
-/// `max_contrast`.
+/// Adds each tile whose contrast is at least `min_contrast` grey levels to the histogram, and
+/// returns the number of these tiles. All other tiles are blank, and their means are set to 0.
+/// Updates `max_contrast`.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, int& max_contrast, Histogram& histogram) {
     int blank = 0;
@@ -129,10 +129,10 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
     return static_cast<int>(tiles) - blank;
 }
 
-/// Returns the typical contrast of dots in a band relative to the paper level, in 1/256, or 0 if no
-/// tile has contrast. The relative contrast does not depend on the illumination, because ink
-/// reflects the same fraction of the light everywhere. The 30 % quantile over the tiles is typical
-/// of dots even if graphics, which have more contrast, cross the band.
+/// Returns the typical contrast of dots in a band relative to the paper level, in units of 1/256,
+/// or 0 if no tile has contrast. The relative contrast does not depend on the illumination, because
+/// ink reflects the same fraction of the light everywhere. The 30 % quantile over the tiles is
+/// typical of dots even if graphics, which have more contrast, cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -168,8 +168,9 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
 }  // namespace
 
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold) {
-    // The minimum contrast is the largest contrast so far divided by this number. A smaller divisor
-    // would reject more noise, but it would also reject pale dots in uneven light.
+    // Before clamping, the minimum contrast is the largest contrast so far divided by this number.
+    // A smaller divisor would reject more noise, but it would also reject pale dots in uneven
+    // light.
     constexpr int kContrastPart = 6;
     return std::clamp(threshold.max_contrast / kContrastPart, options.min_contrast,
                       2 * options.min_contrast);
@@ -208,7 +209,7 @@ void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
     // Takes the maximum darkness over each tile and its two neighbours, because a tile may contain
-    // no dot if the dot spacing exceeds the tile width. The paper level needs no such maximum,
+    // no dot if the dot spacing exceeds the tile width. This is not necessary for the paper level,
     // because every tile contains paper.
     join_neighbours(darknesses, tiles);
     // If the last tile is mostly padding, raises its paper level to at least that of the preceding

@@ -1,5 +1,6 @@
-// Adaptive threshold: computes two thresholds for each column from the paper level of image tiles
-// and the contrast of their dots. This is the first half of thresholding (paper, section II-B.1).
+// Adaptive threshold: divides the image into tiles, and computes two thresholds for each tile from
+// the paper level and the dot contrast. This is the first half of thresholding (paper, section
+// II-B.1).
 // Unlike the paper, this stage does not use one global threshold, because LEDs next to a wide-angle
 // lens light the sheet unevenly.
 #pragma once
@@ -13,9 +14,10 @@
 
 namespace dotpose::core {
 
-/// Size of a tile. In each direction, three adjacent tiles must always include part of a dot if at
-/// least 8 dots are in view along the shorter image side. Tiles are therefore kLowTile_px high if
-/// this side is at most kMaxSideWithLowTiles_px, and kHighTile_px high otherwise.
+/// Size of a tile. Tiles are kLowTile_px high if the shorter image side is at most
+/// kMaxSideWithLowTiles_px, and kHighTile_px high otherwise. Any three adjacent tiles in a row or
+/// column then include part of a dot, provided that at least 8 dots are in view along the shorter
+/// side.
 inline constexpr int kTileWidth_px = 16;
 inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;
@@ -55,8 +57,9 @@ struct AdaptiveThreshold {
 
 void begin_threshold(int width_px, int height_px, AdaptiveThreshold& threshold);
 
-/// Stores the next row, and measures the tiles of a band after its last row. Returns the number of
-/// bands that are now ready for `measure_levels`: 0 or 1, or up to 2 after the last image row.
+/// Stores the next row. If it is the last row of a band, also measures the tiles of this band.
+/// Returns the number of bands that have become ready for `measure_levels`. This is 0 or 1, except
+/// after the last image row, when it may be 2.
 int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 
 /// Sets the thresholds of one band, from the tiles of this band and of the neighbouring bands. Must
@@ -72,7 +75,7 @@ int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& 
 inline int band_count(const AdaptiveThreshold& threshold) {
     return (threshold.height_px + threshold.band_px - 1) >> threshold.band_shift;
 }
-/// Returns the first row of a band. `band_end` is exclusive.
+/// Returns the first row of a band. `band_end` returns the row after its last row.
 inline int band_begin(const AdaptiveThreshold& threshold, int band) {
     return band * threshold.band_px;
 }

@@ -69,8 +69,8 @@ std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
 }
 
 /// Returns true if a blob is small, is not at the image border, and has a pixel darker than the
-/// high threshold. The lower border needs no test, because only blobs that do not continue in the
-/// next row are tested, and the last row has no next row.
+/// high threshold. The lower border needs no test: a blob is closed only after the next row has
+/// been read, so a blob that reaches the last image row is never closed.
 bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
     return blob.passes_high && blob.area_px <= kMaxDotArea_px && blob.first_v > 0 &&
            blob.left > 0 && blob.right < threshold.width_px &&

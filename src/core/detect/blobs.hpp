@@ -32,7 +32,7 @@ struct OpenBlob {
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
 };
 
-/// The blobs that reach the newest row, and the runs of this row.
+/// The blobs that reach the newest row, and the runs of the two newest rows.
 struct OpenBlobs {
     /// Runs of the newest row and the row above. Each half of the span contains one row, followed
     /// by a sentinel run.
@@ -50,7 +50,7 @@ struct OpenBlobs {
 struct DotList {
     std::span<DetectedDot> dots;
     int& count;
-    int& kept_within_px;  ///< maximum distance of stored dots from the image centre, per axis
+    int& kept_within_px;  ///< maximum distance of dots from the image centre, along each axis
 };
 
 /// Starts a new frame. Discards all blobs and dots.

@@ -12,8 +12,8 @@ constexpr std::uint32_t inverse_q22(std::uint32_t n) {
     return (1U << 22) / (n + 1);
 }
 
-/// Divides sums by a mass from 16 to 2^16. The relative error of the inverse of the mass is at most
-/// 1 %.
+/// Divides sums by a mass between 16 and 2^16. The inverse of the mass has a relative error of at
+/// most 1 %.
 class Inverse {
   public:
     explicit Inverse(std::int32_t mass) {

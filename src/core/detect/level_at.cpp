@@ -12,8 +12,8 @@ namespace {
 /// Number of pixels per axis that contribute to the level at a point.
 constexpr int kTaps = 4;
 
-/// Returns the weights of a 1-2-1 binomial filter with a sub-pixel shift, in 1/1024. A wider filter
-/// would include more of a blurred dot, but also more of its surroundings.
+/// Returns the weights of a 1-2-1 binomial filter with a sub-pixel shift, in units of 1/1024. A
+/// wider filter would include more of a blurred dot, but also more of its surroundings.
 std::array<int, kTaps> taps(std::int32_t position_q8) {
     constexpr std::array<int, kTaps + 1> kBinomial{0, 1, 2, 1, 0};
     const int fraction = position_q8 & 255;

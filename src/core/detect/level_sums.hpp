@@ -53,7 +53,7 @@ class LevelSums {
             }
         }
     }
-    /// Returns the grey level sum of a non-empty box within the area of the table.
+    /// Returns the sum of the grey levels in a non-empty box within the area of the table.
     int of(const PixelBox& box) const {
         return static_cast<int>(at(box.right + 1, box.bottom + 1) - at(box.left, box.bottom + 1) -
                                 at(box.right + 1, box.top) + at(box.left, box.top));

@@ -35,7 +35,7 @@ std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
     return static_cast<std::uint8_t>(level);
 }
 
-/// Calls `use` with the paper levels of a block and its adjacent blocks.
+/// Calls `use` with the paper level of a block and of each adjacent block.
 template <typename Use>
 void visit_around(const PaperMap& map, int column, int row, Use use) {
     for (int r = std::max(row - 1, 0); r <= std::min(row + 1, map.rows - 1); ++r) {

@@ -1,4 +1,5 @@
-// Paper: the grey level of the paper across the image, even under dots and graphics.
+// Paper: estimates the grey level of the paper in each part of the image, even under dots and
+// graphics.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +34,7 @@ inline std::size_t block_at(const PaperMap& map, int u, int v) {
     return static_cast<std::size_t>(row * map.columns + column);
 }
 
-/// Returns the maximum paper level over the block at a pixel and the blocks adjacent to it.
+/// Returns the highest paper level of the block at a pixel and its adjacent blocks.
 inline int brightest_paper_near(const PaperMap& map, int u, int v) {
     return map.brightest[block_at(map, u, v)];
 }

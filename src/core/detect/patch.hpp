@@ -16,10 +16,9 @@ namespace dotpose::core {
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 
-/// Selects one tile of a patch. The darkness of this tile is used as the dot contrast of the whole
-/// patch.
+/// Selects the tile whose darkness is used as the dot contrast of the whole patch.
 enum class DotTiles : std::uint8_t {
-    median,  ///< the tile of median darkness among the tiles with contrast
+    median,  ///< the tile with the median darkness among all tiles with contrast
     /// A pale tile, for patches in which most tiles contain graphics. Blurred dots are paler than
     /// graphics of the same ink.
     pale,
@@ -31,11 +30,12 @@ enum class DotTiles : std::uint8_t {
 bool measure_contrast(Patch& patch, DotTiles tiles = DotTiles::median);
 
 /// Removes minima that are not dots: minima on plateaus, minima in tiles without contrast, and
-/// minima with dark surroundings in more than two of eight directions. For example, minima on a
-/// dark table beyond the sheet have dark surroundings.
+/// minima that are surrounded by dark pixels in more than two of eight directions, for example on a
+/// dark table beyond the sheet.
 void keep_isolated(Patch& patch);
 
-/// Return the middle of the patch, in image pixels.
+/// Returns the u coordinate of the patch middle, in image pixels. `middle_v_px` returns the v
+/// coordinate.
 float middle_u_px(const Patch& patch);
 float middle_v_px(const Patch& patch);
 

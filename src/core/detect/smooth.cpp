@@ -70,9 +70,9 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
     }
 }
 
-/// Returns half the side of the window over which the local mean level is computed, along one axis.
-/// The window is smaller near the image border, because only a window that is centred on the pixel
-/// cancels light gradients. The result is at least kMinHalf_px.
+/// Returns the half-width of the window over which the local mean level is computed, along one
+/// axis. The window is smaller near the image border, because only a window that is centred on the
+/// pixel cancels light gradients. The result is at least kMinHalf_px.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }
@@ -127,8 +127,8 @@ class Divider {
     std::uint64_t factor_ = 0;
 };
 
-/// Returns kNormalLevel / mean in units of 2^-24, rounded up. Rounding adds less than 2^-16 to the
-/// product with a pixel. The result for a mean of 0 is never used.
+/// Returns kNormalLevel / mean in units of 2^-24, rounded up. The product with a grey level is
+/// therefore too large by less than 2^-16. The result for a mean of 0 is never used.
 constexpr std::uint32_t normalising_factor_q24(std::uint32_t mean) {
     return mean == 0 ? 0 : ((std::uint32_t{kNormalLevel} << 24) - 1) / mean + 1;
 }

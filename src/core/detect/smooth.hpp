@@ -14,7 +14,7 @@ namespace dotpose::core {
 
 /// State of the filter: the rows and sums for the next filtered row.
 struct Smoothing {
-    std::span<std::uint16_t> lines;  ///< the five newest rows, filtered along the row
+    std::span<std::uint16_t> lines;  ///< the five newest rows, filtered horizontally
     std::span<std::uint8_t> row;
     int lines_ready = 0;
     int rows_given = 0;

@@ -12,7 +12,7 @@ struct LevelRange {
     int high = 0;
 };
 
-/// Returns the range of a pixel's eight neighbours. The pixel must not be on the border.
+/// Returns the grey level range of a pixel's eight neighbours. The pixel must not be on the border.
 inline LevelRange range_around(const ImageView& image, int u, int v) {
     LevelRange range;
     for (int dv = -1; dv <= 1; ++dv) {

@@ -60,7 +60,7 @@ constexpr Word excess_of_pairs(Word a, Word b) {
     return difference & (is_positive - (is_positive >> 15));
 }
 
-/// Returns the minimum of all fields, without their top bits. All top bits must be set.
+/// Returns the minimum over all fields, without the top bit. All top bits must be set.
 constexpr std::uint32_t min_of_pairs(Word pairs) {
     for (std::size_t shift = 4 * sizeof pairs; shift >= 16; shift /= 2)
         pairs -= excess_of_pairs(pairs, pairs >> shift & ~kPairTops);

@@ -11,15 +11,16 @@ namespace dotpose::core::tuning {
 
 /// Paper level of image blocks (detect/paper).
 namespace paper {
-/// Shorter image side divided by the side of a block. A block contains enough paper if at least 8
-/// dots are in view along the shorter side. A larger block would not follow light gradients.
+/// Ratio of the shorter image side to the side of a block. A block contains enough paper if at
+/// least 8 dots are in view along the shorter image side. Larger blocks would not follow light
+/// gradients.
 inline constexpr int kBlockPart = 10;
 /// Number of pixels sampled along each block side.
 inline constexpr int kSamplesPerSide = 12;
 /// Maximum fraction of a block's pixels that are darker than its paper level, in thirds. Dots cover
 /// a much smaller fraction.
 inline constexpr int kDarker_3rds = 2;
-/// Minimum level of a block, in fourths of the level of its brightest neighbour. A darker block is
+/// Minimum level of a block, in quarters of the level of its brightest neighbour. A darker block is
 /// assumed to be under graphics, and its level is replaced with the level of the neighbour. Light
 /// gradients cause smaller differences between neighbouring blocks.
 inline constexpr int kCovered_4ths = 3;
@@ -27,16 +28,16 @@ inline constexpr int kCovered_4ths = 3;
 
 /// Light normalisation in the second attempt (detect/smooth).
 namespace smooth {
-/// Minimum half side of the averaging window, in px. This is about half the width of a dot. The
+/// Minimum half-width of the averaging window, in px. This is about half the width of a dot. The
 /// window shrinks to this size at the image border.
 inline constexpr int kMinHalf_px = 4;
-/// Maximum level of a stroke, in tenths of the brightest paper level nearby. In the local mean,
-/// darker pixels are replaced with the paper level, because this mean represents the illumination
-/// and must not depend on graphics. With 4 or 9, 1,995 frames are located.
+/// Level below which a pixel is assumed to be part of text or graphics, in tenths of the brightest
+/// paper level nearby. In the local mean, such pixels are replaced with the paper level, because
+/// this mean represents the illumination. With a value of 4 or 9, 1,995 frames are located.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are clamped to this
 /// level, so they are not darker than a weak dot. Otherwise, the required contrast near dark
-/// graphics would exceed the contrast of dots. With 2, only 1,937 frames are located.
+/// graphics would exceed the contrast of dots. With a value of 2, only 1,937 frames are located.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
 
@@ -45,20 +46,20 @@ namespace patch {
 /// A patch is small if its shorter side is below this limit, in patch pixels.
 inline constexpr int kSmall_px = 48;
 /// A tile has contrast if its darkest smoothed pixel is at least kMinDarkness grey levels darker
-/// than the paper. At least kMinTiles tiles of a patch must have contrast. In a small patch, which
-/// has fewer tiles, half of them are enough.
+/// than the paper. At least kMinTiles tiles of a patch must have contrast. In a small patch, it is
+/// enough if half the tiles have contrast.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
-/// Parameters of `DotTiles::pale`. The dot contrast is the 1/kPaleParts quantile of the darkness of
+/// Parameters of `DotTiles::pale`. The dot contrast is the 1/kPaleParts quantile of darkness over
 /// the tiles with contrast. It must be at most kMaxPale times the median darkness.
 inline constexpr int kPaleParts = 6;
 inline constexpr float kMaxPale = 0.75F;
-/// Minimum darkness of a dot, in 1/256 of the darkness of a typical dot. Lighter minima are treated
-/// as noise.
+/// Minimum darkness of a dot, in units of 1/256 of the darkness of a typical dot. Lighter minima
+/// are treated as noise.
 inline constexpr int kThreshold_q8 = 150;
-/// Distances of the points that are tested around a minimum, along the axes and diagonally, in
-/// patch pixels. At most kMaxDark of the eight directions may be dark. The limit is not 0, because
-/// neighbouring dots may be in some of the directions.
+/// Offsets of the eight points that are tested around a minimum, in patch pixels: kAway_px along
+/// one axis, or kDiagonally_px along both axes. At most kMaxDark of these points may be dark. The
+/// limit is not 0, because some of the points may be on neighbouring dots.
 inline constexpr int kAway_px = 4;
 inline constexpr int kDiagonally_px = 3;
 inline constexpr int kMaxDark = 2;

@@ -1,5 +1,5 @@
-// Words: adjacent pixels in one register, for operations on all of them in parallel. The first
-// pixel is in the lowest byte.
+// Words: loads adjacent pixels into one register, to process them in parallel. The first pixel is
+// in the lowest byte.
 #pragma once
 
 #include <bit>

@@ -36,7 +36,7 @@ class PlaneNormal : public NormalEquations<kPoseParameters> {
     explicit PlaneNormal(const FitSums& sums);
 
     /// Decomposes the matrix. Returns false if the points do not determine position, scale and
-    /// rotation. Excludes any other parameter that they do not determine.
+    /// rotation. Excludes any other parameter that the points do not determine.
     bool decompose() {
         constexpr float kDetermined = 1e-4F;
         return NormalEquations::decompose(kDetermined, kTilt);

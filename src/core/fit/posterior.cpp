@@ -14,9 +14,9 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Returns L^T L / `variance` for the given terms, where L is the factor in `normal`. This is the
-/// covariance of the whitened terms, in units of the noise variance, if the terms themselves are
-/// independent and have a variance of 1.
+/// Returns L^T L / `variance` for the given terms, where L is the factor in `normal`. If the terms
+/// are independent and have a variance of 1, this is the covariance of the whitened terms, in units
+/// of the noise variance.
 Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
@@ -29,8 +29,8 @@ Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, flo
 
 /// Posterior for one component of the prior.
 struct PosteriorOfKind {
-    /// Inverse of the covariance of the fitted terms (prior plus noise), in units of the inverse
-    /// noise variance.
+    /// Inverse covariance of the whitened fitted terms, times the noise variance. The covariance is
+    /// the sum of the prior covariance and the noise covariance.
     Symmetric precision;
     Pair mean;
     float distance;  ///< squared Mahalanobis distance of the fitted terms from 0

@@ -26,27 +26,30 @@ struct FourVecs {
 };
 
 /// Returns the derivatives of the pattern coordinates x and y with respect to all parameters, at
-/// element `point` of `places`. Each derivative is a polynomial in the coordinates (u, v) of this
-/// point. For perspective, for example, the derivatives of (x, y) with respect to the two
-/// parameters are u (u, v) and v (u, v). For lens distortion, the derivative is (u^2 + v^2) (u, v).
+/// the scaled point with index `point` in `places` (see ScaledPlane). Each derivative is a
+/// polynomial in the coordinates (u, v) of this point. For example, the derivatives of (x, y) with
+/// respect to the perspective parameters are u (u, v) and v (u, v), and the derivative with respect
+/// to lens distortion is (u^2 + v^2) (u, v).
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
 /// A plane whose parameters transform pattern coordinates, not image coordinates. Changes in scale,
-/// rotation, perspective and shear are therefore exact at any tilt. A *place* is a pattern point
-/// relative to the plane's `at`, in units of `scale()`. In these units, all derivatives have
+/// rotation, perspective and shear are therefore exact at any tilt. A *scaled point* is a pattern
+/// point relative to the plane's `at`, in units of `scale()`. In these units, all derivatives have
 /// similar magnitudes, so single precision is sufficient.
 class ScaledPlane {
   public:
     ScaledPlane(const FloatPlane& plane, float reach_px);
 
-    /// Maps four image points to places. The image points are in px relative to the plane centre.
+    /// Maps four image points to scaled points. The image points are in px relative to the plane
+    /// centre.
     FourVecs project(Four x_px, Four y_px) const;
 
     /// Returns the values of the perspective, shear and lens distortion parameters, and 0 for all
     /// other parameters. For a camera without distortion that looks straight at the sheet, all
     /// elements of the result are 0.
     Parameters distortions() const;
-    /// Returns the unit of places, in spacings: the pattern length that corresponds to `reach_px`.
+    /// Returns the unit of scaled points, in spacings: the pattern length that corresponds to
+    /// `reach_px`.
     float scale() const { return scale_; }
     /// Returns the plane after adding `by` to its parameters.
     FloatPlane changed(const Parameters& by) const;

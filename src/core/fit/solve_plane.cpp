@@ -18,9 +18,9 @@ constexpr std::array<DistortionPrior, 3> kTerms{{
     {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
 }};
 
-/// Shrinks the distortion terms of a step to their posterior means. Sets the covariance of `fit`.
-/// `whole` contains the whitened distortion terms that the plane would have after the step without
-/// shrinkage.
+/// Adjusts a whitened step so that the distortion terms of the plane become their posterior means.
+/// `whole` contains the whitened distortion terms after the original step. Sets the covariance of
+/// `fit`.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)

@@ -23,8 +23,8 @@ struct PoseFit {
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// Returns the plane in single precision, as the starting point of a step. The pattern point at its
-/// centre is set to 0, because a float cannot represent a large position accurately.
+/// Converts a plane to single precision, as the starting point of a step. The pattern point at the
+/// plane centre is set to 0, because a float cannot represent a large position accurately.
 ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px);
 /// Returns the plane after a step. `scaled` is the result of `scaled_from_centre(plane)`.
 PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,

@@ -1,6 +1,6 @@
 // Alternative sets: groups of far alternatives. A far alternative is a position whose places differ
-// from those of the reading in two or more secondary sequences. A step leads from one line to the
-// next. See docs/integrity.md, "Alternatives: odds".
+// from those of the reading in two or more secondary sequences. See docs/integrity.md,
+// "Alternatives: odds".
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace dotpose::core {
 /// Both values are log2 in units of 2^-8.
 struct AlternativeSet {
     int alternatives_q8 = 0;  ///< upper bound on the number of combinations of places
-    /// Probability that, in a given step, an alternative has the same digits as the reading in all
-    /// sequences of the set.
+    /// Probability that an alternative has the same digits as the reading in one step, in all
+    /// sequences of the set. A step leads from one line to the next.
     int equal_q8 = 0;
 };
 /// Sets of sequences in which the place of an alternative differs from the place of the reading:
@@ -26,8 +26,8 @@ struct AlternativeSet {
 /// only in the choice among these three sequences.
 inline constexpr std::array<AlternativeSet, 5> kAlternativeSets{
     {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
-/// log2 of the safety factor 1.03 for each step, in units of 2^-8, rounded up. The factor is
-/// necessary because digits are not uniformly distributed. See `kUnevenness` in
+/// log2 of the safety factor per step (1.03), in units of 2^-8, rounded up. The factor is necessary
+/// because digits are not uniformly distributed. See `kUnevenness` in
 /// kernels/loops/alternatives.inc.
 inline constexpr int kUnevenness_q8 = 11;
 

@@ -29,8 +29,8 @@ constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
 constexpr float kSingles = 741;
 
-/// Returns an upper bound on 2^(n_q8 / 256) that is about 2 % too large. Exponents below -100 count
-/// as -100.
+/// Returns an upper bound on 2^(n_q8 / 256) that is about 2 % too large. Clamps exponents to at
+/// least -100.
 constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
@@ -126,9 +126,8 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
 
 /// Returns an upper bound on the odds of the single alternatives that share a line. If the table
 /// bound of a sequence is at most `limit` / 12, uses this bound. Otherwise, lists the places in the
-/// sequence whose odds may exceed kSkippedOdds, adds the odds of these places, and adds
-/// kSkippedOdds for each other place and each line. Returns 1 if the list cannot be made (see
-/// `Kernels::list_similar_places`).
+/// sequence whose odds may exceed kSkippedOdds, and adds their odds. Every other place contributes
+/// kSkippedOdds once per line. Returns 1 if `Kernels::list_similar_places` returns false.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -150,8 +149,8 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 }
 
 /// Returns an upper bound on the summed odds of all alternatives except seam alternatives. If the
-/// bound already exceeds `limit` without the single alternatives that share a line, leaves out
-/// these alternatives, because the position is refused anyway.
+/// bound exceeds `limit` even without the single alternatives that share a line, leaves out these
+/// alternatives, because the caller rejects such a bound anyway.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     const float sum = far_alternatives(kernels, ratios) + sharing_none(ratios);
@@ -170,7 +169,7 @@ struct Query {
     int odds_per_bit_q8;
     int limit_log2;
     OtherCodes* others;  ///< odds of the other codes; null if not requested
-    WorkLimit* work;     ///< work that may still be done; null if it is not limited
+    WorkLimit* work;     ///< remaining work; null if unlimited
 };
 
 bool is_code_in_question(const Query& query) {
@@ -207,8 +206,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     if (chance > limit) return 1;
     const float codes = codes_in_question(query);
     const auto with = [&](float alternatives) { return chance + codes * alternatives; };
-    // Each axis may use half of the limit. If the bound exceeds this value, a tighter bound may
-    // still make the frame certain.
+    // Each axis may use half of the limit. Computes a tighter bound only if the previous bound
+    // exceeds this value.
     const float enough = limit / 2;
     float sum = with(alternatives(kernels, ratios, unshared, limit));
     if (sum > enough && !ratios.is_of_bits())
@@ -221,8 +220,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// In small views, the second bound is computed only if the first bound is below this value. The
-/// second bound is rarely much tighter than the first, so it is seldom sufficient otherwise.
+/// In small views, the quick bound is computed only if the first bound is below this value. If the
+/// first bound is larger, the quick bound seldom suffices, because it is rarely much tighter.
 constexpr float kMaxForQuickBound = 0x1p-20F;
 
 /// Returns an upper bound on the probability that the position in a small view is wrong along at
@@ -259,8 +258,8 @@ float small_view_wrong(const Kernels& kernels, const std::array<Confidence, 2>& 
 }
 
 /// Returns true if the bounds on the error probabilities of both axes add up to at most
-/// 2^limit_log2. Sets `fix.p_wrong_log2`, unless the bound of the x axis is 1 or more. On success,
-/// also sets the odds of the other codes, unless `Query::others` is null.
+/// 2^limit_log2. On success, sets `fix.p_wrong_log2` and, unless `Query::others` is null, the odds
+/// of the other codes. On failure, `fix.p_wrong_log2` may be set or left unchanged.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
                  Fix& fix) {

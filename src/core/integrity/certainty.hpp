@@ -22,7 +22,7 @@ namespace dotpose::core {
 /// The hard bits of one axis, near the middle of the view. Each hard bit has the full weight, 127.
 struct AxisBits {
     std::span<const ComparedLine> lines;
-    AxisReading reading;  ///< reading of the first line, at bit 0
+    AxisReading reading;  ///< reading at bit 0 of the first line
     /// Agreement of all bits of this axis with the code, including the bits outside the middle.
     Confidence confidence;
     std::span<const std::uint8_t> rolls;  ///< roll of each line
@@ -63,7 +63,8 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
 /// IntegrityOptions). Returns false if the evidence has at most kMaxShared columns, or at most
 /// kMaxShared rows. Sets `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless
 /// `others` is null, the odds of the other codes. On failure, `fix.p_wrong_log2` is not valid. If
-/// `work` is not null, it limits the work, and the function returns false if this limit is too low.
+/// `work` is not null, it limits the work. The function returns false if the work would exceed this
+/// limit.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr,
                 WorkLimit* work = nullptr);

@@ -32,8 +32,8 @@ std::uint32_t longest_run(std::uint32_t bits) {
 }  // namespace
 
 /// Compares lines of one axis with the code. rolls[i] is the roll of line first_line + i at the
-/// cell `first_cell`, for i < count. Of these lines, only those among the middle kMaxComparedLines
-/// lines of the block are compared.
+/// cell `first_cell`, for i < count. Lines outside the middle kMaxComparedLines lines of the block
+/// are ignored.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;

@@ -21,7 +21,7 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     return own != theirs;
 }
 
-/// Returns true if more bits may change the odds of the other codes, because
+/// Returns true if more bits may change the odds of the other codes. This is the case if
 /// - the odds of other places in another code are not negligible, or
 /// - the block has lines that the certainty test did not use, and a code that is not ruled out has
 ///   different rolls in the block.

@@ -5,7 +5,7 @@
 
 namespace dotpose::core {
 
-/// Maximum number of columns, and of rows, that are compared bit by bit.
+/// Maximum number of lines per axis that are compared bit by bit.
 inline constexpr int kMaxComparedLines = 32;
 
 /// A column or row. Each word has one bit per cell. Bit 0 is the first cell.

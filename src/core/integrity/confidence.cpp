@@ -88,7 +88,7 @@ int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8) {
 }
 
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8) {
-    // Number of positions, sections and orientations: log2(410,815,348 * 63 * 4) = 36.59.
+    // log2(410,815,348 positions * 63 sections * 4 orientations) = 36.59, rounded up.
     constexpr int kHypotheses_q8 = 9368;
     return agreement_log2_q8(axis, odds_per_bit_q8) + kHypotheses_q8 + log2_times_q8;
 }

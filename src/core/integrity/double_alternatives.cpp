@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Lower limit of the result of `sum_of_double_alternatives`: the sum of kNegligible over all pairs
-/// of places and all shifts. No fix may rely on smaller expected odds. The limit is slightly too
+/// Lower limit on the result of `sum_of_double_alternatives`: kNegligible for each pair of places
+/// and each shift. Ensures that no fix relies on smaller expected odds. The limit is slightly too
 /// large, because 2,217 of the 190,027 pairs contain a place of the reading and are therefore not
 /// double alternatives.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
@@ -78,7 +78,7 @@ class Groups {
     std::array<Anchors, kMaxAnchors - 1> groups_{};
 };
 
-/// The bytes of a vector in two words.
+/// A vector of bytes, stored in two 64-bit words.
 class BytesInWords {
   public:
     explicit BytesInWords(AnchorBytes bytes) {
@@ -94,7 +94,7 @@ class BytesInWords {
     int sum() const {
         return static_cast<int>((halves_[0] + halves_[1]) * 0x0101010101010101 >> 56);
     }
-    /// Returns the set of the anchors whose bytes are 1. All other bytes must be 0.
+    /// Returns the set of anchors whose bytes are 1. All other bytes must be 0.
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
 
   private:
@@ -107,7 +107,7 @@ class BytesInWords {
     std::array<std::uint64_t, 2> halves_;
 };
 
-/// Roll offsets of all places at the anchors.
+/// Roll offsets of every place in the four sequences, at the anchors.
 class AnchorOffsets {
   public:
     AnchorOffsets(const RankedLines& lines, int anchors) {
@@ -138,10 +138,11 @@ class AnchorOffsets {
     std::array<std::array<AnchorBytes, code::kA4Restored.size()>, 4> all_;
 };
 
-/// A place in one sequence. offsets[n] is the roll offset of the place at a fixed anchor, called
-/// `one`, minus its roll offset at anchor n, modulo 63. For a place in another sequence, consider
-/// the same difference with the opposite sign. If the two values are equal, an alternative with
-/// both places that shares `one` also shares anchor n.
+/// A place in one sequence, prepared for comparison with places in another sequence. offsets[n] is
+/// the place's roll offset at a fixed anchor, called `one`, minus its roll offset at anchor n,
+/// modulo 63. For a place in the other sequence, `Finder` computes the difference with the opposite
+/// sign. If the two differences are equal, an alternative with both places that shares `one` also
+/// shares anchor n.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;
@@ -222,8 +223,8 @@ class Finder {
     static_assert(kLimit * kMaxAnchors <= 255);
 
     /// Returns the summed odds of the alternatives that differ in `sequence` and in one of
-    /// `others`. Includes only alternatives that are counted at the pair of anchors (`one`,
-    /// `other`).
+    /// `others`. Includes an alternative only if (`one`, `other`) is the first pair of anchors that
+    /// it shares (see `Groups::is_first_pair`).
     float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others,
                           std::size_t one, std::size_t other) const {
         const LikelihoodRatios& ratios = lines_.ratios;
@@ -274,7 +275,7 @@ class Finder {
     AnchorOffsets offsets_;
     int shared_;
     Groups groups_;
-    AnchorBytes anchors_{};  ///< 1 for each anchor
+    AnchorBytes anchors_{};  ///< 1 for each anchor, 0 in the unused bytes
     /// For each anchor, the minimum loss of an alternative that does not share it, rounded down.
     /// The unit is chosen such that an alternative whose losses add up to kLimit has odds of at
     /// most kSkippedOdds, regardless of its gains in other lines.
@@ -311,7 +312,7 @@ struct Search {
     int pairs() const {
         const int groups = shared - 1;
         const int size = anchors / groups;
-        const int larger = anchors % groups;  // groups with one more anchor
+        const int larger = anchors % groups;  // number of groups with one more anchor
         return groups * size * (size - 1) / 2 + larger * size;
     }
 };
@@ -320,7 +321,8 @@ struct Search {
 constexpr int kMaxPairs = 18;
 
 /// Returns the fastest search that finds all alternatives whose odds may exceed 2^log2_odds. If no
-/// search with three or more shared anchors finds all of them, returns the search with two.
+/// search that requires three or more shared anchors finds all of them, returns the search that
+/// requires two.
 Search fastest_search(const RankedLines& lines, int log2_odds) {
     const int loss_limit = lines.ratios.loss_for(256 * log2_odds);
     Search fastest{std::min(lines.count(), kMaxAnchors), 2};

@@ -1,6 +1,6 @@
 // Expected alternatives: the expected odds of positions whose places differ from those of the
-// reading in several secondary sequences. The expectation is over all places. The expected odds
-// replace an enumeration, because there are 4e8 such positions. See docs/integrity.md,
+// reading in several secondary sequences. The expectation is over all places. Enumerating the
+// positions would take too long, because there are 4e8 of them. See docs/integrity.md,
 // "Alternatives: odds".
 #pragma once
 

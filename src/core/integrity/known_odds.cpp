@@ -41,16 +41,15 @@ class OddsOfBits {
     int per_bit_;  ///< log2 of the odds per bit, in units of 2^-23
 };
 
-/// Position of the first line, and the number that is added to the rolls in section 0 to obtain the
-/// rolls of the lines.
+/// Position of the first line. The roll of each line is its roll in section 0 plus `roll`.
 struct PositionAndRoll {
     std::uint32_t position;
     std::size_t roll;
 };
 
 /// Summed odds of the positions in a range, for each class and each value of
-/// `PositionAndRoll::roll`. The class of a position is the position modulo 63. The pair `left_out`
-/// is excluded.
+/// `PositionAndRoll::roll`. The class of a position is the position modulo 63. The sums exclude the
+/// pair `left_out`, if it is given.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
@@ -90,10 +89,10 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability that a view without a known sheet agrees with a known
-/// place at least as well as the bits that were read. The bits of such a view are random. `bits` is
-/// the number of bits per axis, and `wrong` the number of wrong bits on each axis. `lines` is the
-/// number of columns or rows, whichever is larger.
+/// Returns an upper bound on the probability that a view without a known sheet agrees with any
+/// known place at least as well as the bits that were read. The bits of such a view are assumed to
+/// be random. `bits` is the number of bits per axis, and `wrong` is the number of wrong bits on
+/// each axis. `lines` is the number of columns or rows, whichever is larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;

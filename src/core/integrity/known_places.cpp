@@ -30,8 +30,8 @@ class Peaks {
     std::array<RollSums, kSections> best_;
 };
 
-/// Returns the first position in a class at which exactly `sum` bits agree with the code. There
-/// must be such a position. `roll` is added to the rolls in section 0.
+/// Returns the first position in a class at which exactly `sum` bits agree with the code. Such a
+/// position must exist. `roll` is added to the rolls in section 0.
 std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
                             std::size_t of_class, std::size_t roll, int sum) {
     std::uint32_t found = range.first;

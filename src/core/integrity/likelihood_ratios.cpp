@@ -36,10 +36,10 @@ constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
     return nearest;
 }
 
-/// For each first bit of a substring, the minimum distances for all lengths. Bit i is 1 if the
-/// minimum distance for i + 1 bits is larger than for i bits. Each further bit increases the
-/// minimum distance by at most 1, so the minimum distance for n bits is the number of ones in the
-/// first n bits.
+/// Minimum distances of substrings of all lengths, indexed by the first bit of the substring. Bit i
+/// is 1 if the minimum distance for i + 1 bits is larger than for i bits. Each further bit
+/// increases the minimum distance by at most 1, so the minimum distance for n bits is the number of
+/// ones in the first n bits.
 constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {
@@ -127,8 +127,8 @@ void LikelihoodRatios::set_min_losses_of_bits() {
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
-    // Apart from the roll of the reading and the nearest rolls, there are fewer than 62 rolls. Each
-    // of them loses at least one bit more than the nearest rolls.
+    // Besides the roll of the reading and the nearest rolls, fewer than 62 rolls remain. Each of
+    // them loses at least one more bit than the nearest rolls.
     const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
                                  kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);

@@ -7,7 +7,8 @@
 // - Loss: the score of the reading minus the score of the alternative, in a line or in all lines. A
 //   negative loss is a gain.
 // - Odds: the likelihood of the alternative divided by the likelihood of the reading.
-// - Place: the index of a position in a secondary sequence.
+// - Place: the index of a position in a secondary sequence. The type `Place` is different: it is a
+//   cell in a section.
 // - Roll offset: the roll of the alternative minus the roll of the reading in a line, modulo 63.
 // - Shift: a number that is added to the roll offsets of all lines. The places of an alternative
 //   determine its roll offsets only up to a shift, which depends on its section.
@@ -36,7 +37,8 @@ namespace dotpose::core {
 /// misprinted. In the other codes, the maximum is `code::kOrder`.
 inline constexpr int kMaxShared = 7;
 
-/// log2(62) in units of 2^-8, rounded up. A line has 62 rolls other than that of the reading.
+/// log2(62) in units of 2^-8, rounded up. 62 of the 63 possible rolls of a line differ from the
+/// roll of the reading.
 inline constexpr int kOtherRolls_q8 = 1525;
 
 /// Minimum odds: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds are replaced with
@@ -93,8 +95,8 @@ class LikelihoodRatios {
             .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
     }
     /// Returns the minimum loss of an alternative whose digit differs in the step from `line` to
-    /// `line` + 1. Such an alternative shares at most one of these two lines. Negative losses count
-    /// as 0.
+    /// `line` + 1. Such an alternative shares at most one of these two lines. Negative losses are
+    /// treated as 0.
     int min_loss_of_step(int line) const {
         return std::max(std::min(min_loss(line), min_loss(line + 1)), 0);
     }
@@ -102,8 +104,8 @@ class LikelihoodRatios {
     /// are the sum and the maximum of the odds at all rolls except the roll of the reading. For
     /// hard bits only.
     int log2_of_nearest_q8(int line) const;
-    /// Returns the maximum gain of an alternative: the total of the largest gains in all lines in
-    /// which another roll agrees better than the roll of the reading.
+    /// Returns the maximum total gain of an alternative: the sum of the largest gains over all
+    /// lines where another roll agrees better than the roll of the reading.
     int max_gain() const { return max_gain_; }
     /// Returns the maximum number of adjacent lines that an alternative can share.
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }

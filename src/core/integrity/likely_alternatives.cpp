@@ -64,7 +64,7 @@ unsigned sum_of_keys(unsigned a, unsigned b) {
     if (a % 64 + b % 64 >= kSections) sum -= kSections;
     return sum >= kKeys ? sum - kKeys : sum;
 }
-/// Returns the key that gives 0 if it is added to `key` by `sum_of_keys`.
+/// Returns the inverse of `key`. `sum_of_keys` of `key` and its inverse is 0.
 unsigned opposite(unsigned key) {
     const unsigned first = key / 64;
     const unsigned second = key % 64;
@@ -74,7 +74,8 @@ unsigned opposite(unsigned key) {
 /// Finds the likely alternatives. Visits all sets of lines whose minimum losses add up to less than
 /// the loss limit. The lines of a set are those that an alternative does not share. For each set,
 /// lists the places in each sequence at which an alternative may share all lines outside the set
-/// (see EqualPlaces), and adds the odds of the alternatives that share exactly these lines.
+/// (see EqualPlaces). Then adds the odds of the alternatives that share exactly the lines outside
+/// the set.
 class Finder {
   public:
     Finder(const RankedLines& lines, int loss_limit, float max_odds)
@@ -109,14 +110,14 @@ class Finder {
     /// `line`. `places` contains the places at which an alternative may share the lines in
     /// `shared`. `lost` is the sum of the minimum losses of the other lines before `line`. Returns
     /// false if the search ends early, because it takes too long or the sum exceeds `max_odds_`.
-    /// Visits sets with more shared lines first, because these sets contain few alternatives, and
-    /// these alternatives have the largest odds.
+    /// Visits sets with more shared lines first, because their few alternatives have the largest
+    /// odds.
     bool visit(int line, int lost, const PlaceSets& places, LineSet shared) {
         if (line == count_) return add_all(places, shared);
         const int loss = std::max(lines_.ratios.min_loss(line), 0);
-        // Sets of shared lines never contain a line without a positive minimum loss. An alternative
-        // that shares such a line is counted in a set without this line, and would otherwise be
-        // counted twice.
+        // Sets of shared lines contain only lines with a positive minimum loss. Otherwise, an
+        // alternative that shares another line would be counted twice: in a set with this line, and
+        // in the same set without it.
         if (loss > 0 && !visit_shared(line, lost, places, shared)) return false;
         if (lost + loss >= loss_limit_) {
             min_skipped_loss_ = std::min(min_skipped_loss_, lost + loss);
@@ -168,8 +169,9 @@ class Finder {
         }
     }
 
-    /// Combines each pair of places in the first two sequences with all pairs of places in the last
-    /// two sequences for which the roll offset is equal at both ends of each of the first two gaps.
+    /// Combines pairs of places in the first two sequences with pairs of places in the last two
+    /// sequences. Uses only combinations whose total roll offset is the same before and after the
+    /// first gap, and before and after the second gap.
     void add_matches() {
         const auto& [a, b, c, d] = lists_;
         // The captures have new names because clang 14 cannot capture structured bindings.
@@ -235,8 +237,8 @@ class Finder {
     /// a positive minimum loss, and `is_shared_` selects the lines that must be shared.
     RollOffsets is_compared_{};
     RollOffsets is_shared_{};
-    /// `newest_` contains the newest pair of places with each key, and `before_` contains for each
-    /// pair the previous pair with the same key.
+    /// Linked lists of the pairs of places with the same key. `newest_` contains the newest pair
+    /// for each key. `before_` contains the next older pair for each pair.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;
     std::size_t work_ = 0;
@@ -283,7 +285,7 @@ std::optional<float> sum_of_likely_alternatives(const Kernels& kernels, const Ra
     // bits, its odds are at most 2^(-kTilt * n) times its tilted odds. `needed_bits` is the
     // smallest n for which the tilted odds, multiplied by this factor, are at most `max_rest`.
     // Losses are mostly multiples of the loss of one wrong bit, so the skipped alternatives often
-    // lose more. The result therefore uses their actual minimum loss.
+    // lose more than n bits. The result therefore uses their actual minimum loss.
     const float log2_tilted = log2_of_tilted_odds(kernels, lines);
     const float needed_bits = (log2_tilted - std::log2(max_rest)) / kTilt;
     constexpr float kMaxBits = 100;

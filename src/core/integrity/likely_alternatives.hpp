@@ -12,9 +12,9 @@ namespace dotpose::core {
 /// Returns an upper estimate of the summed odds of all far alternatives. An alternative is likely
 /// if the minimum losses of the lines that it does not share add up to less than a limit. The
 /// result is the sum of two parts: the individual odds of the likely alternatives, and kMargin
-/// times an upper bound on the expected odds of all other far alternatives. The limit is as small
-/// as possible, but at least 24 bits, and large enough that the second part is at most `max_rest`.
-/// If the first part exceeds `max_odds`, the search stops and the result is incomplete, but exceeds
+/// times an upper bound on the expected odds of all other far alternatives. The limit is the
+/// smallest value of at least 24 bits for which the second part is at most `max_rest`. If the first
+/// part exceeds `max_odds`, the search stops. The result is then incomplete, but exceeds
 /// `max_odds`. Returns nullopt if the search would take too long, or if the limit would have to be
 /// 100 bits or more.
 std::optional<float> sum_of_likely_alternatives(const Kernels& kernels, const RankedLines& lines,

@@ -68,7 +68,8 @@ class EqualPlaces {
     /// Removes the places whose digit differs from that of the reading in the step from line `step`
     /// to the next line.
     void keep_equal(std::size_t step, PlaceSets& places) const;
-    /// Returns the number of sequences with places other than the place of the reading.
+    /// Returns the number of sequences in which `places` contains a place other than that of the
+    /// reading.
     int count_different(const PlaceSets& places) const;
 
   private:
@@ -79,8 +80,8 @@ class EqualPlaces {
 };
 
 /// The first two gaps between shared lines. A gap consists of adjacent lines that are not shared.
-/// `before` and `after` are the shared lines directly before and after each gap. For a missing gap,
-/// both are the first shared line.
+/// `before` is the first line of the run of shared lines before each gap, and `after` is the first
+/// shared line after the gap. Unused elements are the first shared line of the set.
 struct Gaps {
     explicit Gaps(LineSet shared) {
         before = after = {std::countr_zero(shared), std::countr_zero(shared)};

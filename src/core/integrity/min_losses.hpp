@@ -9,20 +9,19 @@
 namespace dotpose::core {
 
 /// Lower bounds on the loss of an alternative in the n lines at one end of the view, indexed by n.
-/// Gains count as 0.
+/// Gains are treated as 0.
 using MinLosses = std::array<int, kMaxLines + 1>;
 /// Returns the lower bounds for the first n lines, or for the last n lines if `from_last` is true.
 MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
 
 /// Returns a lower bound on the loss of every seam alternative, wherever its border is. A seam
 /// alternative has one shift before a border between two lines, and a different shift after the
-/// border. Gains count as 0.
+/// border. Gains are treated as 0.
 int min_loss_with_border(const LikelihoodRatios& ratios);
 
-/// Returns true if every seam alternative loses at least `loss_limit` in a single line, because
-/// more than 2 * `max_shared` adjacent lines have at least this minimum loss. A seam alternative
-/// cannot share all of these lines, because it shares at most `max_shared` adjacent lines on each
-/// side of its border.
+/// Returns true if more than 2 * `max_shared` adjacent lines each have a minimum loss of at least
+/// `loss_limit`. Every seam alternative then loses at least `loss_limit` in at least one of these
+/// lines, because it shares at most `max_shared` adjacent lines on each side of its border.
 bool must_lose_with_border(const LikelihoodRatios& ratios, int loss_limit);
 
 }  // namespace dotpose::core

@@ -8,13 +8,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of periods of a sequence that are added to a place before a line index is subtracted, so
-/// that the result is not negative. In any sequence, kPeriods periods contain more than kMaxLines
-/// places.
+/// Number of sequence periods that are added to a place before a line index is subtracted from it.
+/// This keeps the result positive, because kPeriods periods of any sequence contain more than
+/// kMaxLines places.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// Alternatives that lose at least 56 bits are not evaluated line by line. For 2^15 such
-/// alternatives, the upper bounds on their odds add up to 2^-41.
+/// Alternatives that lose at least 56 bits are not evaluated line by line. Each of them contributes
+/// 2^-56, so even 2^15 of them contribute only 2^-41 in total.
 constexpr int kSkippedBits = 56;
 constexpr float kSkippedOdds = 0x1p-56F;
 
@@ -28,7 +28,7 @@ Bytes bytes_at(const RollOffsets& offsets, std::size_t line) {
     return bytes;
 }
 
-/// Sets `offsets` to the sums of two roll offsets in each line, modulo 63.
+/// Sets `offsets` to the sum of the roll offsets `a` and `b` in each line, modulo 63.
 void set_sums(const RollOffsets& a, const RollOffsets& b, std::size_t lines, RollOffsets& offsets) {
     for (std::size_t line = 0; line < lines; line += sizeof(Bytes)) {
         Bytes sum = bytes_at(a, line) + bytes_at(b, line);
@@ -40,7 +40,7 @@ void set_sums(const RollOffsets& a, const RollOffsets& b, std::size_t lines, Rol
 /// The places in one sequence where the digits of a run occur. A run is a group of adjacent lines,
 /// and its digits are the digits of the reading in the steps between these lines. For each place,
 /// the class stores the roll offset of each line relative to the first line of the run, or the
-/// negative of this relative offset. The first place is the place of the reading.
+/// negated offset (see `Sign`). The first place is the place of the reading.
 class TwinPlaces {
   public:
     enum class Sign : std::uint8_t { positive, negative };

@@ -17,22 +17,22 @@ namespace {
 /// on 6 axes, and at most 9.
 constexpr float kPlanMargin = 4;
 
-/// Maximum of the expected odds of the sets that are not searched, times kPlanMargin. Keeps the
-/// result precise even if the limit of the caller is large.
+/// Maximum of kPlanMargin * (expected odds of the sets that are not searched). Keeps the result
+/// precise even if the caller's limit is large.
 constexpr float kMaxRest = 0x1p-31F;
 
 /// If the loss of an alternative in the packed lines reaches this number of bits, its evaluation
 /// stops. The alternative then contributes the odds at this loss.
 constexpr int kSkippedBits = 46;
 
-/// The key of a place combines two changes of the roll offset as kKeyStep * first + second: from
-/// the first shared line to the line after the first gap, and to the line after the second gap. The
-/// sum of two keys is less than kKeys because both changes are below kSections.
+/// The key of a place is kKeyStep * first + second. `first` and `second` are the roll offsets
+/// directly after the first gap and directly after the second gap, relative to the first shared
+/// line. The sum of two keys is less than kKeys, because both offsets are less than kSections.
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
-/// Number of packed lines. `SetSearch` first computes the loss of each alternative in these lines
-/// alone. Their roll offsets are packed into one word.
+/// Number of packed lines. Their roll offsets are packed into one word. `SetSearch` first computes
+/// only the loss of each alternative in these lines.
 constexpr std::size_t kPackedLines = 4;
 
 /// A set of shared lines, and the packed lines: the unshared lines with the largest minimum losses.
@@ -83,7 +83,7 @@ struct Pattern {
 /// Places in one sequence at which an alternative may share a given set of lines.
 class KeyedPlaces {
   public:
-    /// Lists the places. If `negates` is true, computes the keys from the negated changes.
+    /// Lists the places. If `negates` is true, computes their keys from negated roll offsets.
     void list(const RankedLines& lines, std::size_t sequence, const PlaceBits& places,
               const Pattern& pattern, bool negates) {
         const Gaps& gaps = pattern.gaps;
@@ -125,8 +125,8 @@ class KeyedPlaces {
 /// the search lists the places in each sequence at which an alternative may share these lines (see
 /// `EqualPlaces`). It then builds a table of all pairs of places in a1 and a3. The key of a pair is
 /// the sum of the keys of both places. For each pair of places in a2 and a4, the search looks up
-/// the pairs with the opposite changes of the roll offset. The four places of such a match are
-/// those of an alternative that shares the lines at the ends of the first two gaps.
+/// the pairs in a1 and a3 whose roll offsets after the first two gaps are opposite. The four places
+/// of such a match belong to an alternative that shares the lines at the ends of these gaps.
 class SetSearch {
   public:
     SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)
@@ -139,10 +139,10 @@ class SetSearch {
         newest_.fill(kNone);
     }
 
-    /// Adds the odds of the far alternatives that share all lines of `sets[n]`, but not all lines
-    /// of any earlier set, because these alternatives have already been added. The set must not be
-    /// empty. Returns false if the search must end, because the sum exceeds `max_odds` or the work
-    /// does not suffice.
+    /// Adds the odds of the far alternatives that share all lines of `sets[n]`. Skips alternatives
+    /// that share all lines of an earlier set, because they have already been added. The set must
+    /// not be empty. Returns false if the search must end, because the sum exceeds `max_odds` or
+    /// because the work would exceed its limit.
     bool add(std::span<const PlannedSet> sets, std::size_t n) {
         earlier_ = sets.first(n);
         const LineSet shared = sets[n].shared;
@@ -168,7 +168,7 @@ class SetSearch {
     static constexpr std::uint16_t kNone = kMaxPairs;
     static_assert(code::kA1.size() <= kPlaces);
 
-    /// Lists the places in all sequences. Returns false if the work does not suffice.
+    /// Lists the places in all sequences. Returns false if the work would exceed its limit.
     bool list(const PlaceSets& places, const Pattern& pattern) {
         for (std::size_t k = 0; k < places.size(); ++k)
             lists_[k].list(lines_, k, places[k], pattern, k % 2 == 1);
@@ -184,8 +184,9 @@ class SetSearch {
                            25 * matches);
     }
 
-    /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 for which
-    /// the roll offset is equal at both ends of each of the first two gaps.
+    /// Combines pairs of places in a2 and a4 with pairs of places in a1 and a3. Uses only
+    /// combinations whose total roll offset is the same before and after the first gap, and before
+    /// and after the second gap.
     void add_matches(const Pattern& pattern) {
         const auto& [first, second, third, fourth] = lists_;
         for (std::size_t n = 0; n < third.count(); ++n) {
@@ -204,7 +205,7 @@ class SetSearch {
                 for (std::uint16_t pair = newest_[key]; pair != kNone; pair = before_[pair]) {
                     const std::uint32_t offsets =
                         packed_[pair] + second.packed(n) + fourth.packed(m);
-                    // Most alternatives lose kSkippedBits in the packed lines.
+                    // Most alternatives lose at least kSkippedBits in the packed lines.
                     if (pattern.lost(offsets) >= skipped_loss_)
                         ++skipped_;
                     else
@@ -266,12 +267,12 @@ class SetSearch {
     EqualPlaces equal_places_;
     std::span<const PlannedSet> earlier_;  ///< sets before the current set
     std::array<KeyedPlaces, 4> lists_;
-    /// `newest_` contains the newest pair of places with each key, and `before_` contains for each
-    /// pair the previous pair with the same key.
+    /// Linked lists of the pairs of places with the same key. `newest_` contains the newest pair
+    /// for each key. `before_` contains the next older pair for each pair.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;
     std::array<std::uint16_t, kMaxPairs> keys_;  ///< key of each pair
-    /// For each pair of places, the sums of the packed roll offsets of the two places.
+    /// For each pair of places, the sum of their packed roll offsets.
     std::array<std::uint32_t, kMaxPairs> packed_;
     std::size_t skipped_ = 0;  ///< number of skipped alternatives
     float sum_ = 0;

@@ -15,8 +15,8 @@ constexpr float kAmbiguousOdds = 1e-3F;
 /// A code is ruled out by earlier frames if its odds relative to the likeliest code are at most
 /// this value. The locator makes no attempt in a code that is ruled out.
 constexpr float kRuledOutOdds = 1e-9F;
-/// Two odds count as equal if their ratio is at most this value, because rounding may cause such a
-/// difference.
+/// Two odds are considered equal if their ratio is at most this value. Such a small difference may
+/// result from rounding errors.
 constexpr float kRoundings = 1.01F;
 
 std::size_t index(CodeVariant code) {

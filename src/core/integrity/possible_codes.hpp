@@ -34,14 +34,15 @@ class PossibleCodes {
     std::span<const CodeVariant> in_order() const { return std::span(order_).first(count_); }
     CodeVariant likeliest() const { return order_[0]; }
     bool is_known() const { return is_known_; }
-    /// Returns true if the two likeliest codes have equal odds, because earlier frames do not
-    /// favour either of them.
+    /// Returns true if the code is unknown and the two likeliest codes have equal odds. Earlier
+    /// frames then favour neither of them.
     bool are_equal() const { return !is_known_ && weight(order_[1]) == 1; }
 
     /// Returns the weighted number of possible codes. The weight of a code is its odds relative to
     /// the code `read`.
     float number(CodeVariant read) const;
-    /// Returns log2(2^log2 * factor), rounded up to an integer. Factors up to 1.01 count as 1.
+    /// Returns log2(2^log2 * factor), rounded up to an integer. Factors up to 1.01 are treated as
+    /// 1.
     static int rounded_up(int log2, float factor);
 
     /// Returns the certainty of a fix that was read in the code `read` and has the status ok.
@@ -59,7 +60,7 @@ class PossibleCodes {
 };
 
 /// Returns the likelihood of the bits in each code divided by their likelihood in the code `read`,
-/// as log2 in units of 2^-8. Likelihoods that differ by at most 1 % count as equal.
+/// as log2 in units of 2^-8. Likelihoods that differ by at most 1 % are considered equal.
 CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others);
 
 }  // namespace dotpose::core

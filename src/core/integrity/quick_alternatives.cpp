@@ -12,7 +12,7 @@
 namespace dotpose::core {
 namespace {
 
-/// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places.
+/// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places in total.
 constexpr int kSingles_q8 = 2441;
 /// Limit on the odds of the far alternatives, as log2 in units of 2^-8. If a bound on these odds is
 /// below this limit, no tighter bound is computed.
@@ -57,12 +57,12 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
 }
 
 /// Returns an upper bound on the expected odds of the alternatives in one set, as log2 in units of
-/// 2^-8. The bound treats all nonzero roll offsets as one state. In each step, exactly one
-/// combination of digits leads from one roll offset to another. The probability of this combination
-/// is at most the probability p that all digits are equal to those of the reading. A line that is
-/// not shared therefore multiplies the odds by at most p times the summed odds of the other rolls
-/// (`LineOdds::sum_q8`). Because the probabilities add up to at most 1, the line also multiplies
-/// the odds by at most the odds of the best other roll (`LineOdds::best_q8`).
+/// 2^-8. The bound treats all nonzero roll offsets as one state. In each step, at most one
+/// combination of digits leads from a given roll offset to another. The probability of this
+/// combination is at most the probability p that all digits equal those of the reading. A line
+/// that is not shared therefore multiplies the odds by at most p times the summed odds of the other
+/// rolls (`LineOdds::sum_q8`). Because the probabilities add up to at most 1, the line also
+/// multiplies the odds by at most the odds of the best other roll (`LineOdds::best_q8`).
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
@@ -101,8 +101,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 /// least the sum of all minimum losses except the seven largest. The bound is the product of these
 /// factors:
 /// - the odds at this loss,
-/// - four times the number of alternatives in the largest set, because all sets together have
-///   fewer,
+/// - four times the number of alternatives in the largest set, because all sets together contain
+///   fewer alternatives,
 /// - the number of rolls in the first line,
 /// - the safety factor `kUnevenness` for each line,
 /// - 2^lines, which bounds the number of ways to choose the shared lines.
@@ -125,8 +125,8 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
 }
 
 /// Returns an upper bound on the odds of the far alternatives in all sets, as log2 in units of
-/// 2^-8. If `roughly` is true, bounds the sum of the odds over the other rolls of a line by the
-/// number of these rolls times the best odds. Ratios of hard bits always use the bound of
+/// 2^-8. If `roughly` is true, replaces the summed odds of the other rolls of a line with an upper
+/// bound: the number of these rolls times the best odds. For hard bits, always uses the bound of
 /// `LikelihoodRatios::log2_of_nearest_q8`. Stops when the sum exceeds `max_log2_q8`. The result is
 /// then not an upper bound.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
@@ -199,7 +199,7 @@ class ByShift {
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// For each shift, `none_` plus the losses that the current alternative avoids by sharing
-    /// lines. Values below `none_` belong to earlier alternatives and count as `none_`.
+    /// lines. Values below `none_` belong to earlier alternatives and are treated as `none_`.
     std::array<std::uint32_t, kSections> kept_{};
     /// Value in `kept_` at shifts where the alternative avoids no losses. Increasing `none_` for
     /// each alternative resets `kept_` without writing to it.
@@ -259,8 +259,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 [[gnu::noinline]] int ByShift::add_closely(std::uint32_t place, int sum) const {
     RollOffsets offsets;
     set_roll_offsets(ratios_, sequence_, place, offsets);
-    // kept[s] is the sum of the minimum losses of the lines shared at shift s, which an alternative
-    // at this shift does not lose.
+    // kept[s] is the loss that the alternative avoids at shift s: the sum of the minimum losses of
+    // the lines that it shares at this shift.
     std::array<std::uint32_t, kSections> kept;
     for (int line = 0; line < ratios_.count(); ++line)
         kept[offsets[static_cast<std::size_t>(line)]] = 0;
@@ -273,8 +273,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
             const int odds = lost ? ratios_.log2_odds_q8(*lost) : kNever_q8;
             if (odds > kSkippedOdds_q8) sum = add_log2(sum, odds);
         }
-        // Lines that are shared at the same shift belong to the same alternative, which counts only
-        // once.
+        // Lines that are shared at the same shift belong to the same alternative, which is counted
+        // only once.
         here = 0;
     }
     return sum;

@@ -46,7 +46,7 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
         OddsByOffset& odds = odds_[line];
         const LineScores& scores = ratios.lines[static_cast<int>(line)];
         const auto own = static_cast<std::size_t>(ratios.own_roll(static_cast<int>(line)));
-        // Two loops without a condition, because compilers can vectorise them.
+        // Two loops without a branch, so that compilers can vectorise them.
         const std::int16_t own_score = scores[own];
         for (std::size_t roll = own; roll < kSections; ++roll)
             losses[roll - own] = static_cast<std::int16_t>(own_score - scores[roll]);
@@ -73,8 +73,8 @@ void RankedLines::rank_lines() {
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
         const OddsByOffset& odds = odds_[line];
         sums[line] = std::accumulate(odds.begin() + 1, odds.end(), 0.0F);
-        // Insertion sort, because the machine code of `std::sort` would be larger than the other
-        // code in this file.
+        // Insertion sort, because `std::sort` would generate more machine code than the rest of
+        // this file.
         std::size_t rank = line;
         for (; rank > 0 && sums[lines[rank - 1]] > sums[line]; --rank)
             lines[rank] = lines[rank - 1];
@@ -88,7 +88,7 @@ void RankedLines::set_offsets(std::size_t sequence, std::uint32_t place,
                               RollOffsets& offsets) const {
     using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
     // The loop also accesses elements beyond the last line, up to a multiple of the vector size.
-    // The tables of rolls and the array of offsets contain these elements.
+    // The roll tables and the array of offsets are large enough for these elements.
     static_assert(kMaxLines % sizeof(Bytes) == 0 && kMaxLines <= code::kLinesAhead);
     const std::uint8_t* const rolls = ratios.basis[sequence].rolls;
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); line += sizeof(Bytes)) {

@@ -24,7 +24,7 @@ class RankedLines {
     /// of `set_roll_offsets`.
     void set_offsets(std::size_t sequence, std::uint32_t place, RollOffsets& offsets) const;
     /// Returns the loss of an alternative in a line. `further` is the roll offset of the
-    /// alternative plus a multiple of 63, from 0 to 255.
+    /// alternative plus a multiple of 63, and must be in [0, 255].
     int loss(int line, int further) const {
         return losses_[static_cast<std::size_t>(line)][static_cast<std::size_t>(further)];
     }
@@ -50,7 +50,7 @@ struct CoarseLosses {
     /// losses add up to `limit` or more, regardless of its gains in other lines.
     CoarseLosses(const LikelihoodRatios& ratios, int skipped_bits);
 
-    int limit;  ///< at most 200, the maximum of `Kernels::list_similar_places`
+    int limit;  ///< at most 200, the maximum that `Kernels::list_similar_places` accepts
     std::array<std::uint8_t, kMaxLines> losses;
 };
 

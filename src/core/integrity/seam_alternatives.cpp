@@ -21,9 +21,9 @@ constexpr int kSeam_q8 = -32 * 256;
 /// odds exclude the prior.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses of an alternative in the lines before and in the lines after each border, over
-/// all shifts. May skip shifts where the total loss cannot be below `loss_limit`. If all shifts are
-/// skipped, the minimum is kNone.
+/// For each border, the minimum loss of an alternative in the lines before the border, and in the
+/// lines after it. Each minimum is over all shifts, but shifts where the total loss cannot be below
+/// `loss_limit` may be skipped. If all shifts are skipped, the minimum is kNone.
 class LossesByBorder {
   public:
     static constexpr int kNone = 1 << 24;
@@ -66,7 +66,7 @@ class LossesByBorder {
             return roll_offset == 0 ? 0 : ratios_.loss(line, roll_offset);
         };
         // Each loop stops when the loss on its side of the border reaches `loss_limit_`, because
-        // the odds at this shift are negligible for more distant borders.
+        // the odds at this shift are then negligible for all remaining borders.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);
@@ -82,7 +82,7 @@ class LossesByBorder {
     const LikelihoodRatios& ratios_;
     int loss_limit_;
     std::array<int, kMaxLines> before_;  ///< minimum loss in all lines before each line
-    std::array<int, kMaxLines> from_;    ///< minimum loss from each line to the last line
+    std::array<int, kMaxLines> from_;    ///< minimum loss in each line and all later lines
 };
 
 /// Tests whether a seam alternative may lose less than a loss limit. Uses only the minimum losses
@@ -114,9 +114,9 @@ class QuickTest {
         return changes < 2;
     }
 
-    /// Returns true if, for at least one border and the best shift on each side of this border, the
-    /// minimum losses of the lines that the alternative does not share add up to less than the
-    /// limit.
+    /// Returns true if the alternative may lose less than the limit for at least one border. Uses
+    /// the best shift on each side of the border, and the minimum losses of the lines that the
+    /// alternative does not share.
     bool may_lose_less(const RollOffsets& offsets) const {
         // For each line, the minimum loss in all lines before it, at the best shift.
         std::array<int, kMaxLines> before;
@@ -131,8 +131,8 @@ class QuickTest {
             before[line] = in_all - max_kept;
             add(line);
         }
-        // A seam alternative shares lines at no more than two shifts, so it avoids at most twice
-        // the largest loss that one shift avoids.
+        // A seam alternative shares lines at one or two shifts, so it avoids at most twice the loss
+        // that the best single shift avoids.
         if (in_all - 2 * max_kept >= loss_limit_) return false;
         kept.fill(0);
         in_all = max_kept = 0;
@@ -145,7 +145,7 @@ class QuickTest {
 
     int loss_limit_;
     std::size_t count_;
-    std::array<int, kMaxLines> losses_;  ///< minimum losses; negative losses count as 0
+    std::array<int, kMaxLines> losses_;  ///< minimum losses, or 0 if they are negative
     std::size_t required_count_ = 0;
     std::array<std::size_t, kMaxLines> required_;
 };
@@ -176,8 +176,8 @@ class SeamAlternatives {
     int sum_q8_ = kNever_q8;
 };
 
-/// Returns the loss limit. An alternative whose minimum losses add up to at least this limit is not
-/// included, because its odds are too small, regardless of its gains in other lines.
+/// Returns the loss limit. Alternatives whose minimum losses add up to this limit or more are
+/// skipped, because their odds are too small, regardless of their gains in other lines.
 int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }
@@ -198,9 +198,9 @@ StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     const int part =
         (loss_limit + max_lost + StepLosses::kLimitParts - 1) / StepLosses::kLimitParts;
     for (int step = 0; step < steps.count; ++step) {
-        // If both lines of a step have minimum losses of at least the limit, the step counts as
-        // half of the limit. An alternative that differs in two such steps loses the limit wherever
-        // the border is.
+        // If both lines of a step have minimum losses of at least the limit, the step loss is set
+        // to half of the limit. An alternative that differs in two such steps then reaches the
+        // limit, wherever its border is.
         const int lost = lost_at(step);
         steps.parts[static_cast<std::size_t>(step)] = static_cast<std::uint8_t>(
             lost == loss_limit ? StepLosses::kLimitParts / 2 : lost / part);

@@ -14,14 +14,14 @@ constexpr int kRequiredBits = 24;
 constexpr float kNegligibleOdds = 0x1p-42F;
 
 /// Number of possible changes of the roll from one line to the next. If an alternative differs in
-/// all four sequences, its roll changes are distributed about uniformly over these values.
+/// all four sequences, its roll changes are approximately uniformly distributed over these values.
 constexpr float kChanges = 54;
 
 /// Correction factors for the expected odds of alternatives that differ in two and in three
 /// sequences. The model assumes that the roll offsets in unshared lines are uniformly distributed.
 /// However, if few sequences differ, few changes of the roll are possible. On 700 axes of nominal
-/// frames, the mean ratio of the result of `sum_of_expected_alternatives` to the result of the
-/// model was 10 to 17 for two different sequences, 2 for three, and 0.6 for four.
+/// frames, the result of `sum_of_expected_alternatives` was, on average, 10 to 17 times the result
+/// of the model for two different sequences, 2 times for three, and 0.6 times for four.
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
 /// Probabilities that the roll offset is 0 again after a gap, for alternatives that differ in two,
@@ -47,7 +47,7 @@ struct SetPlan::Node {
     unsigned steps = 0;  ///< number of steps between adjacent shared lines
     unsigned gaps = 0;
     int last = -2;  ///< last shared line
-    int run = 0;    ///< number of adjacent shared lines that end with `last`
+    int run = 0;    ///< length of the run of shared lines that ends with `last`
 };
 
 SetPlan::SetPlan(const RankedLines& lines)
@@ -109,7 +109,7 @@ float SetPlan::work(const Node& node) const {
     return 1500 + 105 * (a + b + c + d) + 38 * tabled + 11 * looked_up + 25 * matches;
 }
 
-/// Adds all sets that extend `node`. The compared lines from index `n` on are undecided.
+/// Adds all sets that extend `node`. Compared lines with index `n` or higher are still undecided.
 void SetPlan::visit(std::size_t n, const Node& node) {
     const float expected = this->expected(node);
     if (expected < kNegligibleOdds && node.min_loss >= required_loss_) {

@@ -16,12 +16,12 @@ struct PlannedSet {
     LineSet shared;
     float expected;    ///< expected odds of the far alternatives that share exactly these lines
     float work;        ///< work of the search for these alternatives, in processor instructions
-    bool is_required;  ///< true if the set must be searched, because individual odds may be large
+    bool is_required;  ///< true if the set must be searched because individual odds may be large
 };
 
 /// Lists the sets of lines that far alternatives may share, in the order in which these sets should
-/// be searched. Only lines with a positive minimum loss are in the sets. The alternatives of a set
-/// may or may not share the other lines.
+/// be searched. The sets contain only lines with a positive minimum loss. The alternatives of a set
+/// may or may not share lines without a positive minimum loss.
 class SetPlan {
   public:
     explicit SetPlan(const RankedLines& lines);

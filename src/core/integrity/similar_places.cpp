@@ -5,8 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Losses of 32 alternatives in four-bit counters. Each word contains the same binary digit of all
-/// counters.
+/// Losses of 32 alternatives, stored as bit-sliced four-bit counters: each word contains one binary
+/// digit of all counters.
 class Losses {
   public:
     explicit Losses(std::uint32_t excluded) : excluded_(excluded) {}
@@ -63,9 +63,9 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     }
     constexpr int kParts = kLimitParts;
     const int part = (needed + kParts - 1) / kParts;
-    // Maximum total loss of nonadjacent steps, in parts: among all steps so far, and among all
-    // steps before the last. Adjacent steps are excluded, because they share a line, whose loss
-    // must not count twice.
+    // Maximum total loss of nonadjacent steps, in parts. `max_loss` is over all steps so far, and
+    // `max_loss_before` excludes the latest step. Two adjacent steps have a line in common, and its
+    // loss must not count twice.
     int max_loss = 0;
     int max_loss_before = 0;
     for (int step = 0; step < count; ++step) {
@@ -106,8 +106,8 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     for (const Step& step : std::span(steps_).first(count_)) {
         const std::uint32_t* here = step.places + word;
         const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-        // A line belongs to two steps, but must count only once. A step therefore counts only if
-        // the preceding step does not count.
+        // Two adjacent steps have one line in common, whose loss must not be counted twice. A step
+        // is therefore counted only if the preceding step is not.
         if (step.ahead != before + 1) counted = 0;
         before = step.ahead;
         counted = ~(equal | counted);

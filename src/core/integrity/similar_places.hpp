@@ -30,14 +30,14 @@ struct Steps {
     int count;       ///< number of compared steps, which are centred in the view
     int first_line;  ///< first line of the first step
     /// Lower bound on the loss in each step, rounded down. The unit is 1/kLimitParts of the loss
-    /// that excludes a place. Losses of one unit count as 0.
+    /// that excludes a place. Losses of one unit are replaced with 0.
     std::array<std::uint8_t, kMaxSteps> losses;
-    /// True if the losses in nonadjacent steps can add up to enough to exclude a place.
+    /// True if the total loss in nonadjacent steps can be large enough to exclude a place.
     bool can_exclude = false;
 };
 
-/// The places in a sequence that may lose less than the loss limit of `Steps`. A place is the index
-/// of the digit in the first step.
+/// The places in a sequence that may lose less than the loss limit of `Steps`. The place of an
+/// alternative is the index of its digit in the first step.
 class SimilarPlaces {
   public:
     /// `own` is the place of the reading at the first step.

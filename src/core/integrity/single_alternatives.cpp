@@ -78,7 +78,7 @@ void sort_losses(const CoarseLosses& losses, std::span<LineLoss> sorted) {
 }
 
 /// Lists the places that may lose less than `losses.limit`. Sets `sorted` to the lines, sorted by
-/// decreasing loss. Returns false if there are too many places.
+/// decreasing loss. Returns false if `Kernels::list_similar_places` returns false.
 bool list_similar(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses,
                   std::span<LineLoss> sorted, SimilarPlaceList& list) {
     sort_losses(losses, sorted);
@@ -121,7 +121,8 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
     // at most 2^-37 in total.
     constexpr int kSkippedBits = 51;
     constexpr int kEvaluatedBits = 43;
-    // Estimated work per listed place, in processor instructions. Includes the seam alternatives.
+    // Estimated work per listed place, in processor instructions. Includes the work for seam
+    // alternatives.
     constexpr std::size_t kWorkPerEntry = 85;
     const LikelihoodRatios& ratios = lines.ratios;
     const CoarseLosses losses(ratios, kSkippedBits);

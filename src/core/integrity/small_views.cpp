@@ -27,10 +27,10 @@ class SmallView {
               float max_wrong, WorkLimit& work)
         : kernels_(kernels), axes_(axes), factor_(kMargin * codes), left_(max_wrong), work_(work) {}
 
-    /// Adds the probabilities on the axes from index `n` on. Calls itself for the next axis before
+    /// Adds the probabilities on axis `n` and all later axes. Calls itself for the next axis before
     /// the search for far alternatives, because this search takes longest. The sums that take
     /// little time are therefore complete on all axes before the first search begins. Returns false
-    /// if the sum exceeds the maximum, or if the work does not suffice.
+    /// if the sum reaches the maximum, or if the work would exceed its limit.
     bool add(std::size_t n) {
         if (n == axes_.size()) return add_seams();
         const LikelihoodRatios& ratios = axes_[n]->ratios();
@@ -42,9 +42,9 @@ class SmallView {
         const float share = 1 / static_cast<float>(n + 1);
         planned_work_ += work_of_planned_alternatives(plan, share * left_ / factor_);
         if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
-        // The last axis is searched first. Its alternatives that are not searched may use only the
-        // fraction `share` of the remaining odds. The rest is left for the axes with smaller
-        // indices.
+        // The last axis is searched first. The expected odds of the sets that are not searched may
+        // use only the fraction `share` of the remaining odds, because the earlier axes need the
+        // rest.
         const auto far = sum_of_planned_alternatives(lines, plan, share, left_ / factor_, work_);
         return far && spend(factor_ * *far);
     }

@@ -12,8 +12,9 @@ namespace dotpose::core {
 
 /// Returns an upper estimate of the probability that an alternative, rather than the reading, is
 /// correct on at least one of the axes. `axes` contains one or two axes. `codes` is the weighted
-/// number of possible codes. Returns 1 if the estimate exceeds `max_wrong`, or if `work` does not
-/// suffice. Usually, this is known before any far alternatives are searched.
+/// number of possible codes. Returns 1 if the estimate reaches `max_wrong`, or if it cannot be
+/// computed within the limit `work`. Usually, the function detects this before it searches for far
+/// alternatives.
 float wrong_in_small_view(const Kernels& kernels, std::span<const UnsharedLines* const> axes,
                           float codes, float max_wrong, WorkLimit& work);
 

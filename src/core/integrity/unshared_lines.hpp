@@ -22,20 +22,19 @@ enum class Sharing : std::uint8_t {
 
 /// Lower bounds on the losses of single alternatives, by sequence. A table covers 10, 13 or 16
 /// adjacent lines in the middle of the view, called the table lines. Losses in other lines are
-/// ignored. Gains count as 0.
+/// ignored. Gains are treated as 0.
 class UnsharedLines {
   public:
     static constexpr int kMaxTableLines = 16;
-    /// Uses the largest table that has neither more than `max_lines` lines nor more lines than the
-    /// view.
+    /// Uses the largest table that covers at most `max_lines` lines and fits into the view.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int max_lines = kMaxTableLines);
     /// Variant that sums the losses with a kernel.
     UnsharedLines(const Kernels& kernels, const LikelihoodRatios& ratios,
                   int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables that have neither more than `max_lines` lines nor more lines
-    /// than the view. This object uses the last of these tables.
+    /// Returns the number of tables that cover at most `max_lines` lines and fit into the view.
+    /// This object uses the last of these tables.
     std::size_t tables() const { return row_ + 1; }
     /// Returns true if every alternative that differs from the reading only in `sequence` loses at
     /// least `loss_limit`.

@@ -21,7 +21,7 @@ constexpr float kSkippedOdds = 2.3e-16F;
 /// is computed.
 constexpr float kNegligibleOdds = 1e-12F;
 
-/// Lower bounds on the losses of a place in another code. A place loses at least of[line] in each
+/// Lower bounds on the losses of a place in another code. A place loses at least `of[line]` in each
 /// line that it does not share with the reading.
 struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
@@ -40,8 +40,8 @@ struct Losses {
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        // The quotients are below 16, and float rounding of such quotients never reaches the next
-        // integer.
+        // Float division gives the same integers as integer division, because the quotients are
+        // below 16 and are never rounded up to the next integer.
         const auto part = static_cast<float>((loss_limit + StepLosses::kLimitParts - 1) /
                                              StepLosses::kLimitParts);
         for (int step = 0; step < steps.count; ++step) {
@@ -124,15 +124,15 @@ class OtherPlaces {
 
     /// Adds the odds of another place in a4, at all shifts with a shared line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
-    /// Adds kSkippedOdds for each of `places` places and each line. A place cannot share lines at
-    /// more shifts than there are lines.
+    /// Adds kSkippedOdds once per line for each of `places` skipped places. A place cannot share
+    /// lines at more shifts than there are lines.
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
     /// Returns the odds of the same place and of all other places. Also computes the position of
     /// the likeliest other place, if its odds are large enough to be reported.
     const OtherAxis& result() {
-        // Minimum odds of a place that is reported.
+        // Minimum odds for a place to be reported.
         constexpr float kMinReportedOdds = 1e-6F;
         if (result_.best < kMinReportedOdds) return result_;
         auto places = ratios_.places;
@@ -272,8 +272,8 @@ class AxisWeigher {
         others.begin_count();
         others.add_unsimilar();
         if (!steps_) steps_ = losses_.of_steps(ratios_);
-        // Takes the digits that the reading has in sequence a4 of the code `read`, and searches for
-        // similar digits in sequence a4 of the code `other`.
+        // Searches a4 of the code `other` for digits that are similar to the digits of the reading
+        // in a4 of the code `read`.
         code::Secondary a4 = code::basis(other)[kA4];
         a4.rolls = ratios_.basis[kA4].rolls;
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);

@@ -1,8 +1,8 @@
 // Weigh codes: computes the odds of places in the other codes, relative to the reading. The paper
 // uses only one code, but dotpose supports sheets whose code is unknown. The codes differ only in
-// a4. Positions with the places of the reading in a1, a2 and a3 are compared with the bits. All
-// other positions in the other codes count like those in the code of the reading (see
-// `OtherCodes::log2_in_question_q8`). See docs/integrity.md, "Which code?".
+// a4. Only positions with the places of the reading in a1, a2 and a3 are compared with the bits.
+// All other positions in another code are assumed to have the same total odds as those in the code
+// of the reading (see `OtherCodes::log2_in_question_q8`). See docs/integrity.md, "Which code?".
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

@@ -1,16 +1,16 @@
-// Work limit: bounds the time of the sums over alternatives.
+// Work limit: limits the computing time of the sums over alternatives.
 #pragma once
 
 #include <cstddef>
 
 namespace dotpose::core {
 
-/// Estimated work that may still be done, in processor instructions.
+/// Remaining work, in estimated processor instructions.
 class WorkLimit {
   public:
     /// Maximum total work for the sums over alternatives in one frame with a small view, over all
-    /// tested places. docs/speed.md, "Small frames", compares limits. All other steps of a first
-    /// attempt take about 200,000 instructions.
+    /// tested places. docs/speed.md, "Small frames", compares several limits. All other steps of a
+    /// first attempt take about 200,000 instructions.
     static constexpr std::size_t kOfFrame = 510'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}

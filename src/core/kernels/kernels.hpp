@@ -1,10 +1,10 @@
-// Kernels: the inner loops over pixels, dots and cells. On desktop processors, most of the time for
-// a frame is spent in these loops. There is one implementation per vector width, and `select.hpp`
-// chooses the fastest. All implementations return bit-identical results. Lengths in the image are
-// in px.
+// Kernels: the inner loops over pixels, dots and cells. On desktop processors, these loops take
+// most of the processing time of a frame. There is one implementation per vector width, and
+// `select.hpp` chooses the fastest one for the processor. All implementations return bit-identical
+// results. Image lengths are in px.
 //
-// A cell is a grid intersection with its dot. The *places* of a cell are the four points where its
-// dot may be printed: above, left, right and below the intersection.
+// A cell is a grid intersection with its dot. The *dot positions* of a cell are the four points
+// where its dot may be printed: above, left, right and below the intersection.
 #pragma once
 
 #include <array>
@@ -38,11 +38,11 @@ struct Waves {
 /// Options for `sum_cells`, which assigns dots to cells.
 struct CellPass {
     float reach_px = 0;  ///< maximum distance from the origin to a dot, along each axis
-    /// Maximum distance between a dot and the nearest place of its cell, in spacings. The sums
-    /// exclude dots beyond this limit.
+    /// Maximum distance between a dot and the nearest dot position of its cell, in spacings. The
+    /// sums exclude dots beyond this limit.
     float max_off = 0;
-    /// Distance between the intersection and the four places, in spacings. If 0, the intersection
-    /// is the only place.
+    /// Distance between the intersection and the four dot positions, in spacings. If 0, the
+    /// intersection is the only dot position.
     float displacement = 0;
     bool with_perspective = false;
 };
@@ -52,24 +52,25 @@ struct CellPass {
 ///     i (1 + g x + h y) = a x + b y + c
 ///     j (1 + g x + h y) = d x + e y + f
 ///
-/// (x, y) is the image point of a used dot, and (i, j) is the nearest place of its cell. Without
-/// perspective, `i` and `j` contain only the first three sums, and `square` is 0.
+/// (x, y) is the image point of a used dot, and (i, j) is the nearest dot position of its cell, in
+/// pattern coordinates. Without perspective, `i` and `j` contain only the first three sums, and
+/// `square` is 0.
 struct CellSums {
     float seen = 0;  ///< number of dots within `CellPass::reach_px`
-    float used = 0;  ///< number of these dots within `CellPass::max_off` of a place
-    /// Sum of squared distances from the used dots to their places, in spacings^2.
+    float used = 0;  ///< number of these dots within `CellPass::max_off` of a dot position
+    /// Sum of squared distances from the used dots to the nearest dot positions, in spacings^2.
     float squares = 0;
     std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy and yy over the used dots
     std::array<float, 6> i{};       ///< sums of i, i x, i y, i xx, i xy and i yy
     std::array<float, 6> j{};       ///< sums of j, j x, j y, j xx, j xy and j yy
-    std::array<float, 6> square{};  ///< sums of s, s x, s y, s xx, s xy and s yy, with s = i^2 +
-                                    ///< j^2
+    /// Sums of s, s x, s y, s xx, s xy and s yy, with s = i^2 + j^2.
+    std::array<float, 6> square{};
 };
 
-/// Maximum number of columns in view, and of rows, at any rotation of the grid.
+/// Maximum number of lines in view per axis, at any rotation of the grid.
 inline constexpr int kMaxLinesInView = 1024;
 
-/// Where `list_cells` centres the measurement windows.
+/// Points on which `list_cells` centres the measurement windows.
 enum class Windows : std::uint8_t { none, on_intersections, on_dots };
 
 /// Options for `list_cells`, which lists the cells with a visible dot.
@@ -103,7 +104,7 @@ struct CellsInView {
 /// Options for `measure_windows`.
 struct WindowOptions {
     float spacing_px = 11;  ///< spacing at the centre of the view
-    /// Half the side of a window, in spacings. After conversion to px, it is clamped to [2,
+    /// Half-width of a window, in spacings. After conversion to px, it is clamped to [2,
     /// kMaxHalfWindow_px].
     float reach = 0.36F;
     /// A pixel belongs to a dot if it is darker than the paper by more than `cut_q8` / 256 of the
@@ -112,10 +113,10 @@ struct WindowOptions {
     /// Typical mass of a dot, relative to the paper level. The mass is the summed darkness of the
     /// dot's pixels. If 0, `measure_windows` estimates the typical mass from the windows.
     float typical_mass = 0;
-    /// True if most of the windows may contain graphics or blank paper.
+    /// True if most windows may contain graphics or blank paper instead of a dot.
     bool is_partial_view = false;
 };
-/// Maximum half side of a measurement window.
+/// Maximum half-width of a measurement window.
 inline constexpr int kMaxHalfWindow_px = 24;
 /// Maximum radius of a centroid window.
 inline constexpr float kMaxCentroidRadius_px = 24;
@@ -154,12 +155,12 @@ struct DotOffsets {
     float squared = 0;  ///< sum of squared offsets
     float off_u = 0;    ///< sums of the offsets
     float off_v = 0;
-    /// Sum of the inner products of (u, v) and the offset. `across` is the sum of the cross
-    /// products of (u, v) and the offset.
+    /// Sum of the inner products of (u, v) and the offset. `across` is the corresponding sum of
+    /// cross products.
     float along = 0;
     float across = 0;
-    /// Sums of d_x times the offset along u and along v, where d is the direction of the dot's
-    /// coded displacement. `of_y` contains the sums of d_y times the offset.
+    /// Sums of d_x times the offset along u, and of d_x times the offset along v. d is the
+    /// direction of the dot's coded displacement. `of_y` contains the corresponding sums for d_y.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
 };
@@ -182,14 +183,15 @@ struct BlockSums {
 /// Result of comparing cell bits with the code.
 struct BitsRead {
     int seen = 0;     ///< number of cells with a dark spot
-    int read = 0;     ///< number of `seen` cells whose spot is clearly at one of the four places
+    int read = 0;     ///< number of `seen` cells whose spot is clearly at a dot position
     int wrong_x = 0;  ///< number of `read` cells whose x bit disagrees with the code
     int wrong_y = 0;
     int right = 0;  ///< number of `read` cells without a wrong bit
     /// Sum of max(|x|, |y|) over the `right` dots, in spacings. (x, y) is the offset of a dot from
     /// its intersection.
     float projected = 0;
-    /// Sum of the squared distances between the `right` dots and their places, in spacings^2.
+    /// Sum of the squared distances between the `right` dots and their expected positions, in
+    /// spacings^2.
     float squares = 0;
 };
 
@@ -273,8 +275,8 @@ struct Kernels {
     /// white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
     /// Smooths the patch with a 1-2-1 filter along both axes. Stores the brightest and the darkest
-    /// level in each tile. The brightest level excludes the pixels at the patch border, which the
-    /// white margin brightens.
+    /// level of each tile. The brightest level excludes the pixels at the patch border, because the
+    /// white margin brightens them.
     void (*smooth_patch)(Patch& patch);
     /// Lists the dots. A dot is a minimum of the smoothed patch that is no brighter than the
     /// threshold of its tile. Minima in the two outermost rows and columns are ignored. The
@@ -289,32 +291,32 @@ struct Kernels {
     /// of 4.5 degrees, and frequencies from 0.6 to 1.63 times `per_px`. If there is no such pair,
     /// the power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
-    /// Assigns each dot to a cell. Returns the sums of `CellSums` over the dots near a place of
-    /// their cell.
+    /// Assigns each dot to a cell. Returns the sums of `CellSums` over the dots that are near a dot
+    /// position of their cell.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
-    /// Sets the bits of cells whose dots are clearly at one of the four places. The first column
-    /// and the first row intersect in cell (-32, -32). A bit is invalid if two dots in a cell
-    /// disagree. The bits of a cell with three or more dots may be wrong.
+    /// Sets the bits of cells whose dots are clearly at one of the four dot positions. The first
+    /// column and the first row intersect in cell (-32, -32). A bit is invalid if two dots in a
+    /// cell disagree. The bits of a cell with three or more dots may be wrong.
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
     /// main sequence, and subtracts 127 otherwise.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
-    /// Sums the scores of all lines for each of `positions` consecutive positions of the first
-    /// line. sums[i] contains the sums at the i-th position, indexed by an offset that is added to
-    /// all rolls. `rolls` contains the rolls of consecutive lines of the code, starting at the
-    /// first of these positions.
+    /// Scores all lines at each of `positions` consecutive positions of the first line. sums[i]
+    /// contains the total scores at the i-th position, indexed by an offset that is added to every
+    /// roll. `rolls` contains the rolls of consecutive lines of the code, starting at the first
+    /// position.
     void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
                       RollSums* sums);
     /// Lists the cells in view, with their window centres and coded symbols. Sets `x` and `y` to
     /// the expected image points of the dots, including lens distortion. Stops when `dots` is full.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the shift from the window centres to the dots: adds up the pixels around the first 16
-    /// dots that are far enough from the image border, and finds the darkest point of the summed
-    /// image. Searches shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6
-    /// steps per direction. Sets `cut_q8` to the contrast at the darkest point, in 1/256 of the
-    /// paper level. Returns false if there are fewer than 8 such dots, or if the summed image is
-    /// black.
+    /// Finds the common shift from the window centres to the dots. Adds up the pixels around the
+    /// first 16 dots that are far enough from the image border, and finds the darkest point of the
+    /// summed image. Searches shifts up to `max_px` along each axis, in steps of `step_px`, with at
+    /// most 6 steps per direction. Sets `cut_q8` to the contrast at the darkest point, in 1/256 of
+    /// the paper level. Returns false if fewer than 8 dots are far enough from the border, or if
+    /// the summed image is black.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
@@ -328,19 +330,19 @@ struct Kernels {
     /// not applied. Does nothing if the image is smaller than a window.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
-    /// Reads cell bits from the grey levels at the four places. The dot is assumed to be at the
-    /// darkest place, so the places must be predicted to within a fraction of the displacement.
-    /// `dot_contrast_q8` is the contrast of a typical dot, in 1/256 of the paper level. Compares
-    /// the bits with the code, and adds them to lines, as `read_bits` does. Drops dots that are not
-    /// read or have a wrong bit. Sets `projected` and `squares` to 0. Reads no bits if stride_bytes
-    /// * height_px of the image may exceed INT32_MAX.
+    /// Reads cell bits from the grey levels at the four dot positions. The dot is assumed to be at
+    /// the darkest position, so the dot positions must be predicted to within a fraction of the
+    /// displacement. `dot_contrast_q8` is the contrast of a typical dot, in 1/256 of the paper
+    /// level. Compares the bits with the code, and adds them to `columns` and `rows`, as
+    /// `read_bits` does. Drops dots that are not read or have a wrong bit. Sets `projected` and
+    /// `squares` to 0. Reads no bits if stride_bytes * height_px of the image may exceed INT32_MAX.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int dot_contrast_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
-    /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot is `weight_px` times the
-    /// ratio of the moment to the weight in its window. If `weight_px` is 0, this factor is
-    /// estimated from dots in the middle of the list. Returns the sums of `DotOffsets` over the
-    /// remaining dots.
+    /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot is the moment divided by
+    /// the weight in its window, times `weight_px`. If `weight_px` is 0, the factor is estimated
+    /// from dots in the middle of the list. Returns the sums of `DotOffsets` over the remaining
+    /// dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
@@ -373,25 +375,25 @@ struct Kernels {
     /// false if
     /// - there are too many places,
     /// - there are fewer than two lines,
-    /// - there are five or seven lines, and only all of them together lose `loss_limit` or more,
+    /// - there are exactly five or seven lines, and only their total loss reaches `loss_limit`,
     /// - `loss_limit` exceeds 200, or
     /// - an alternative that shares none of the first eight lines may lose less than `loss_limit`.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);
     /// Sets `sums[n]` to the sum of the n smallest losses, for n = 0 to 8. `losses` must have 8 to
-    /// 16 elements. Negative losses count as 0.
+    /// 16 elements. Negative losses are treated as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
-    /// Joins each of the 32 combinations of a batch with one combination of places in the other
+    /// Combines each of the 32 combinations of a batch with one combination of places in the other
     /// sequences. Returns one bit per resulting alternative, which is 1 if the alternative may lose
-    /// less than `limit` (at most 255). `losses[i]` is the loss if line i is not shared. A line is
-    /// shared if the two roll offsets cancel, so `opposite` contains the negated offset of the
-    /// other combination in each line.
+    /// less than `limit` (at most 255). `losses[i]` is the loss if line i is not shared.
+    /// `opposite[i]` is the negated roll offset of the other combination in line i. The line is
+    /// shared if this number equals the offset in the batch.
     std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
                                       std::span<const std::uint8_t> losses, int limit);
-    /// Returns the expected sum of the odds of the alternatives that differ from the reading in the
+    /// Returns the expected total odds of the alternatives that differ from the reading in the
     /// sequences `different` (one bit per sequence), and share at most `max_shared` (up to 8)
-    /// adjacent lines with it. Assumes that the digits of the alternatives are uniformly
+    /// adjacent lines with the reading. Assumes that the digits of the alternatives are uniformly
     /// distributed, except for the safety factor `kUnevenness`. `places` are the places of the
     /// reading at the first line. `lines` contains the odds of an alternative in each line, by roll
     /// offset. The odds at offset 0 are 1, and the padding is 0.
@@ -399,9 +401,9 @@ struct Kernels {
                                        const std::array<std::uint32_t, 4>& places,
                                        unsigned different, std::span<const OddsByOffset> lines,
                                        int max_shared);
-    /// Computes the expected sum of the odds of the alternatives that differ from the reading in
-    /// two sequences, for each number of shared anchors. Excludes alternatives that share more than
-    /// 6 anchors. Bit n of `anchors` is 1 if line n is an anchor. The other arguments are those of
+    /// Computes the expected total odds of the alternatives that differ from the reading in two
+    /// sequences, for each number of shared anchors. Excludes alternatives that share more than 6
+    /// anchors. Bit n of `anchors` is 1 if line n is an anchor. The other arguments are those of
     /// `sum_expected_alternatives`.
     void (*sum_expected_doubles)(const code::Basis& basis,
                                  const std::array<std::uint32_t, 4>& places,

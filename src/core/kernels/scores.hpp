@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Maximum number of columns, and of rows, that are decoded. If more lines are in view, the decoder
-/// uses the lines with the clearest bits.
+/// Maximum number of decoded lines per axis. If more lines are in view, the decoder uses the lines
+/// with the clearest bits.
 inline constexpr int kMaxLines = 64;
 
 /// Agreement of one column or row with the main sequence, indexed by roll.
@@ -33,7 +33,7 @@ inline constexpr std::size_t kRollEntries = 64;
 
 /// Scores of up to kMaxLines adjacent lines, indexed by roll. A score is the number of cells that
 /// agree with the main sequence. Each line stores its scores twice in succession, so that
-/// kRollEntries consecutive scores can be loaded from any roll.
+/// kRollEntries consecutive scores can be loaded starting at any roll.
 struct RollScores {
     int count = 0;  ///< number of lines
     std::array<std::array<std::uint16_t, 2 * kRollEntries>, kMaxLines> lines;

@@ -32,9 +32,9 @@ std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
 }
 
 /// Returns the grid direction that is at most 45 degrees from +x, as a binary angle (2^32 units per
-/// turn). If edges are written as complex numbers, edges in all four grid directions have the same
-/// fourth power, so the fourth powers of all edges can be added. `length_q8` is the median edge
-/// length.
+/// turn). Treats the edges as complex numbers, and sums their fourth powers. Edges in all four grid
+/// directions have the same fourth power, so the direction is a quarter of the angle of the sum.
+/// `length_q8` is the median edge length.
 std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
@@ -54,7 +54,8 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
         sum_re += (re * re - im * im) >> 10;
         sum_im += (2 * re * im) >> 10;
     }
-    // Each sum fits in 32 bits, because it is at most 2^9 edges times (5/4)^4 * 2^10.
+    // Each sum fits in 32 bits, because there are at most 2^9 edges, and each edge contributes at
+    // most (5/4)^4 * 2^10.
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
@@ -82,7 +83,8 @@ struct Sum {
 };
 using Sums = std::array<Sum, 5>;  ///< indexed by Side
 
-/// Two of the four clusters. The other two clusters are their opposites (paper, figure 5).
+/// Means of the first two of the four clusters. The means of the other two clusters are their
+/// negatives (paper, figure 5).
 class Clusters {
   public:
     explicit Clusters(const std::array<FixedVec, 2>& means_q8) : means_q8_(means_q8) {
@@ -184,8 +186,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
                          shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, FixedVec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
-    // Correction factor for the axis lengths, in 1/256. Symmetric edges are on average 4 % shorter
-    // than the spacing, because dots displaced towards each other are more often nearest
+    // Correction factor for the axis lengths, in units of 1/256. Symmetric edges are on average 4 %
+    // shorter than the spacing, because dots displaced towards each other are more often nearest
     // neighbours.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;

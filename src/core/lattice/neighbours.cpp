@@ -77,8 +77,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
     }
 }
 
-/// Maximum distance of a neighbour along each axis: 128 px, in 2^-8 px. No grid has a larger
-/// spacing.
+/// Limit on the distance of a neighbour: it must be less than 128 px away along each axis. No grid
+/// has a larger spacing.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
 
 /// Returns a^2 modulo 2^32.
@@ -120,7 +120,8 @@ class Nearest {
   private:
     /// Inserts seed `p` if it is not `self_` and is less than 128 px away along each axis.
     /// `squared_q16` is its squared distance, which must be less than that of the fourth nearest
-    /// seed. Returns the limit for the squared distances of further seeds.
+    /// seed. Returns the new squared distance of the fourth nearest seed, which limits further
+    /// candidates.
     DOTPOSE_NOINLINE std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);
@@ -158,8 +159,8 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds) {
-    // Histogram of the distances from the centre. The bin width is the smallest for which the
-    // histogram includes the farthest dot.
+    // Histogram of the distances from the centre. The bin width is the smallest power of two for
+    // which the histogram includes the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
     for (const DetectedDot& dot : dots) {
@@ -199,8 +200,8 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
             const bool is_last = reach >= max_reach || sure_q8 >= kFarthest_q8;
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
-            // The searched buckets contain all seeds within sure_q8 of p, and no seeds more than 2
-            // * sure_q8 away along an axis.
+            // The searched buckets contain all seeds within sure_q8 of p along each axis, and no
+            // seed that is more than twice as far away along any axis.
             Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);

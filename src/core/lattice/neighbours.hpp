@@ -1,7 +1,7 @@
 // Neighbours: the nearest neighbours of each seed, and the symmetric edges between seeds (paper,
-// section II-B.2). *Seeds* are the dots nearest the image centre, at most kMaxSeeds. Unlike the
-// paper, which connects all dots, dotpose fits the first grid only to the seeds. This bounds the
-// time for any image. Later stages extend the grid outwards (device/grow.hpp,
+// section II-B.2). *Seeds* are the dots nearest the image centre, at most kMaxSeeds. The paper
+// connects all dots. dotpose connects only the seeds and fits the first grid to them, which limits
+// the processing time for every image. Later stages extend the grid outwards (device/grow.hpp,
 // lattice/refine_grid.hpp).
 #pragma once
 
@@ -21,14 +21,14 @@ struct BucketedSeed {
     std::uint16_t begin = 0;  ///< index of the bucket's first seed
 };
 
-/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The half side of the square
-/// is a multiple of the bin width of a distance histogram. It is the largest multiple for which the
-/// square contains at most `seeds.size()` dots, but at least one bin width. Writes the dot indices
-/// to `seeds` and returns their number.
+/// Chooses the dots in the largest square around `centre_q8` that contains at most `seeds.size()`
+/// dots. The half-width of the square is a multiple of the bin width of a distance histogram. If a
+/// square with a half-width of one bin already contains more dots, chooses the first `seeds.size()`
+/// of them. Writes the dot indices to `seeds` and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 
-/// Finds the four nearest neighbours of each seed, nearest first, up to 128 px away along each
+/// Finds the four nearest neighbours of each seed, nearest first, less than 128 px away along each
 /// axis. Writes -1 for each missing neighbour. `memory` must have one more element than `seeds`.
 void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,

@@ -163,7 +163,8 @@ bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
 }
 
 /// Returns the factor by which `CellPass::reach_px` changes for the next round. `fraction` is the
-/// fraction of the dots within this distance that are near one of the four places of their cell.
+/// fraction of the dots within the current reach that are near one of the four dot positions of
+/// their cell.
 float growth(float fraction) {
     if (fraction > tuned::kGoodFraction) return tuned::kGoodGrowth;
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
@@ -253,7 +254,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // Subsequent rounds assign each dot to the nearest of the four places of its cell, so
+    // Subsequent rounds assign each dot to the nearest of the four dot positions of its cell, so
     // displacements no longer act as noise.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);

@@ -1,6 +1,6 @@
 // Outwards: finds the grid of a patch, starting near its middle (paper, sections II-B.2 and
 // II-B.3). The search computes a first plane from two plane waves that fit the central dots. It
-// then fits the plane repeatedly, each time to more dots. The fit includes perspective once it uses
+// then fits the plane repeatedly, to more and more dots. The fit includes perspective once it uses
 // dots more than four spacings from the middle.
 #pragma once
 
@@ -16,12 +16,12 @@ struct PatchGrid {
     /// Root mean square displacement of the dots, in spacings. It is clamped to the range from
     /// kMinDisplacement to kMaxDisplacement (lattice/tuning.hpp).
     float displacement = 0;
-    /// Mean squared offset, per axis, between a dot and the nearest place of its cell (see
-    /// kernels.hpp), in spacings^2.
+    /// Mean squared offset between a dot and the nearest of the four dot positions of its cell,
+    /// along each axis, in spacings^2.
     float variance = 0;
     /// Agreement of the dots with the grid, in spacings^2. Used to compare grids that were fitted
     /// to the same dots. If m is `CellPass::max_off`, each dot at a distance d <= m from the
-    /// nearest place of its cell contributes m^2 - d^2.
+    /// nearest dot position of its cell contributes m^2 - d^2.
     float agreement = 0;
 };
 
@@ -29,9 +29,9 @@ struct PatchGrid {
 /// origin of the dot coordinates.
 struct PatchView {
     float spacing_px = 0;  ///< approximate spacing, in image pixels
-    /// Upper bound on the distance of every dot from the origin, per axis, in image pixels.
+    /// Upper bound on the distance of a dot from the origin, along each axis, in image pixels.
     float full_reach_px = 0;
-    /// Approximate number of central dots (at most 64), from which the waves are computed.
+    /// Approximate number of central dots, at most 64. The waves are computed from these dots.
     float central_dots = 30;
     int min_dots = 40;  ///< minimum number of dots in the patch
     /// True if the cells may be arbitrary parallelograms, because a rolling shutter shears and

@@ -1,8 +1,8 @@
 // Periodogram search: finds the grid in frames with many missing or false dots. In such frames,
 // many edges connect false neighbours, so axes estimated from edges are unreliable. The periodogram
 // is a sum over all dots near the centre, so its maximum is still at the true spacing and
-// direction. Unlike the paper, the second attempt has this extra step. See
-// docs/differs-from-paper.md.
+// direction. Only the second attempt uses this search, which is not part of the paper (see
+// docs/differs-from-paper.md).
 #pragma once
 
 #include "dotpose/trace.hpp"

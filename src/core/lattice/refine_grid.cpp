@@ -18,9 +18,10 @@ namespace tuned = tuning::refine_grid;
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Moves the origin by the median offset of the dots near the origin (paper, equation 6). Unlike
-/// the paper, this function adds the median, because offsets are measured from the estimated
-/// origin. The subtraction in equation 6 is a sign error.
+/// Moves the origin by the median offset of the dots near the origin (paper, equation 6). The paper
+/// subtracts the median from the origin, which is a sign error: the offsets are measured from the
+/// estimated origin. This function adds the median to the origin, which subtracts it from all plane
+/// points.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -35,8 +36,8 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
                           FixedVec{median(std::span(x).first(n)), median(std::span(y).first(n))};
 }
 
-/// Agreement of the dots with the grid. Includes only dots whose cells are at most `reach_cells`
-/// from the origin, except in `farthest_cell`.
+/// Agreement of the dots with the grid. Except for `farthest_cell`, includes only dots whose cells
+/// are at most `reach_cells` from the origin.
 struct Judged : Regularity {
     std::int64_t squared_offsets_q20 = 0;
 };
@@ -63,7 +64,7 @@ struct Target {
     FixedVec place_q16;
 };
 
-/// Returns an upper bound on the distances between the dots and `centre_q8`, per axis, in whole px.
+/// Returns an upper bound on the distance of a dot from `centre_q8` along each axis, in whole px.
 int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     std::int32_t reach = 1;
     for (const DetectedDot& dot : dots)
@@ -108,8 +109,8 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
 
 /// Fits the plane to the dots whose cells are at most `reach_cells` from the origin. Each dot is
 /// fitted to its nearest intersection, or ignored if its offset exceeds `max_offset_q16` along an
-/// axis. Unlike the paper, which uses median lengths in the text after equation 6, this fit
-/// determines all terms by least squares. Displacements are treated as noise.
+/// axis. The paper computes the axis lengths as medians (text after equation 6). This fit instead
+/// determines all terms by least squares. It treats displacements as noise.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {
@@ -119,8 +120,8 @@ void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOption
     });
 }
 
-/// Fits the plane to displaced dots, each at the nearest of the four places of its cell. Ignores
-/// dots farther than kFar_q16 from this place.
+/// Fits the plane to displaced dots. Each dot is fitted to the nearest of the four dot positions of
+/// its cell, or ignored if it is farther than kFar_q16 from this position.
 void fit_places(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, plane, [](const GridPoint& g) {

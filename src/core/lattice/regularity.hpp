@@ -1,6 +1,6 @@
-// Regularity: agreement of the dots with a grid that is fitted outwards, to more dots in each step.
-// The *reach* of a fit is the maximum distance between the origin and the cells of its dots, per
-// axis, in cells.
+// Regularity: measures how well the dots agree with a grid that is fitted outwards, to more dots in
+// each step. The *reach* of a fit is the maximum distance between the origin and the cells of its
+// dots along each axis, in cells.
 #pragma once
 
 #include <algorithm>

@@ -11,38 +11,37 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// Minimum fraction of dots near an intersection, in units of 1/20, with which the fit extends to
-/// farther dots without another iteration. The fraction is less than 1, because some detected dots
-/// may be dirt.
+/// If at least this fraction of the dots, in units of 1/20, is near an intersection, the fit
+/// extends to farther dots without another iteration. The fraction is less than 1, because some
+/// detected dots may be dirt.
 inline constexpr int kSettled_20th = 19;
-/// Minimum fraction of dots near an intersection in a grid, in 1/10. Half of randomly placed dots
+/// Minimum fraction of dots near an intersection in a grid, in tenths. Half of randomly placed dots
 /// are near an intersection.
 inline constexpr int kMin_10ths = 7;
 }  // namespace regularity
 
-/// Exact grid of the second attempt (lattice/refine_grid).
+/// Refined grid of the second attempt (lattice/refine_grid).
 namespace refine_grid {
 /// Maximum number of dots used to compute the median offset, which corrects the origin.
 inline constexpr int kMedianSample = 256;
-/// Maximum number of fits before the fit extends to farther dots. Each fit assigns more dots to the
-/// correct cells.
+/// Maximum number of fits at each reach (see lattice/regularity.hpp). Each fit assigns more dots to
+/// the correct cells.
 inline constexpr int kMaxRounds = 4;
-/// Maximum distance between a dot and the nearest of the four places of its cell, in 2^-16
+/// Maximum distance between a dot and the nearest of the four dot positions of its cell, in 2^-16
 /// spacings. Dots farther away are treated as false dots. The limit is slightly less than the
 /// displacement. With half or twice this value, 1,994 frames are still located.
 inline constexpr int kFar_q16 = 65536 / 8;
-/// Number of fits to the nearest places. The second fit starts from a more precise plane, and
-/// assigns more dots to their correct places.
+/// Number of fits to the nearest dot positions. The second fit starts from a more precise plane,
+/// and assigns more dots to their correct positions.
 inline constexpr int kPlaceRounds = 2;
 }  // namespace refine_grid
 
 /// First grid of the second attempt, from the periodogram (lattice/periodogram_search).
 namespace periodogram_search {
-/// Half side of the central square whose dots contribute to the periodogram, in spacings. Raster
+/// Half-width of the central square whose dots contribute to the periodogram, in spacings. Raster
 /// searches use kNear_cells, because the periodogram of a small square has a wide peak, which a
 /// coarse raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is
-/// more precise. If kNear_cells is 3, 1,964 frames are located. If it is 10, 1,993 frames are
-/// located.
+/// more precise. The number of located frames is 1,964 if kNear_cells is 3, and 1,993 if it is 10.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Raster of the first search. kTurn_deg is the direction step. kStretchPart is the ratio of the
@@ -51,8 +50,8 @@ inline constexpr int kTurn_deg = 2;
 inline constexpr int kStretchPart = 40;
 inline constexpr int kStretches = 4;
 /// Raster of the separate search for each direction, for tilted cameras. Three steps to each side
-/// cover 9 degrees and 12 % of the spacing. At a tilt of 30 degrees, the two spacings differ by 13
-/// %.
+/// cover 9 degrees and 12 % of the spacing. At a tilt of 30 degrees, the spacings in the two
+/// directions differ by 13 %.
 inline constexpr int kTiltTurn_deg = 3;
 inline constexpr int kTiltStretchPart = 25;
 inline constexpr int kTiltSteps = 3;
@@ -69,21 +68,21 @@ namespace outwards {
 /// Minimum number of dots in a patch. A position needs at least six lines of six cells, which is 36
 /// dots.
 inline constexpr int kMinDots = 40;
-/// Minimum and maximum number of central dots for the waves. With fewer dots, randomly placed dots
-/// may produce waves as strong as those of a grid. More dots hardly improve the waves, but take
-/// longer, because each dot is evaluated in at least 12 directions.
+/// Minimum and maximum number of central dots from which the waves are computed. With fewer dots,
+/// even randomly placed dots may produce waves as strong as those of a grid. More dots hardly
+/// improve the waves, but take longer, because each dot is evaluated in at least 12 directions.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
-/// Limits on the total power of the two waves, divided by the squared number of dots. A grid
-/// without displacements reaches about 2. If the power exceeds kClearWaves, the search tries no
-/// other spacings. Waves with a power below kFaintWaves are rejected.
+/// Limits on the total power of the two waves, divided by the square of the number of dots. A grid
+/// without displacements has a power of about 2. Above kClearWaves, the search does not try other
+/// spacings. Waves below kFaintWaves are rejected.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
 /// Range of spacings in the smoothed patch, in patch pixels. In a finer grid, the dots merge. In a
-/// coarser grid, a dot has more than one minimum.
+/// coarser grid, one dot may produce several minima.
 inline constexpr float kFinest_px = 4.4F;
 inline constexpr float kCoarsest_px = 40;
-/// Limits of a plausible fit: minimum and maximum spacing relative to the first spacing, and
+/// Limits for a plausible fit: minimum and maximum spacing relative to the first spacing, and
 /// maximum difference between the perspective divisor and 1 within the reach. The limits reject
 /// fits with half or twice the true spacing.
 inline constexpr float kMinSpacing = 0.7F;
@@ -93,25 +92,26 @@ inline constexpr float kMaxFold = 0.7F;
 /// treat displacements as noise.
 inline constexpr float kFirstReach = 3;
 inline constexpr float kFirstMaxOffset = 0.42F;
-/// Range of the displacement in a first grid, in spacings. This range is slightly wider than the
-/// range of 0.12 to 0.30 in docs/limits.md.
+/// Limits to which the displacement in a first grid is clamped, in spacings. The range is slightly
+/// wider than the supported range of 0.12 to 0.30 (docs/limits.md).
 inline constexpr float kMinDisplacement = 0.11F;
 inline constexpr float kMaxDisplacement = 0.32F;
-/// Maximum distance between a dot and the nearest of the four places of its cell. The limit is
-/// kMaxOffsetPart times the displacement, but at most kMaxOffset spacings. kMaxOffset is half of
-/// the distance between facing places of adjacent cells if the displacement is kMaxDisplacement.
+/// Maximum distance between a dot and the nearest of the four dot positions of its cell. The limit
+/// is kMaxOffsetPart times the displacement, but at most kMaxOffset spacings. kMaxOffset is half
+/// the distance between the facing dot positions of two adjacent cells at the largest displacement,
+/// kMaxDisplacement.
 inline constexpr float kMaxOffsetPart = 0.75F;
 inline constexpr float kMaxOffset = 0.18F;
 /// A search ends without a grid if a fit uses fewer than kMinUsed dots, or if less than
-/// kMinFraction of the dots within `CellPass::reach_px` are near one of the four places of their
-/// cell. kMaxRounds is the maximum number of fits.
+/// kMinFraction of the dots within `CellPass::reach_px` are near one of the four dot positions of
+/// their cell. kMaxRounds is the maximum number of fits.
 inline constexpr float kMinUsed = 12;
 inline constexpr float kMinFraction = 0.4F;
 inline constexpr int kMaxRounds = 16;
 /// Factors by which `CellPass::reach_px` changes after each round. Let f be the fraction of dots
-/// near one of the four places of their cell. The factor is kGoodGrowth if f exceeds kGoodFraction,
-/// kFairGrowth if f is between kFairFraction and kGoodFraction, and kPoorGrowth otherwise.
-/// kPoorGrowth is less than 1, because the plane must first improve near the middle.
+/// near one of the four dot positions of their cell. The factor is kGoodGrowth if f exceeds
+/// kGoodFraction, kFairGrowth if f is between kFairFraction and kGoodFraction, and kPoorGrowth
+/// otherwise. kPoorGrowth is less than 1, because the plane must first improve near the middle.
 inline constexpr float kGoodFraction = 0.9F;
 inline constexpr float kGoodGrowth = 1.8F;
 inline constexpr float kFairFraction = 0.8F;

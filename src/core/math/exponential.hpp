@@ -1,5 +1,5 @@
 // Exponential: the exponential function and the natural logarithm in single precision. The results
-// are bit-identical on all platforms. Results of the C library may differ in the last bit.
+// are bit-identical on all platforms, unlike the results of C libraries.
 #pragma once
 
 #include <cstdint>

@@ -85,8 +85,8 @@ std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, i
 }
 
 std::int64_t log2_q16(std::uint32_t n) {
-    // Computes the logarithm bit by bit: squaring the mantissa doubles its logarithm, so the
-    // integer part gives the next bit.
+    // Computes the logarithm bit by bit. Squaring the mantissa doubles its logarithm, so the
+    // integer part of the doubled logarithm is the next bit.
     int whole = 0;
     while (n >> whole > 1)
         ++whole;
@@ -138,8 +138,8 @@ std::int32_t angle_bam(FixedVec direction) {
         }
     };
     // Index of the first step in which |y| fits in 32 bits. The rotations lengthen the vector to at
-    // most 1.65 * 2^41, and before step i, |y| is at most 2^(1 - i) times this length. From step 12
-    // on, |y| and the terms subtracted from it therefore fit in 32 bits.
+    // most 1.65 * 2^41, and before step i, |y| is at most 2^(1 - i) times this length. In step 12
+    // and all later steps, |y| and the terms subtracted from it therefore fit in 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

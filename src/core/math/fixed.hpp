@@ -109,8 +109,8 @@ std::int64_t log2_q16(std::uint32_t n);
 /// Interpolates linearly between powers of two and subtracts a correction.
 constexpr std::int64_t exp2_q16(int n_q8) {
     const std::int32_t fraction_q8 = n_q8 & 255;
-    // 1 + f exceeds 2^f by at most 0.086, about f (1 - f) / 3, where f is the fraction. 21846 /
-    // 2^16 is about 1/3.
+    // For the fraction f, 1 + f exceeds 2^f by about f (1 - f) / 3, which is less than 0.09.
+    // 21846 / 2^16 is about 1/3.
     const std::int32_t mantissa_q16 =
         65536 + fraction_q8 * 256 - (fraction_q8 * (256 - fraction_q8) * 21846 >> 16);
     return std::int64_t{mantissa_q16} << (n_q8 >> 8);
@@ -121,8 +121,8 @@ inline constexpr int kNever_q8 = -(1 << 20);
 
 /// log2(1 + 2^-d) in units of 2^-8, for d = 0, 1, ..., rounded up. The first entry is 255 instead
 /// of 256 to fit in a byte, so `add_log2` adds 1. Because the function is convex, linear
-/// interpolation gives an upper bound. The table is not local to `add_log2`, because every inlined
-/// call would then copy it.
+/// interpolation gives an upper bound. The table is at namespace scope, because every inlined call
+/// of `add_log2` would copy a local table.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
 /// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24. Uses the bound log2(1 + f)

@@ -49,7 +49,7 @@ inline float spacing_px(const FloatPlane& plane) {
 }
 
 /// Returns true if the plane is a plausible view of paper:
-/// - the spacing is from 3 to 400 px,
+/// - the spacing is between 3 and 400 px,
 /// - the sine of the angle between the mapped image axes exceeds 1/4,
 /// - the map does not fold within the image, and
 /// - the coordinates fit in PlaneFromImage.

@@ -36,14 +36,14 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
 ///
 ///     seen = axis + R(row * rad_per_row) * (p - axis) + displacement(row), where row = seen.y.
 ///
-/// R(a) is the rotation by the angle a. displacement(row) is the distance that the scene point
+/// R(a) is the rotation by the angle a. displacement(row) is the vector by which the scene point
 /// `axis` has moved since row 0. Without the rotation, p would appear at the point q with q = p +
-/// q.y * drift. The map from p to q is affine. The member functions convert between the images
-/// with and without rotation.
+/// q.y * drift. The map from p to q is affine. The member functions convert between the images with
+/// and without rotation.
 struct ReadoutTurn {
     float rad_per_row = 0;
-    FloatVec axis;   ///< fixed point of the rotation
-    FloatVec drift;  ///< motion of `axis` in the image, in px per row, with y < 1
+    FloatVec axis;   ///< point around which the scene rotates, at time 0
+    FloatVec drift;  ///< velocity of `axis` at time 0, in px per row, with y < 1
 
     /// Returns the point of the image without rotation that shows the same scene point as `seen`.
     FloatVec without_turn(FloatVec seen) const {
@@ -55,9 +55,10 @@ struct ReadoutTurn {
         return {p.x + axis.x + still_row * drift.x, still_row};
     }
 
-    /// Returns the inverse of `without_turn`, by Newton's method with `steps` steps. `row` is the
-    /// approximate row of the result. The result is correct only where the scene moves down by less
-    /// than one row while a row is read. Otherwise, several rows or none may show the scene point.
+    /// Inverse of `without_turn`: returns the point of the image with rotation that shows the same
+    /// scene point as `still`. Uses `steps` steps of Newton's method. `row` is the approximate row
+    /// of the result. The result is correct only where the scene moves down by less than one row
+    /// while a row is read. Otherwise, several rows or none may show the scene point.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
         constexpr float kMaxRow = 4096;  // larger than the row number in any image

@@ -1,5 +1,5 @@
-// Tabled: tables of functions of small integers. On processors without a divide instruction, a
-// look-up is faster than a function that divides.
+// Tabled: look-up tables for functions of small integers. On processors without a divide
+// instruction, a look-up is faster than a function that divides.
 #pragma once
 
 #include <array>

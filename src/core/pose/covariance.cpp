@@ -6,8 +6,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the gradient, with respect to the parameters, of the direction from point `from` to
-/// point `to` of `places`, in rad. `scale` is the unit of `places`, in spacings.
+/// Returns the gradient of an angle, in rad, with respect to the parameters. The angle is the
+/// direction from point `from` to point `to` of `places`. `scale` is the unit of `places`, in
+/// spacings.
 Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
                               std::size_t to) {
     const float x = (places.x[to] - places.x[from]) * scale;

@@ -17,7 +17,7 @@ constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
                              0.64944805F, 0.52249856F, 0.38268343F, 0.23344536F, 0.07845910F};
-// An ellipse is small if both squared half axes are below this value.
+// An ellipse is small if both squared semi-axes are below this value.
 constexpr float kSmall_px2 = 4;
 
 /// Returns exp(-x) for x >= 0. Unlike std::exp, the result is bit-identical on every platform.
@@ -54,8 +54,8 @@ struct Normal {
     }
 };
 
-/// Responses of the pixels along one axis to a blurred step and to a blurred point, both at
-/// `place`.
+/// Responses of a line of pixels to a blurred step and to a blurred point. `place` is the
+/// coordinate of the step or point.
 struct PixelLine {
     /// Response to a step: the darkness is 0 before `place` and 1 beyond it.
     std::array<float, kSide> step;
@@ -130,7 +130,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
         for (std::size_t u = begin; u < end; ++u) {
             // `fraction` is proportional to 1 / radius.x, so the derivative with respect to
             // radius.x includes -dot / radius.x. Division by 2 * radius converts a derivative with
-            // respect to a half axis to a derivative with respect to its square.
+            // respect to a semi-axis to a derivative with respect to its square.
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);
             by_radius_v.all[v][u] /= 2 * radius.y;

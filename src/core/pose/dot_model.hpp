@@ -13,7 +13,7 @@ namespace dotpose::core {
 /// A blurred ellipse in the image. Lengths are in px, and squared lengths in px^2.
 struct ModelDot {
     FloatVec centre;    ///< relative to the middle of the central pixel
-    FloatVec radius_2;  ///< squared half axes along u and v
+    FloatVec radius_2;  ///< squared semi-axes along u and v
     FloatVec blur_2;    ///< blur variance along u and v
     /// Covariance of the blur between u and v. Only its first-order effect is modelled.
     float blur_uv = 0;
@@ -39,7 +39,7 @@ struct DotPixels {
 /// is completely within the drawn pixels.
 struct DotImages {
     DotPixels dot;
-    /// Derivatives with respect to the centre, the squared half axes and the blur variance, each
+    /// Derivatives with respect to the centre, the squared semi-axes and the blur variance, each
     /// along u and then along v, and with respect to the covariance of the blur. The effect of this
     /// covariance on the other derivatives is neglected.
     std::array<DotPixels, 7> derivatives;

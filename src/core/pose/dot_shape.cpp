@@ -56,7 +56,7 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
     normal.expect(blur_u, tuned::kBlur_2, tuned::kBlur_2, terms);
     normal.expect(blur_v, tuned::kBlur_2, tuned::kBlur_2, terms);
     normal.expect(blur_uv, 0, tuned::kBlur_2, terms);
-    // Prior: dots are about as wide as they are high.
+    // Prior: the two semi-axes are about equal.
     Terms by_width{};
     by_width[radius_u] = 1 / first[radius_u];
     by_width[radius_v] = -by_width[radius_u];
@@ -79,7 +79,7 @@ DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     Terms result = terms;
     for (std::size_t i = 0; i < Term::count; ++i)
         result[i] += step[i];
-    // Half axes and blur must remain positive, so a step may reduce each of these terms at most to
+    // Semi-axes and blur must remain positive, so a step may reduce each of these terms at most to
     // a quarter of its value, and never below kMin_px2.
     for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
         result[i] = std::max({result[i], terms[i] / 4, tuned::kMin_px2});

@@ -10,8 +10,8 @@ namespace dotpose::core {
 class DotShape {
   public:
     /// Terms of the fit. `offset_u` and `offset_v` are the mean offset of the dots from their
-    /// expected centres. The radii are squared half axes, and the blurs are two variances and their
-    /// covariance. `mass` is the total darkness of a dot. `paper` is the darkness of a pixel
+    /// expected centres. The radii are squared semi-axes. The blur terms are two variances and
+    /// their covariance. `mass` is the total darkness of a dot. `paper` is the darkness of a pixel
     /// without ink, which is close to 0, because darkness is relative to the local paper level.
     enum Term : std::size_t {
         offset_u,

@@ -1,7 +1,7 @@
 // Float fit: fits the pose, in single precision, to dots that were measured near their predicted
-// image positions. It is a variant of `refine_pose` with vector kernels. Unlike the paper, which
-// computes the pose from the grid (paper, equations 10-12), this fit uses the printed positions of
-// the displaced dots.
+// image positions. It is a variant of `refine_pose` that uses vector kernels. Unlike the paper,
+// which computes the pose from the grid (paper, equations 10-12), this fit uses the printed
+// positions of the displaced dots.
 #pragma once
 
 #include "core/math/float_plane.hpp"

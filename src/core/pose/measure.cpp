@@ -37,8 +37,8 @@ struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;
 
-    /// Computes both sizes from the spacing. `sigma_q8` is the standard deviation of a blurred dot,
-    /// about a tenth of the spacing.
+    /// Computes both members from the spacing. `sigma_q8` is the standard deviation of a blurred
+    /// dot, about a tenth of the spacing.
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min<std::int32_t>(
               std::max<std::int32_t>(spacing_q8 * tuned::kHalf_32nds / 32 + 255,
@@ -97,9 +97,9 @@ struct BorderBackground {
     float slope_v = 0;
 };
 
-/// Computes the paper level from the window sides that are in the image. There are at least two
-/// such sides, because an image that shows a grid is larger than a window. If one of two opposite
-/// sides is missing, the slope between them is 0.
+/// Computes the paper level from the window sides that are in the image. At least two sides are in
+/// the image, because an image that shows a grid is larger than a window. If only one of two
+/// opposite sides is in the image, the slope between them is set to 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
@@ -185,7 +185,8 @@ class DotFit {
 };
 
 /// Window profile along one axis. `distance` is the distance d from the window centre, in units of
-/// sigma. `profile` is exp(-d^2 / 2). The arrays are padded with zeros to a multiple of four.
+/// sigma. `profile` is exp(-d^2 / 2). Three zeros follow the last element of each array, because
+/// the values are loaded as vectors of four.
 struct AxisProfile {
     using Values = std::array<float, kMaxInFours>;
     Values distance;

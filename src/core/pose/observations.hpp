@@ -41,7 +41,7 @@ class Observations {
     /// Returns an upper bound on the number of observations.
     int count() const { return static_cast<int>(dots_.size()); }
 
-    /// Calls `use` for every `every`-th observation.
+    /// Calls `use` for every n-th observation, where n is `every`.
     template <typename Use>
     void visit(Use use, int every = 1) const {
         const FixedVec along_row = nominal_.pattern_step({1, 0});

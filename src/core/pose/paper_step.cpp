@@ -31,8 +31,8 @@ struct PartSums {
     /// - number of coherent dots, and
     /// - sum of the squared residuals of the coherent dots.
     Four counts;
-    Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
-    /// Coherent dots: sums of xx, xy and yy, and of the cross products of position and residual.
+    Four places;  ///< sums over the coherent dots: x, y, and the residuals along x and y
+    /// Sums over the coherent dots: xx, xy, yy, and the cross product of position and residual.
     /// Positions are relative to the reference point.
     Four moments;
 
@@ -116,7 +116,7 @@ class AffineFit {
 
     /// Returns the summed squared residuals of all coherent dots, after subtracting the map.
     float squares() const { return squares_; }
-    /// Returns the decrease of `squares()` if a displacement of the part `beyond` is fitted
+    /// Returns by how much `squares()` decreases if a displacement of the part `beyond` is fitted
     /// together with the map. Returns 0 if the dots do not determine the displacement.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
@@ -126,8 +126,9 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns the decrease of `squares()` if a displacement and a rotation of the part `beyond`
-    /// are fitted together with the map. Returns 0 if the dots do not determine the displacement.
+    /// Returns by how much `squares()` decreases if a displacement and a rotation of the part
+    /// `beyond` are fitted together with the map. Returns 0 if the dots do not determine the
+    /// displacement.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -154,10 +155,9 @@ class AffineFit {
     }
 
   private:
-    /// The dots determine a step only if the spread exceeds this value. The spread measures how
-    /// poorly an affine map approximates a step. It is the sum of the squared residuals after an
-    /// affine map is fitted to a function that is 1 for dots beyond the line and 0 for all other
-    /// dots.
+    /// Minimum spread at which the dots determine a step. The spread is the sum of the squared
+    /// residuals after an affine function is fitted to f, where f is 1 for dots beyond the line and
+    /// 0 for all other dots. If the spread is small, an affine map can imitate the step.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -282,15 +282,14 @@ class Search {
         return dots * natural_log(affine_.squares() / remaining);
     }
 
-    /// Returns the sum of the log odds of the dots in a part, for a plane fitted to this part
-    /// alone.
+    /// Returns the sum of the log odds of the dots in a part, for a plane fitted only to this part.
     float on_own_plane(const PartSums& part) const {
         return kOnPlane * part.dots() - part.remaining() / (2 * variance_) +
                off_plane_ * (part.seen() - part.dots());
     }
 
-    /// Returns an upper bound on `gain_of`: the gain for separate planes on which all coherent dots
-    /// have residuals of 0.
+    /// Returns an upper bound on `gain_of`: the gain if separate planes fitted all coherent dots
+    /// exactly.
     float max_gain_of(const PartSums& beyond, const PartSums& here) const {
         const auto max_of = [this](const PartSums& part) {
             return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());
@@ -300,10 +299,10 @@ class Search {
     }
 
     /// Returns the log likelihood ratio of two models: separate planes for the two parts, and one
-    /// plane for the whole sheet. Both parts have their own plane, because the plane of the whole
-    /// sheet may fit neither of them. If the dots beyond the line fit their own plane worse than
-    /// they fit random positions, their log odds count as 0. If the dots on this side fit their own
-    /// plane worse than they fit the plane of the whole sheet, they add nothing to the result.
+    /// plane for the whole sheet. Each part has its own plane, because the plane of the whole sheet
+    /// may fit neither part. The log odds of the dots beyond the line are clamped to at least 0,
+    /// the value for random positions. The contribution of the dots on this side is also clamped to
+    /// at least 0, the value if these dots keep the plane of the whole sheet.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));

@@ -127,8 +127,8 @@ class AxisBias {
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the variance of the mean centre, in px^2, due to the bias that remains after the
-    /// correction.
+    /// Returns the variance of the mean of all dot centres, in px^2, due to the bias that remains
+    /// after the correction.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;
@@ -148,11 +148,11 @@ struct WindowBias {
     float shear;        ///< error along each axis per px of offset along the other axis
     float slope_ratio;  ///< slope of the moment along v, divided by the slope along u
 
-    /// Returns the centroid error, in px, of a dot at offset `d` from its window centre. There are
-    /// three causes. The kernels take a single Newton step, which is exact only if the moment is
-    /// linear in d. They also divide the moments of both axes by the slope along u at the window
-    /// centre. If the blur is oblique, the dot is tilted, so an offset along one axis also shifts
-    /// the weighted centroid along the other axis.
+    /// Returns the centroid error, in px, of a dot at offset `d` from its window centre. The error
+    /// has three causes. First, the kernels take a single Newton step, which is exact only if the
+    /// moment is linear in d. Second, they divide the moments of both axes by the slope along u.
+    /// Third, an oblique blur tilts the dot, so an offset along one axis also shifts the weighted
+    /// centroid along the other axis.
     FloatVec at(FloatVec d) const {
         return {2 * bend * d.x * d.x * d.x + shear * d.y,
                 d.y * (slope_ratio * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1) + shear * d.x};
@@ -182,8 +182,8 @@ class ExpectedDots {
           centre_px_(centre_px),
           dots_(dots) {}
 
-    /// Visits every `every`-th dot. Calls `use` for each inlier, with the index of the dot and the
-    /// `Phase` of its expected image point.
+    /// Visits every n-th dot, where n is `every`. If the dot is an inlier, calls `use` with the
+    /// index of the dot and the `Phase` of its expected image point.
     template <typename Use>
     void visit(std::size_t every, Use use) const {
         for (std::size_t k = 0; k < static_cast<std::size_t>(dots_.count); k += every) {

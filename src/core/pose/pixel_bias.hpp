@@ -23,9 +23,9 @@ struct CentroidWindow {
 /// Drops dots whose window extends beyond the image.
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
-/// Subtracts the bias from the centres of all inliers. Returns the variance of the mean centre due
-/// to the remaining bias, along u and v, in px^2. If the bias is negligible or cannot be
-/// determined, changes nothing and returns (0, 0).
+/// Subtracts the bias from the centres of all inliers. The remaining bias makes the mean of all
+/// centres uncertain. Returns the variance of this mean along u and v, in px^2. If the bias is
+/// negligible or cannot be determined, changes nothing and returns (0, 0).
 FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
                             const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 

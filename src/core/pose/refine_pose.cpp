@@ -13,7 +13,7 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// Linear model of the squared residual of a dot as a function of its pixel noise
+/// Linear model of a dot's squared residual as a function of its pixel noise
 /// (`Observations::noise`). The constant term is due to print errors, which do not depend on the
 /// illumination. The linear term is due to pixel noise: in dim light, the contrast is lower, so the
 /// same noise has a larger effect.

@@ -11,11 +11,10 @@
 
 namespace dotpose::core {
 
-/// Improves the pose, and rejects outliers. Each fitted distortion term adds noise to the pose. For
-/// a camera that looks straight at flat paper, this noise is avoidable, because the true value of
-/// the term is 0. The terms are therefore shrunk to their posterior means (fit/posterior). Returns
-/// false if the dots do not determine the pose. `pattern_from_image` is then the result of the last
-/// successful iteration.
+/// Improves the pose by least squares, and rejects outliers. Shrinks the distortion terms to their
+/// posterior means (fit/posterior), because fitting a term whose true value is 0 only adds noise to
+/// the pose. Returns false if the dots do not determine the pose. `pattern_from_image` is then the
+/// result of the last successful iteration.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);
 

@@ -26,8 +26,8 @@ void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& plac
     fix.fraction_y_q16 = static_cast<std::uint16_t>(t.y & 0xFFFF);
     const FixedVec du = there.du_q24;
     fix.theta_bam = angle_bam(du);
-    // The spacing in px is 1 / |du|. The divisor is clamped, because |du| may be almost 0 where the
-    // map folds, far outside the image.
+    // The spacing in px is 1 / |du|. The divisor is clamped, because |du| may be almost 0 at a
+    // reference point far outside the image.
     const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
     const std::int64_t spacing_q16 =
         (std::int64_t{1} << 40) / std::max<std::uint32_t>(du_length_q24, 1U);

@@ -1,5 +1,5 @@
-// Subgrid: computes the angle, and the position of the reference point to a fraction of a cell
-// (paper, section II-B.8, equations 10-12, and the end of section II-B.6).
+// Subgrid: computes the angle (paper, end of section II-B.6), and the position of the reference
+// point to a fraction of a cell (paper, section II-B.8, equations 10-12).
 #pragma once
 
 #include "dotpose/fix.hpp"

@@ -1,7 +1,7 @@
 // Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
 // on the hard frames listed in decode/tuning.hpp. Some comments state the results with other values
-// of a constant: the number of located frames, and the median and 95th percentile of their errors.
-// These results are printed by the command
+// of a constant: the number of located frames, and the median and 95th percentile of the position
+// errors. These results are printed by the command
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
@@ -12,14 +12,14 @@ namespace dotpose::core::tuning {
 
 /// Measurement of dots in a window (pose/measure).
 namespace measure {
-/// Half the window side, in 1/32 of the spacing, and its minimum, in 1/256 px. At this size, the
-/// window border is on blank paper even if the dot is off centre, and the window contains no other
-/// dot.
+/// Half-width of the window, in units of 1/32 of the spacing, and its minimum, in 1/256 px. At this
+/// size, the window border is on blank paper even if the dot is off centre, and the window contains
+/// no other dot.
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
-/// Standard deviation of the fitted dot, in 1/128 of the spacing, and its minimum, in 1/256 px.
-/// kSigma_128ths is the sigma of a typical blurred dot. With a value of 6, the results are 1,994
-/// frames, 2.19 µm and 5.36 µm. With 24, they are only 1,904 frames, 3.58 µm and 9.19 µm.
+/// Standard deviation of the fitted dot, in units of 1/128 of the spacing, and its minimum, in
+/// 1/256 px. kSigma_128ths is the sigma of a typical blurred dot. With a value of 6, the results
+/// are 1,994 frames, 2.19 µm and 5.36 µm. With 24, they are only 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance between a dot and its predicted image position, in units of sigma^2.
@@ -54,7 +54,8 @@ inline constexpr int kOutlier_medians = 12;
 /// Outlier limit for squared residuals, in units of the known variance of one coordinate. The limit
 /// for the residual is 4.1 standard deviations. By chance, 1 dot in 4,000 exceeds this limit.
 inline constexpr float kOutlier = 16.6F;
-/// If the relative change of the outlier limit is less than this, the inliers count as unchanged.
+/// If the relative change of the outlier limit is less than this, the inliers are assumed to be
+/// unchanged.
 inline constexpr float kSameLimit = 0.04F;
 /// Maximum fraction of the residual variance that is attributed to pixel noise.
 inline constexpr float kMaxByNoise = 0.9F;
@@ -75,12 +76,12 @@ namespace shape {
 inline constexpr float kOff_px = 0.1F;
 /// Prior: mean of the blur variance, in px^2. The standard deviation has the same value.
 inline constexpr float kBlur_2 = 0.25F;
-/// Prior: standard deviation of the relative difference between the squared half axes.
+/// Prior: standard deviation of the relative difference between the squared semi-axes.
 inline constexpr float kSigmaOfWidth = 0.3F;
 /// Prior: mean and standard deviation of the ink contrast, as fractions of the paper level.
 inline constexpr float kContrast = 0.8F;
 inline constexpr float kSigmaOfContrast = 0.15F;
-/// Lower limit for the squared half axes and for the blur variances.
+/// Lower limit for the squared semi-axes and for the blur variances.
 inline constexpr float kMin_px2 = 0.005F;
 /// Damping of the steps: initial value, maximum, and factor after a rejected step.
 inline constexpr float kFirstDamping = 0.01F;
@@ -109,14 +110,14 @@ inline constexpr float kBeyondEdge_px = 1.5F;
 /// If the blur variance exceeds this limit along both axes, the bias is not corrected: it is
 /// negligible, and dots may be larger than the model image.
 inline constexpr float kBlurred_px2 = 1.2F;
-/// Variance of the remaining bias after a correction, divided by the squared amplitude of the
-/// computed bias. The variance is kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is
-/// `DotShape::misfit()`. For round dots, the second term is 0.
+/// Uncertainty of the bias correction. The variance of the remaining bias is f a^2, where a is the
+/// amplitude of the computed bias and f is kOfModel + kOfMisfit * max(misfit - kMisfit, 0). misfit
+/// is `DotShape::misfit()`. For round dots, the second term of f is 0.
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
-/// Scale of the shrinkage in `AxisBias::slope_ratio`: the typical relative difference that noise
-/// causes between the moment slopes along u and v of round dots.
+/// Scale of the shrinkage in `AxisBias::slope_ratio`. For round dots, noise typically causes a
+/// relative difference of this size between the moment slopes along u and v.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
@@ -125,18 +126,19 @@ namespace uneven {
 /// Limits for the scatter between blocks. The limits apply to `GroupScatter::excess`, in standard
 /// deviations. `dotpose_tables slips` measures the fractions of flat sheets that exceed them.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
-///   The limit is low because the plane fitted to all dots explains most of a step, and because the
+///   The limit is low because the plane fitted to all dots absorbs most of a step, and because the
 ///   dots of the second attempt are noisier than those of the other attempts.
 /// - kShared: above this limit, the mean block residuals increase the covariance. 1 in 20 flat
 ///   sheets exceeds this limit.
-/// - kSuspect: above this limit, the first and tracked attempts search for a line. If the scatter
-///   on one side of a line is below this limit, this side counts as even.
-/// - kUneven: above this limit, a sheet without a line counts as uneven. At most about 1 in 1,000
-///   flat sheets exceeds this limit.
+/// - kSuspect: above this limit, the first and tracked attempts search for a line. The dots on the
+///   reference point's side of a line are assumed to be in one plane if their scatter is below this
+///   limit.
+/// - kUneven: above this limit, a sheet that is not divided by a line is considered uneven. At most
+///   about 1 in 1,000 flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
-/// If there are at most this many dots, the limit is kMaybeLine. With more dots, the limit is
-/// kMaybeLine * sqrt(dots / kMaybeLineDots), because block residuals become more significant on any
-/// sheet.
+/// Maximum number of dots for which the second attempt uses kMaybeLine as the limit. With more
+/// dots, the limit is kMaybeLine * sqrt(dots / kMaybeLineDots), because the block residuals of any
+/// sheet become more significant.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
@@ -145,13 +147,13 @@ inline constexpr float kUneven = 5;
 /// the number of dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
-/// If there are more dots than this, each image side is divided into nine blocks instead of at most
-/// kFewAlong.
+/// With more dots than this, each image side is divided into nine blocks. Otherwise, it is divided
+/// into at most kFewAlong blocks.
 inline constexpr int kManyDots = 1000;
-/// If there are at most kManyDots dots, the number of blocks along each image side is the largest
-/// number up to kFewAlong for which a block contains at least kDotsPerBlock dots on average, but at
-/// least kMinAlong. With only one or two dots per block, the scatter within blocks would be
-/// unknown, and flat sheets would seem uneven.
+/// Limits on the number of blocks along each image side if there are at most kManyDots dots. Within
+/// these limits, it is the largest number for which a block contains at least kDotsPerBlock dots on
+/// average. With only one or two dots per block, the scatter within blocks could not be estimated
+/// reliably, and flat sheets would seem uneven.
 inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
 inline constexpr int kDotsPerBlock = 4;
@@ -165,15 +167,15 @@ inline constexpr float kOfTurn = 8;
 /// dots changes slowly across the view, the bias differs between blocks, but it averages out over
 /// the view and is therefore not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// If the distance from the reference point to the dividing line is at most this, in spacings, the
-/// reference point may be on either side of the line.
+/// If the reference point is at most this far from the dividing line, in spacings, it may be on
+/// either side of the line.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
 /// Search for a line that divides a sheet (pose/paper_step, pose/split_fit).
 namespace paper_step {
-/// Maximum evidence of one dot for a plane. The evidence is the natural log of the odds that the
-/// dot is where the plane predicts it, rather than at a random position in its cell.
+/// Maximum evidence that one dot provides for a plane. The evidence is the natural log of the odds
+/// that the dot is where the plane predicts it, rather than at a random position in its cell.
 inline constexpr float kOnPlane = 5;
 /// Maximum squared residual that a displaced part of the sheet can explain, in units of the
 /// residual variance.
@@ -188,27 +190,26 @@ inline constexpr float kFarOff = 0.04F;
 /// Dots belong to neither side of the line if their distance from the line is below this limit, in
 /// spacings. The position of the line is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
-/// Parameters of the search for a residual that the dots beyond the line have in common. kReach is
-/// the maximum distance of these dots from the reference point along each axis, in spacings. At
-/// least kMinAgreeing dots must agree with the common residual: the squared difference from it must
-/// be less than kAgreement, in spacings^2.
+/// Parameters of the search for a residual that the dots beyond the line have in common. The search
+/// uses the dots within kReach spacings of the reference point along each axis. A residual agrees
+/// with the common residual if their squared difference is less than kAgreement, in spacings^2. At
+/// least kMinAgreeing residuals must agree.
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
-/// Number of iterations. Each iteration fits a plane to the dots on the side of the reference
-/// point, and all except the last then search for the line again.
+/// Number of iterations in `fit_this_side`. Each iteration fits a plane to the reference point's
+/// side. Each iteration except the last then searches for the line again.
 inline constexpr int kRounds = 3;
 }  // namespace paper_step
 
 /// Rotation during the readout of a rolling shutter (pose/turn_fit).
 namespace turn {
-/// Steps for numerical derivatives. The step of the rotation moves dots in the image corners by
-/// kStep_px. The step of the drift is kDriftStep, in px per row.
+/// Steps for numerical derivatives. The rotation step moves dots in the image corners by kStep_px.
+/// The drift step is kDriftStep, in px per row.
 inline constexpr float kStep_px = 0.3F;
 inline constexpr float kDriftStep = 0.02F;
-/// Standard deviation of the error of the drift that `drift_of` computes from the plane, in px per
-/// row. For example, a tilt of the camera by 14 degrees foreshortens the paper by 3 %, which looks
-/// like a drift of 0.03.
+/// Standard error of the drift that `drift_of` computes from the plane, in px per row. For example,
+/// a camera tilt of 14 degrees foreshortens the paper by 3 %, which looks like a drift of 0.03.
 inline constexpr float kDrift = 0.02F;
 }  // namespace turn
 

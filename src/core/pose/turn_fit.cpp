@@ -103,9 +103,10 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
         transfer(trial.turn, turn, dots);
         if (!is_fitted) return false;
     }
-    // Linear regression: finds the combination of the residual changes in the three trials that
-    // cancels the residuals best. Each trial fits the plane again, so the changes exclude effects
-    // that the plane can absorb. All steps are in units of Trial::step.
+    // Linear regression: each trial changes the residuals, and the regression finds the linear
+    // combination of these changes that best cancels the residuals. Because the plane is fitted
+    // again in each trial, the changes exclude effects that the plane can absorb. All steps are in
+    // units of Trial::step.
     Matrix3 normal{};
     Vec3 right{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {

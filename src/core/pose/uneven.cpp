@@ -51,9 +51,8 @@ class Blocks {
     const GroupScatter& scatter() const { return scatter_; }
     float outliers() const { return outliers_; }
     float side() const { return side_; }  ///< side of a block, in spacings
-    /// Returns the variance of the displacement of the sheet at a block, along one axis, in
-    /// spacings^2. This is the variance of the block displacements minus the variance due to pixel
-    /// bias, but at least 0.
+    /// Returns the variance of the block displacements along one axis, in spacings^2, after
+    /// subtracting the variance due to pixel bias. The result is at least 0.
     float variance_of_sheet() const {
         return std::max(scatter_.variance_between() - variance_of_bias_, 0.0F);
     }
@@ -77,8 +76,9 @@ bool has_outliers(const Blocks& blocks) {
            tuned::kFewOutliers + tuned::kOutlierFraction * blocks.scatter().dots;
 }
 
-/// Adds to the covariance `weight` times the squared difference between the poses of two planes at
-/// the reference point, because either plane may be correct.
+/// Increases the covariance by `weight` times the squared difference between the poses of two
+/// planes at the reference point. The pose is uncertain by this difference, because either plane
+/// may be correct.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -98,8 +98,8 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// Adds the variance of position and angle that displacements of the blocks cause. The variance of
-/// these displacements is estimated from the mean block residuals.
+/// Adds the variance of position and angle due to block displacements. The displacement variance is
+/// estimated from the mean block residuals.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.variance_of_sheet();
     add(tuned::kOfPlace * variance, 0, fit);
@@ -128,12 +128,12 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
 ///   point's side are in one plane, replaces the plane with a fit to this side, and sets the
 ///   surface to divided.
 /// - Otherwise, keeps the plane, and sets the surface to uneven if the gain exceeds kCertain or if
-///   the scatter between blocks exceeds kUneven. If any line was found, fits another plane to the
-///   reference point's side, and adds the squared difference between the two poses to the
-///   covariance.
+///   the scatter between blocks exceeds kUneven. If a line was found, a plane has also been fitted
+///   to the reference point's side. In this case, adds the squared difference between the poses of
+///   the two planes to the covariance.
 ///
-/// In both cases, also widens the covariance if the blocks may be displaced, or if the gain exceeds
-/// kCertain and the line is close to the reference point.
+/// In both cases, also increases the covariance if the blocks may be displaced, or if the gain
+/// exceeds kCertain and the line is close to the reference point.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
@@ -157,9 +157,9 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Searches for a line if there are many outliers, or if the scatter between blocks exceeds
-/// `min_excess`, a limit on `GroupScatter::excess`. Otherwise, widens the covariance if the scatter
-/// is significant.
+/// Searches for a line if there are many outliers, or if `GroupScatter::excess` of the blocks
+/// exceeds `min_excess`. Otherwise, increases the covariance if the scatter between blocks exceeds
+/// kShared.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();
@@ -169,10 +169,10 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
         widen_by_blocks(blocks, fit);
 }
 
-/// Returns the limit on `GroupScatter::excess` for the second attempt, which searches for a line if
-/// the limit is exceeded. The limit increases with the number of dots, because with more dots, even
-/// the small block residuals of a flat sheet, such as those due to pixel bias, become significant.
-/// The residuals at a dividing line become more significant too, so they still exceed the limit.
+/// Returns the limit on `GroupScatter::excess` above which the second attempt searches for a line.
+/// The limit increases with the number of dots, because many dots make even the small block
+/// residuals of a flat sheet significant, for example those due to pixel bias. The residuals at a
+/// dividing line also become more significant, so they still exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));

@@ -20,18 +20,18 @@ dds_entity_t require(dds_entity_t entity, const std::string& what) {
 /// them.
 constexpr int kDepth = 100;
 
-/// Quality of service of a topic, as in ROS.
+/// Quality-of-service settings of a topic. Topics have the same settings as in ROS.
 struct Quality {
     bool is_reliable = true;
     bool is_kept = false;  ///< true if messages are kept for readers that connect later
     int depth = kDepth;
 };
 
-/// Maximum time that a reliable message waits for space in the queue. The wait delays the frame.
+/// Maximum time that a reliable message waits for space in the queue. This delays the next frame.
 constexpr dds_duration_t kMaxWait_ns = DDS_MSECS(10);
 
-/// Maximum time to wait for slow readers. A reader that ended without disconnecting is dropped
-/// after this time.
+/// Maximum time to wait for slow readers. DDS drops a reader that ended without disconnecting after
+/// the same time.
 constexpr dds_duration_t kPatience_ns = DDS_SECS(10);
 
 /// Creates a domain that is limited to this computer, with the settings of rmw_cyclonedds. The
@@ -179,9 +179,9 @@ class Publisher::Writers {
         if (participant_ > 0) dds_delete(participant_);
         if (domain_ > 0) dds_delete(domain_);
     }
-    /// Returns true if all reliable readers have received all messages. After the first timeout,
-    /// does not wait for the readers of the other writers, because all writers have the same
-    /// readers.
+    /// Waits until all reliable readers have received all messages. Returns false on timeout. After
+    /// the first timeout, checks the remaining writers without waiting, because all writers have
+    /// the same readers.
     bool wait_for_readers(dds_duration_t max_wait_ns) {
         bool have_all = true;
         for (const dds_entity_t writer :
@@ -204,7 +204,7 @@ class Publisher::Writers {
         dds_write(writer, sample) == DDS_RETCODE_OK ? ++sent_ : ++dropped_;
     }
 
-    dds_entity_t domain_;  ///< 0 if DDS creates the domain from the environment
+    dds_entity_t domain_;  ///< 0 if DDS creates the domain, configured by the environment
     dds_entity_t participant_ = 0;
     dds_entity_t pose_ = 0;
     dds_entity_t camera_ = 0;  ///< 0 if there are no poses in space

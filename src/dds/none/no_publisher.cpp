@@ -1,4 +1,4 @@
-// Publisher for a program that was built without DDS. The constructor throws BadArgument.
+// Publisher for builds without DDS. The constructor throws BadArgument.
 #include "dds/publisher.hpp"
 #include "dotpose/files/error.hpp"
 

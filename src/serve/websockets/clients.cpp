@@ -10,7 +10,7 @@
 namespace dotpose::serve {
 namespace {
 
-/// Returns false if the client sends too many messages.
+/// Counts a message of the client. Returns false if the client sends too many messages.
 bool may_send(Client& client, Reports::Clock::time_point now) {
     const std::chrono::duration<double> elapsed = now - client.counted_at;
     client.counted_at = now;
@@ -118,8 +118,8 @@ int Server::Service::write(lws* socket) {
     return 0;
 }
 
-/// Asks libwebsockets to call `write` for each client with a message, as soon as its socket accepts
-/// data.
+/// Asks libwebsockets to call `write` for each client to which a message must be sent, as soon as
+/// its socket accepts data.
 void Server::Service::request_writes() {
     for (const auto& [socket, client] : clients_) {
         if (client.message || due_topic(client)) lws_callback_on_writable(socket);

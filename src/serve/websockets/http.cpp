@@ -23,7 +23,7 @@ std::string header(lws* socket, lws_token_indexes name) {
     return value;
 }
 
-/// Returns a parameter of the URL, or an empty string.
+/// Returns a parameter of the URL, or an empty string if it is missing.
 std::string parameter(lws* socket, std::string_view name) {
     std::array<char, kMaxTokenLength + 32> fragment{};
     for (int i = 0;

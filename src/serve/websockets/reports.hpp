@@ -15,9 +15,9 @@ class Reports {
 
     explicit Reports(std::function<void(const std::string&)> tell) : tell_(std::move(tell)) {}
 
-    /// Counts a refusal. Reports the first refusal for each reason immediately. Reports the number
-    /// of further refusals together with a later refusal, at most every 10 s. `reason` is one of a
-    /// few constants.
+    /// Counts a refusal. The first refusal for each reason is reported immediately. Further
+    /// refusals are counted, and their number is reported together with a later refusal, at most
+    /// every 10 s. `reason` must be one of a few constants.
     void refuse(const std::string& peer, const std::string& reason, Clock::time_point now);
 
   private:

@@ -1,5 +1,5 @@
-// Implementation of Server with libwebsockets. All functions that take a `lws*` run on the thread
-// of the server.
+// Implementation of Server with libwebsockets. All functions that take an `lws*` run on the
+// server's thread.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ namespace dotpose::serve {
 
 inline constexpr std::size_t kSecurityHeaders = 7;
 
-/// A WebSocket.
+/// A client that is connected through a WebSocket.
 struct Client {
     std::vector<Subscription> subscriptions;     ///< one per topic, in the order of the topics
     std::shared_ptr<const std::string> message;  ///< message that is being sent; null for none
@@ -100,7 +100,7 @@ class Server::Service {
     std::mutex commands_mutex_;
     std::deque<Command> commands_;
 
-    // Used by the thread only.
+    // Used only by `thread_`.
     Reports reports_;
     std::map<lws*, bool> sockets_;  ///< true after the first request was received
     std::map<lws*, Client> clients_;

@@ -44,8 +44,8 @@ std::int64_t Rows::integer(int row, int column) const {
 }
 
 PostgresConnection::PostgresConnection(const std::string& url) : connection_(nullptr, &PQfinish) {
-    // Default parameters, which the URL can override. The three timeouts are needed to detect the
-    // loss of the server.
+    // Default parameters, which the URL can override. The three timeouts ensure that a lost
+    // connection is detected.
     constexpr std::array keys = {"connect_timeout",  "tcp_user_timeout", "keepalives_idle",
                                  "application_name", "client_encoding",  "dbname"};
     std::array<const char*, keys.size() + 1> names{};

@@ -13,11 +13,11 @@
 
 namespace dotpose::store {
 
-/// Thrown if the database rejects a statement.
+/// Thrown if the database rejects a statement or the connection is lost.
 struct Refused : Error {
     Refused(const std::string& message, std::string state)
         : Error(message), sql_state(std::move(state)) {}
-    std::string sql_state;  ///< code of five characters, or empty if the connection was lost
+    std::string sql_state;  ///< SQLSTATE code, or empty if the connection was lost
 };
 
 class Rows {

@@ -8,11 +8,11 @@
 
 namespace dotpose::video {
 
-/// Tints the parts of the image in which no dots have been seen. `frame` is the region of the
-/// picture that contains the image.
+/// Tints the parts of the image in which no dots have been seen, and draws a border if this image
+/// was added to the calibration. `frame` is the region of the picture that contains the image.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
-/// Draws the gauges. Below them, draws the directions in which frames were taken.
+/// Draws the gauges and, below them, the directions in which frames were taken.
 void draw_gauges(const CalibrationScene& scene, cv::Mat panel);
 
 }  // namespace dotpose::video

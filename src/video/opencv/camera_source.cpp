@@ -40,8 +40,8 @@ void to_grey(const cv::Mat& picture, GreyImage& image) {
         image.pixels.insert(image.pixels.end(), grey.ptr(v), grey.ptr(v) + grey.cols);
 }
 
-/// Runs `action`. If a driver or a decoder throws an exception, throws an Error with the name of
-/// the source.
+/// Runs `action`. Converts exceptions of drivers and decoders to an Error with the name of the
+/// source.
 template <typename Action>
 auto guarded(const std::string& name, const Action& action) {
     try {
@@ -181,7 +181,7 @@ class Camera : public capture::FrameSource {
         if (frames_ > 0) put_empty();
         try {
             open();
-        } catch (const Error&) {  // the next read also fails and tries again
+        } catch (const Error&) {  // the next read fails too, and calls `reopen` again
         }
     }
 

@@ -17,8 +17,8 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
-/// Encoders to try. Only software encoders are listed, because FFmpeg also offers hardware encoders
-/// of graphics cards that are not installed.
+/// Encoders to try, in this order. Hardware encoders are not used, because FFmpeg offers them even
+/// if the graphics card is not installed.
 constexpr const char* kEncoders[] = {"libx264", "libopenh264"};
 
 const AVCodec* h264_encoder() {
@@ -99,8 +99,8 @@ class H264File::Encoder {
         if ((file_->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
             encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
         }
-        // Locating must not wait for the encoder. With this preset, encoding takes a third of the
-        // time, and files are only slightly larger.
+        // Locating must not wait for the encoder. This preset takes a third of the time of the
+        // default preset, and its files are only slightly larger.
         AVDictionary* options = nullptr;
         av_dict_set(&options, "preset", "veryfast", 0);
         av_dict_set(&options, "crf", "23", 0);
@@ -109,7 +109,7 @@ class H264File::Encoder {
         require(code);
     }
 
-    /// Encodes a picture and writes the packets that are ready. If there is no picture, writes all
+    /// Encodes a picture and writes the packets that are ready. If `picture` is null, writes all
     /// remaining packets.
     void encode(const AVFrame* picture) {
         require(avcodec_send_frame(encoder_.get(), picture));

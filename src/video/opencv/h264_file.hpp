@@ -26,7 +26,7 @@ class H264File {
     /// Appends a BGR picture. Throws Error, for example if the disk is full.
     void write(const cv::Mat& picture);
 
-    /// Completes the file. No more pictures may be appended. Throws Error if this fails.
+    /// Completes the file. No pictures may be appended afterwards. Throws Error on failure.
     void finish();
 
   private:

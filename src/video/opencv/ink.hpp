@@ -9,7 +9,7 @@
 
 namespace dotpose::video {
 
-// In BGR order.
+// Colours, in BGR order.
 inline const cv::Scalar kGood(73, 132, 30);
 inline const cv::Scalar kBad(43, 57, 192);
 inline const cv::Scalar kDot(0, 143, 255);

@@ -14,7 +14,7 @@ std::unique_ptr<capture::FrameSource> open_camera(const std::string& name,
 std::unique_ptr<capture::FrameSource> open_video(const std::string& name,
                                                  const capture::SourceOptions& options);
 
-/// Creates a video file in H.264 if the name ends in .mp4, or in Motion JPEG if it ends in .avi.
+/// Creates a video file in H.264 or MPEG-4, or in Motion JPEG if the name ends in .avi.
 std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Tell& tell);
 
 std::unique_ptr<ScreenOutput> open_screen(const ScreenOptions& options);

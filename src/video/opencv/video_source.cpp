@@ -146,13 +146,13 @@ class VideoFile : public capture::FrameSource {
                avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }
 
-    /// Returns the duration of the video stream in seconds, or 0 if the file does not contain it.
+    /// Returns the duration of the video stream in seconds, or 0 if it is unknown.
     double duration_s() const {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is that of its longest stream, so it is used only if the file has
-        // one stream.
+        // The duration of a file is the duration of its longest stream. It is used only if the video
+        // is the only stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
@@ -205,8 +205,8 @@ class VideoFile : public capture::FrameSource {
     }
 
     /// Corrects the timestamp of a packet in an AVI file. AVI files contain no timestamps, so
-    /// FFmpeg counts packets, which gives wrong timestamps after damaged data. The index of the
-    /// file contains the positions of all frames, so it gives the correct timestamps.
+    /// FFmpeg counts packets, and its timestamps are wrong after damaged data. If the index of the
+    /// file is complete, the timestamp is taken from the index entry at the packet's position.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;
         int first = 0;

@@ -126,8 +126,8 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.wrong_share(), 0.002);
     // A bar covers all cells whose intersections are at most half a cell from the bar. These cells
     // form a stripe whose width is 1 mm plus one cell (0.508 mm). There is a bar every 5 mm, and
-    // each bar is 30 mm long on a page of 60 mm. Along the edge of the grey area, the cells of up
-    // to one tile (24 cells, or 12 mm) may also be reported as covered.
+    // each bar is 30 mm long on a page of 60 mm. Along the edge of the grey area, a strip of up to
+    // one tile (24 cells, or 12 mm) may also be reported as covered.
     const double bars = (1 + 0.508) / 5 * 30 / 60;
     const double edge = 12.0 * (25 + 30 + 25) / (60 * 80);
     EXPECT_GT(field.covered_share(), 0.9 * bars);
@@ -162,7 +162,7 @@ TEST(CheckPrint, maps_distortion) {
     settings.wave_mm = 0.3;
     const PrintCheck result = check(scan_page(make_sheet(options), settings), 300);
     ASSERT_EQ(result.fields.size(), 1U);
-    // The tolerance is large, because the fitted scale absorbs part of the sine wave.
+    // The tolerance is large because the fitted scale absorbs part of the sine wave.
     EXPECT_NEAR(result.fields[0].largest_distortion_mm, settings.wave_mm, 0.1);
     EXPECT_LT(result.fields[0].scatter_mm, 0.01);
     EXPECT_THAT(remarks(result), Contains("distorted"));
@@ -170,7 +170,7 @@ TEST(CheckPrint, maps_distortion) {
     for (const DistortionBin& bin : result.fields[0].distortion) {
         EXPECT_NEAR(bin.du_mm, 0, 0.005);
         const double along_mm = bin.v_px * 25.4 / settings.dpi - height_mm / 2;
-        // The fit of the scale subtracts a straight line through the middle of the sheet.
+        // The scale fit removes a straight line through the middle of the sheet.
         const double line_mm = (result.fields[0].scale->scale_y - 1) * along_mm;
         const double wave_mm = settings.wave_mm * std::sin(2 * std::numbers::pi * along_mm / 100);
         EXPECT_NEAR(bin.dv_mm, wave_mm - line_mm, 0.03);
@@ -218,8 +218,8 @@ TEST(CheckPrint, sees_a_photo_without_scale) {
     EXPECT_THAT(remarks(result), Contains("no_resolution"));
 }
 
-/// Returns a close-up photo of a flawless print of 110 x 90 mm, with the perspective of a phone
-/// photo in which a page fills the view.
+/// Returns a close-up photo of a flawless 110 x 90 mm print. The perspective is as strong as in a
+/// phone photo of a whole page.
 GreyImage phone_photo(double tilt_rad, double mm_per_px = 0.06, double missing = 0) {
     SheetOptions options;
     options.paper = {110, 90};
@@ -307,7 +307,7 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
     options.dots = {2, 4, 6};
     const PrintPage page = make_test_page(options);
     ScanSettings settings;
-    settings.dot_growth = 1.5;  // the printer enlarges the dots
+    settings.dot_growth = 1.5;  // the printed dots are larger than nominal
     settings.rotation_rad = 0.3 * kDegree_rad;
     const PrintCheck result = check(scan_page(page.sheets, settings), 600);
     EXPECT_TRUE(result.is_test_page);

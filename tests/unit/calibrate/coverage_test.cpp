@@ -23,7 +23,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using Kind = CalibrationNeed::Kind;
 
-/// At this size, the 12 x 8 parts of the image are squares of 10 px.
+/// Image size. Each of the 12 x 8 parts of the image is a square of 10 x 10 px.
 constexpr int kWidth_px = 120;
 constexpr int kHeight_px = 80;
 
@@ -34,8 +34,8 @@ std::vector<Kind> kinds(const std::vector<CalibrationNeed>& needs) {
     return all;
 }
 
-/// Returns a frame at the place (`x_grid`, `y_grid`). One spacing is 10 px. The frame has a dot in
-/// the middle of each part of the image that is not in `empty`.
+/// Returns a frame at the grid position (`x_grid`, `y_grid`), with a spacing of 10 px. It has one
+/// dot in the middle of each part of the image, except in the parts listed in `empty`.
 CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
                         const std::vector<std::pair<int, int>>& empty = {}) {
     CalibrationView view;
@@ -150,8 +150,8 @@ TEST(CornerSigma, IsThatOfTheDivisionModel) {
     const double y = 60;
     const double d = 1 + camera.k_per_px2 * (x * x + y * y);
     camera.sigma = {{"k_per_px2", 2e-8}, {"centre_u_px", 0}, {"centre_v_px", 0}};
-    // Eq. 2 of the paper is p = r / (1 + k r^2), so dp/dk = -r r^2 / (1 + k r^2)^2. The derivative
-    // at the middle of the image is subtracted, but is zero to eight digits.
+    // With p = r / (1 + k r^2) (paper, equation 2), dp/dk is -r r^2 / (1 + k r^2)^2. The derivative
+    // at the middle of the image would be subtracted, but it is zero to eight digits.
     const double by_k = std::pow(std::hypot(x, y), 3) / (d * d) * 2e-8;
     EXPECT_NEAR(corner_sigma_px(camera), by_k, 1e-5 * by_k);
 

@@ -1,4 +1,4 @@
-// Tests flat fields that are computed from images whose light is known.
+// Tests flat fields computed from images with known light.
 #include <cmath>
 #include <random>
 
@@ -16,7 +16,8 @@ constexpr int kColumns = 40;
 constexpr int kRows = 30;
 constexpr std::uint32_t kDotSeed = 5;
 
-/// Light that decreases by 40 % from the middle to the corners, and by a tenth from left to right.
+/// Returns the relative light at a pixel. It decreases by 40 % from the middle to the corners, and
+/// by a tenth from left to right.
 double light_at(double u, double v) {
     const double x = 2 * u / (kColumns - 1) - 1;
     const double y = 2 * v / (kRows - 1) - 1;

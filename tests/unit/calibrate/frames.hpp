@@ -18,8 +18,8 @@ namespace dotpose::calibrate_test {
 
 inline constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// Returns the camera of the paper (III-A.3): 188 x 120 px, with a distortion of 12 % in the
-/// corner.
+/// Returns the camera used in the paper (section III-A.3): 188 x 120 px, with a distortion of 12 %
+/// in the corner.
 inline CameraModel paper_camera() {
     CameraModel camera;
     camera.k = -8.7e-6;
@@ -37,7 +37,7 @@ inline GreyImage nominal_frame(const CameraModel& camera, std::uint64_t seed, in
     return render(shot);
 }
 
-/// Returns the shot with its centre moved to a place of the pattern in section (0, 0).
+/// Returns the shot with its centre moved to a position in section (0, 0) of the pattern.
 inline Shot moved_to(Shot shot, double x_mm, double y_mm, double theta_rad) {
     const double x = x_mm / kDefaultSpacing_mm;
     const double y = y_mm / kDefaultSpacing_mm;
@@ -83,9 +83,8 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
-/// Mean error of the position along the axes of the robot, and mean error of the heading. The mean
-/// is taken over many directions, so that the errors of single fixes cancel and the error of the
-/// calibration remains.
+/// Mean position error along the axes of the robot, and mean heading error. Averaging over many
+/// directions cancels the errors of single fixes, so only the calibration error remains.
 struct RobotError {
     Vec2 place_mm;
     double heading_rad = 0;
@@ -180,8 +179,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         const double dy = y_mm - lying.y_mm;
         const double c = std::cos(lying.turn_rad);
         const double s = std::sin(lying.turn_rad);
-        // At larger distances from the middle of a sheet, along either axis, the camera sees none
-        // of its dots.
+        // If the camera is farther than this from the middle of a sheet, along either axis, it sees
+        // none of the dots of the sheet.
         constexpr double kTooFar_mm = kPage_mm / 2 + 12;
         if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
         if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;
@@ -203,7 +202,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
     return result;
 }
 
-/// Returns frame `index` of a drive along the seams, with the camera at any angle.
+/// Returns frame `index` of a drive along the seams, with the camera at a random angle.
 inline GreyImage seam_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                             int index) {
     Rng rng(seed, static_cast<std::uint64_t>(index));

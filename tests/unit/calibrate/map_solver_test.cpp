@@ -50,8 +50,8 @@ TEST(MapSolver, OffsetsAreAsAccurateAsTheNoiseOfTheirViews) {
     }
 }
 
-/// Frames do not determine the turn of the page. The solver must subtract it, but the offsets of
-/// the dots must not turn with the page.
+/// Frames do not determine the rotation of the page. The solver must remove the rotation, and the
+/// offsets of the dots must not change with it.
 TEST(MapSolver, InitialTurnOfThePageDoesNotTurnOffsets) {
     SolverInput input = simulated_input(MappedPrint({.side_mm = kSide_mm}), kFrames, 7);
     SolverInput turned = input;
@@ -64,8 +64,9 @@ TEST(MapSolver, InitialTurnOfThePageDoesNotTurnOffsets) {
     }
     solve(input);
     solve(turned);
-    // The directions of the displacements mostly determine the turn. The error was 0.08 µm if the
-    // remaining turn was applied to the offsets, but not to the feed wave or the displacements.
+    // The rotation is mostly determined by the directions of the displacements. The error was 0.08
+    // µm when the solver applied the remaining rotation to the offsets only, and not to the feed
+    // wave and the displacements.
     double squares = 0;
     for (std::size_t i = 0; i < input.grid.dots(); ++i)
         squares += (turned.start.offset_mm[i] - input.start.offset_mm[i]).squaredNorm();

@@ -1,5 +1,5 @@
-// Tests the calibration of the mount of a camera on a robot that turns on the spot and drives
-// straight ahead.
+// Tests the calibration of a camera mount on a robot that turns on the spot and drives straight
+// ahead.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -79,8 +79,8 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
         ASSERT_EQ(fix.status, Status::ok);
         EXPECT_NEAR(fix.x_mm(), kPivot_x_mm, 0.03);
         EXPECT_NEAR(fix.y_mm(), kPivot_y_mm, 0.03);
-        // At a distance of 16 mm from the camera, most of the position error is caused by the angle
-        // error, so the variance must include the variance of the angle.
+        // The reference point is 16 mm from the camera, so most of its position error is caused by
+        // the angle error. The reported variance must include this contribution.
         const auto variance = static_cast<double>(fix.covariance[0][0]);
         EXPECT_LT(std::abs(fix.x_mm() - kPivot_x_mm), 5 * kDefaultSpacing_mm * std::sqrt(variance));
     }
@@ -91,11 +91,11 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// The variance of the reference point is the sum of three contributions: of the turn, of the image
-// centre and of the image axis. In the camera file, the standard deviation of the centre is 4 µm
-// per axis and that of the direction of the axis is 3e-4 rad. At a distance of 15.8 mm from the
-// camera, the centre and the axis together contribute sqrt(4^2 + (15.8e3 * 3e-4)^2 / 2) = 5.2 µm
-// per axis.
+// The variance of the reference point is the sum of three variances, caused by errors of the turn,
+// the image centre and the image axis. In the camera file, the standard deviations are 4 µm per
+// axis for the centre and 3e-4 rad for the direction of the image axis. At a distance of 15.8 mm
+// from the camera, the centre and the axis together contribute sqrt(4^2 + (15.8e3 * 3e-4)^2 / 2) =
+// 5.2 µm per axis.
 TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
     const CameraModel model = paper_camera();
     const auto frame_at = [&](int i) {
@@ -199,8 +199,8 @@ std::string refusal(const std::function<void()>& calibrate) {
     return "not refused";
 }
 
-/// Returns 12 frames of a robot that turns by `step_deg` and moves by `drift_mm` along x from each
-/// frame to the next.
+/// Returns frames of a robot that turns by `step_deg` and moves by `drift_mm` along x between
+/// frames.
 FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     return [=](int i) {
         return robot_frame(model, 65, i, kPivot_x_mm + drift_mm * i, kPivot_y_mm,
@@ -223,7 +223,7 @@ TEST(CalibrateSpin, RefusesADrive) {
                 HasSubstr("the robot moved on while it turned"));
 }
 
-// The robot moves by 0.02 mm from each frame to the next, during one full turn of 12 frames.
+// The robot moves by 0.02 mm between frames, during one full turn of 12 frames.
 TEST(CalibrateSpin, CountsADriftInItsDeviation) {
     const CameraModel model;
     const SpinCalibration still = calibrate_spin(12, turning(model, 30, 0), {}, {});

@@ -1,5 +1,4 @@
-// Tests optics reports against the numbers in section III-A of the paper and the equations of a
-// thin lens.
+// Tests optics reports against the values in the paper (section III-A) and the thin lens equations.
 #include "dotpose/tools/optics.hpp"
 
 #include <cmath>
@@ -28,9 +27,9 @@ TEST(Optics, GivesThePapersNumbers) {
         EXPECT_FALSE(advice.is_fault) << advice.text;
 }
 
-/// Returns the side of the smallest square field of view that contains a block of dots whose
-/// diagonal is `diagonal_mm`, if the grid is rotated by 45 degrees. (`x_mm`, `y_mm`) is the offset
-/// of the image centre from the centre of a block, along the axes of the grid.
+/// Returns the side of the smallest square field of view that contains a block of dots with the
+/// diagonal `diagonal_mm`. The grid is rotated by 45 degrees. (`x_mm`, `y_mm`) is the offset of the
+/// image centre from a block centre, along the grid axes.
 double field_for_block(double diagonal_mm, double spacing_mm, double x_mm, double y_mm) {
     double smallest_mm = HUGE_VAL;
     for (int i = -1; i <= 1; ++i) {
@@ -67,7 +66,7 @@ TEST(Optics, IsThatOfAThinLens) {
     optics.height_px = 480;
     optics.pixel_um = 6;
     optics.focal_mm = 10;
-    optics.distance_mm = 30;  // the image is at 15 mm, and half as large
+    optics.distance_mm = 30;  // the image is 15 mm behind the lens, at half size
     optics.f_number = 4;
     optics.exposure_s = 0.001;
     optics.speed_mm_s = 6;

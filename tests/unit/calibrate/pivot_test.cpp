@@ -1,4 +1,4 @@
-// Tests the calibration of the tip of a pen, with simulated frames of a pen whose tip is known.
+// Tests pen tip calibration on simulated frames of a pen with a known tip.
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -15,8 +15,8 @@ constexpr double kLongerSide_px = 4000;
 const Eigen::Vector2d kMiddle_px(1999.5, 1499.5);
 
 /// Returns a photo of a page of 240 x 180 mm with 3 dots per cm, from a camera with a focal length
-/// of 3000 px at 260 mm. The camera is tilted by `tilt` about an axis of the paper at `azimuth`.
-/// The width of the print is 1 + `wide` times the nominal width.
+/// of 3000 px at a distance of 260 mm. The camera is tilted by `tilt` about an axis of the paper at
+/// `azimuth`. The width of the print is 1 + `wide` times the nominal width.
 std::vector<Match> photo(double tilt, double azimuth, double wide) {
     std::vector<Match> matches;
     for (double x_mm = -120; x_mm <= 120; x_mm += 10.0 / 3) {
@@ -71,7 +71,7 @@ TEST(PrintView, tells_the_ratio_of_the_scales_as_far_as_it_is_known) {
             EXPECT_LT(ratio->uncertainty, 0.006) << tilt;
         }
     }
-    // If the tilt is about an axis of the paper, its foreshortening looks like different scales
+    // The foreshortening caused by a tilt about an axis of the paper looks like different scales
     // along x and y.
     const PlaneFit fit = fit_plane(photo(20 * kDegree, 0, 0), ViewModel::camera, kMiddle_px);
     EXPECT_FALSE(scale_ratio_of(fit, kLongerSide_px));

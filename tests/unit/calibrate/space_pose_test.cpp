@@ -200,8 +200,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
             const auto fit = calibrate::fit_space(
                 dots_of(view, 30, 0.5, noise.print_mm, noise.centre_px, rng), {600, 600});
             ASSERT_TRUE(fit);
-            // The error is a small rotation, so the antisymmetric part of its matrix gives its
-            // rotation vector, in the camera frame.
+            // The orientation error is a small rotation. The antisymmetric part of its matrix is
+            // the rotation vector, in the camera frame.
             const Matrix3 turn = product(transposed(rotation_of(fit->state)), view.rotation);
             const std::array error = {view.position_mm[0] - fit->state.position_mm.x(),
                                       view.position_mm[1] - fit->state.position_mm.y(),

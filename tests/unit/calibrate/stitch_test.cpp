@@ -156,8 +156,7 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
     EXPECT_LT(off_mm(*by_width.sheets[1].world, table[1]), 0.02);
 }
 
-// The additional frames show the same dots with the same printing errors, so they add no
-// information.
+// Repeated frames show the same dots with the same printing errors, so they add no information.
 TEST(StitchSheets, FramesThatRepeatDotsDoNotMakeItMoreCertain) {
     const CameraModel model = wide_camera();
     const FrameAt seam = upper_seam(kTable, model);
@@ -251,8 +250,8 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     EXPECT_EQ(b.x_m, 1.25);
     EXPECT_EQ(b.y_m, -0.5);
     EXPECT_EQ(b.yaw_rad, 0.3);
-    // Expected pose of sheet a. The corner of a relative to the corner of b is rotated back by the
-    // rotation of b, and then by the yaw of b in the world.
+    // Expected pose of sheet a. The vector from the corner of b to the corner of a, in table axes,
+    // is rotated into the axes of b, and then by the yaw of b in the world.
     const WorldPose& a = stitching.sheets[0].world.value();
     const double yaw = 0.3 + kTable[1].turn_rad;
     EXPECT_NEAR(a.yaw_rad, yaw, 0.02 * kDegree_rad);

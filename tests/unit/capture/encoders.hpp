@@ -1,5 +1,5 @@
-/// Encoders of image files. They use no image library, because the tests of the reader must be
-/// independent of the libraries that the reader uses.
+/// Encoders of image files. They do not use an image library, to keep the tests independent of the
+/// libraries used by the reader.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,7 @@ Bytes encode_png(const Raster& raster, const Bytes& palette = {}, const Bytes& e
 /// channels are RGB.
 Bytes encode_bmp(const Raster& raster, const Bytes& palette = {});
 
-/// Encodes an uncompressed file with a single strip, with the directory before the pixels. Channels
+/// Encodes an uncompressed file with a single strip. The directory precedes the pixels. Channels
 /// and palette are as in encode_png.
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette = {});
 

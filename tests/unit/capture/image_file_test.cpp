@@ -35,7 +35,7 @@ class ImageFileTest : public testing::Test {
     std::filesystem::path write(const Bytes& bytes) const {
         auto path = directory / "image";  // no extension, because the reader must not depend on it
         // Removes the file before writing it again. Truncating it instead would make the test 10
-        // times slower, because some file systems flush truncated files.
+        // times slower because some file systems flush truncated files.
         std::filesystem::remove(path);
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()),
@@ -294,8 +294,7 @@ std::vector<Sample> samples() {
 TEST_F(ImageFileTest, refuses_files_cut_short) {
     for (const Sample& sample : samples()) {
         const std::size_t size = sample.bytes.size();
-        // Without its end marker of two bytes, a JPEG image can still be read, so three bytes are
-        // removed.
+        // A JPEG image can be read without its two-byte end marker, so three bytes are removed.
         const std::size_t last = sample.format == std::string("JPEG") ? size - 3 : size - 1;
         for (const std::size_t kept : {size / 2, size * 95 / 100, last}) {
             Bytes cut = sample.bytes;
@@ -338,7 +337,7 @@ TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
         EXPECT_EQ(read(encode_pnm(raster, false, 65535)).pixels, levels);
         EXPECT_EQ(read(encode_pnm(raster, true, 65535)).pixels, levels);
     }
-    // If the file states a maximum value, this value is used instead.
+    // If the file contains a maximum value, the reader uses it instead.
     EXPECT_EQ(read(encode_pnm(ten, false, 1023)).pixels, of_ten);
     EXPECT_EQ(read(encode_pnm(ten, false, 40000)).pixels, (Bytes{0, 3, 4, 7}));
 }

@@ -22,8 +22,8 @@ constexpr std::uint32_t kSeed = 7998798;
 /// Initial value of the output `place`. If a window is refused, `place` must not change.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
-/// Indices (modulo 241) in the sequence a4 of libdots. The 5 digits from each of these indices also
-/// occur at another index.
+/// Indices (modulo 241) in the sequence a4 of libdots. The 5-digit string that starts at each of
+/// these indices also occurs elsewhere in the sequence.
 const std::set<std::uint32_t> kTwinPlaces{82,  238, 170, 236, 177, 237,
                                           195, 217, 198, 218, 199, 219};
 
@@ -61,9 +61,8 @@ TEST(Decode, RollsFromRealPaperAreOneStraightRun) {
 }
 
 TEST(Decode, RollsFromRealPaperShowTheMisprint) {
-    // Position 1117 + 17 = 1134 is at index 170 of a4, because 1134 = 4 * 241 + 170. Because of the
-    // misprint in a4, the 5 digits from this index also occur elsewhere, so this window is
-    // ambiguous.
+    // Position 1117 + 17 = 1134 = 4 * 241 + 170 is at index 170 of a4. Because of the misprint in
+    // a4, the 5 digits starting at this index also occur elsewhere, so this window is ambiguous.
     expect_run(CodeVariant::libdots, kPaperRollsFrom1117, 1117);
     expect_run(CodeVariant::libdots, kPaperRollsFrom1097, 1097);
 }
@@ -146,8 +145,8 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     };
     for (const CodeVariant code : kCodeVariants) {
         for (const Size size : {Size{6, 32}, Size{32, 6}, Size{7, 9}, Size{32, 32}, Size{6, 6}}) {
-            // In the sequence a4 of libdots, the 5 digits from index 100 and the 5 digits from
-            // index 59 are unique, so no window is ambiguous.
+            // In the sequence a4 of libdots, the 5-digit strings starting at indices 100 and 59 are
+            // unique, so no window is ambiguous.
             const Place truth{{241 * 1000 + 100, 241 * 77 + 59}, {5, 60}};
             const Grid grid = reference_window(code, truth, size.columns, size.rows);
             Place place;
@@ -192,8 +191,8 @@ TEST(Decode, RefusesPublishedWindowsThatStandTwice) {
 }
 
 TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
-    // Two 8-bit strings of the main sequence differ in at least 2 bits, so one wrong bit is always
-    // detected.
+    // Any two 8-bit strings of the main sequence differ in at least 2 bits, so a single wrong bit
+    // is always detected.
     std::mt19937 rng(kSeed);
     for (int n = 0; n < 300; ++n) {
         const CodeVariant code = kCodeVariants[static_cast<std::size_t>(n % 3)];
@@ -290,8 +289,8 @@ TEST(Decode, RefusesOneSymbolAllOver) {
     }
 }
 
-/// Returns a window across the border of two sections. The columns from `cut` on are in the section
-/// `other_u`.
+/// Returns a window across the border of two sections. In the columns from `cut` onwards, the
+/// section is (`other_u`, `place.section.v`).
 Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int cut) {
     Grid seam = reference_window(CodeVariant::anoto, place, columns, 8);
     const Place other{place.cell, {other_u, place.section.v}};

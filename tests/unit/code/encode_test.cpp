@@ -122,7 +122,7 @@ TEST(Encode, RollAtRandomPositionsIsTheCountedSum) {
     for (const CodeVariant code : kCodeVariants) {
         for (int i = 0; i < 20'000; ++i) {
             // Nine of ten random 32-bit numbers exceed L, the number of positions. `roll` must
-            // accept them, too.
+            // accept these numbers as well.
             const auto p = static_cast<std::uint32_t>(rng());
             const int expected = roll_by_counting(code, p);
             ASSERT_EQ(roll(code, p), expected) << "p " << p << " seed " << kSeed;
@@ -144,9 +144,9 @@ TEST(Encode, RollStepsByDeltaAcrossTheWrap) {
 
 // Over one period of L positions, the roll increases by 5 L plus the sum of w_i (L / length_i)
 // (digit sum of a_i), where w_i is the weight of the sequence a_i. Modulo 63, the increase is 52
-// for the sequences of the patent, and 25 for `microdots`, which has another a4. It is also 52 for
-// `libdots`. There, a4 lacks a 1 because of the misprint, but has an additional 1 at its end, so
-// its digit sum is the same.
+// for the sequences of the patent, and 25 for `microdots`, which has a different a4. It is also 52
+// for `libdots`: the misprint removes a 1 from a4, but a4 has an additional 1 at its end, so the
+// digit sum is the same.
 TEST(Encode, ThePatternContinuesPastTheLastPosition) {
     EXPECT_EQ(kPositionsPerAxis, kL);
     EXPECT_EQ(kL, 410'815'348U);

@@ -1,5 +1,5 @@
-// Tests, by enumeration, the properties of the sequences that docs/position-code.md states and
-// dotpose relies on.
+// Tests by enumeration the properties of the sequences that dotpose relies on. They are documented
+// in docs/position-code.md.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -151,8 +151,8 @@ TEST(MainSequence, LongerStringsDifferInMorePlaces) {
 }
 
 // Flips each bit of each 8-bit string of the main sequence, and then chooses the nearest 8-bit
-// string of the sequence, with ties broken at random. The paper (II-B.7) states that 36 % of these
-// choices are correct. Enumeration gives 8/21, which is 38 %.
+// string of the sequence, with ties broken at random. According to the paper (section II-B.7), 36 %
+// of these choices are correct. Enumeration gives 8/21, which is 38 %.
 TEST(MainSequence, TheNearestStringIsTheRightOneIn38Percent) {
     const auto all = main_strings(8);
     double right = 0;

@@ -1,4 +1,4 @@
-// Tests the tables of the minimum number of lines that two places in a sequence do not share. Two
+// Tests the tables with the minimum number of unshared lines for two places in a sequence. Two
 // places share a line at shift s if their rolls of this line differ by s. The expected numbers are
 // obtained by counting lines.
 #include "code/unshared_lines.hpp"
@@ -31,9 +31,9 @@ Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bo
     return most;
 }
 
-/// Returns two minimum numbers of lines that `place` does not share with any other place of the
-/// sequence. For the first number, all lines are compared at the same shift. For the second number,
-/// the shift may change once, at a border between two lines.
+/// Returns the minimum number of unshared lines between `place` and any other place of the
+/// sequence, computed in two ways. For the first number, all lines have the same shift. For the
+/// second number, the shift may change once, at a border between two lines.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
     std::size_t max_at_one = 0;
     std::size_t max_on_both = 0;
@@ -68,8 +68,8 @@ TEST(UnsharedLines, AreAsCounted) {
 
 using Counts = std::array<int, kMaxCounted>;
 
-/// Counts the pairs of another place in the sequence and a shift that share at least one line with
-/// `place`. Element n - 1 of the result is the number of pairs with exactly n unshared lines.
+/// Counts the pairs (other place, shift) that share at least one line with `place`. Element n - 1
+/// of the result is the number of pairs with exactly n unshared lines.
 Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t lines) {
     Counts counts{};
     for (std::uint32_t other = 0; other < a.length; ++other) {

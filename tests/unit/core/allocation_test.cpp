@@ -26,7 +26,7 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// The other forms of `new` call one of these two. The operators are not inlined, because GCC warns
+// The other forms of `new` call one of these two. The operators are not inlined because GCC warns
 // about `new` and `free` if it inlines only one of them.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     return counted(size, alignof(std::max_align_t));

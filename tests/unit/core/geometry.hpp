@@ -139,7 +139,7 @@ struct View {
         return at_centre + r.x * du() + r.y * dv();
     }
     Mesh mesh() const {
-        // Uses the inverse rotation, because a step along the x axis of the pattern is the image
+        // Uses the inverse rotation because a step along the x axis of the pattern is the image
         // vector (cos, -sin).
         Mesh m = square_mesh(spacing_px, -theta_rad, {});
         m.origin = centre_px() - at_centre.x * m.u - at_centre.y * m.v;

@@ -19,7 +19,7 @@ struct Pair {
     FixedVec cell;
 };
 
-/// Returns displaced dots anywhere in the view, each with its cell.
+/// Returns displaced dots at random positions in the view, each with its cell.
 std::vector<Pair> random_pairs(Rng& rng, double reach_px, double spacing, int count) {
     const Mesh mesh =
         square_mesh(spacing, rng.uniform(0, 6.3), {rng.uniform(-20, 20), rng.uniform(-20, 20)});
@@ -88,7 +88,7 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
         const Solution x = least_squares(pairs, &FixedVec::x);
         const Solution y = least_squares(pairs, &FixedVec::y);
         // The moments have about 28 bits. Slopes are therefore accurate to 3 * 2^-24, and values at
-        // the ends of the reach to 1/1000 spacing.
+        // the edges of the view to 1/1000 spacing.
         constexpr double kSlope = 3.0 / (1 << 24);
         EXPECT_NEAR(std::ldexp(plane.du_q24.x, -24), static_cast<double>(x.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.x, -24), static_cast<double>(x.dv), kSlope);
@@ -189,9 +189,9 @@ TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
         }
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(bits, plane));
-        // Rounding a target to `bits` bits displaces it by 0.29 of the last bit (rms). The mean of
-        // 400 targets is displaced by 1/20 of this value, and the plane at the ends of the shorter
-        // side by up to 3/20. The tolerance is five standard deviations of the mean.
+        // Rounding a target to `bits` bits causes an error of 0.29 of the last bit (rms). The error
+        // of the mean of 400 targets is 1/20 of this, and the error of the plane at the image edges
+        // is up to 3/20 of this. The tolerance is five standard deviations of the mean.
         const double tolerance = std::ldexp(5 * 0.29 / 20, -bits) + 1e-4;
         const Vec2 zero = mesh.inverse({0, 0});
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, zero.x, tolerance);

@@ -92,7 +92,7 @@ TEST(AffinePose, ScatterAveragesOut) {
         const double per_axis = 0.2 / view.spacing_px;
         expected += 2 * per_axis * per_axis / static_cast<double>(reading.dots.size());
     }
-    // The mean square of 400 errors has a relative standard deviation of 7 %. The limits are wider,
+    // The mean square of 400 errors has a relative standard deviation of 7 %. The limits are wider
     // because the fit also omits about one dot in a thousand.
     EXPECT_LT(squares, 1.25 * expected) << "seed " << kSeed;
     EXPECT_GT(squares, 0.75 * expected) << "seed " << kSeed;

@@ -53,7 +53,7 @@ TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
         const Lattice first = lattice_of(spoilt(mesh, rng));
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, plane), Status::ok);
-        // Dots more than 500 cells away are ignored. The additional dots are at 530 cells, because
+        // Dots more than 500 cells away are ignored. The additional dots are at 530 cells because
         // the first estimate may be 3 % too wide.
         const Vec2 far = mesh.at(530, 0);
         dots.resize(dots.size() + 5000, dot_at(far));
@@ -85,7 +85,7 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
                   Status::ok);
-        // The correct cells must be found despite these changes. The tolerance is large, because
+        // The correct cells must be found despite these changes. The tolerance is large because
         // spurious dots increase the errors.
         expect_grid(plane, placed, intersections(mesh, placed), 0.25);
         if (testing::Test::HasFatalFailure()) return;

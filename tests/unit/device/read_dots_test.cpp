@@ -1,4 +1,4 @@
-// Tests that exactly the cells whose pixels are all in the image are read.
+// Tests that a cell is read if and only if all its pixels are in the image.
 #include "device/read_dots.hpp"
 
 #include <array>

@@ -299,8 +299,8 @@ TEST_F(DeviceTracked, RefusesFramesThatEndTooSoonOrHaveNoRoom) {
     EXPECT_EQ(locator_.finish().status, Status::not_tracked);
     EXPECT_EQ(locator_.begin(63, 64, prediction), Status::image_too_small);
     EXPECT_EQ(locator_.begin(188, 4096, prediction), Status::not_tracked);
-    // A frame that begins without a prediction is located without tracking, whatever the last
-    // prediction was.
+    // A frame that begins without a prediction is located without tracking, regardless of the last
+    // prediction.
     const Prediction wrong = moved(prediction, CodeVariant::anoto, {50 << 16, 0}, 0, {});
     EXPECT_EQ(tracked(image, wrong).status, Status::not_tracked);
     ASSERT_EQ(locator_.begin(188, 120), Status::ok);

@@ -21,9 +21,9 @@ template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
     static constexpr int kHeight_px = Height;
-    /// A fix must use more than this number of dots, which are 11 px apart.
+    /// A fix must use more dots than this. The dots are 11 px apart.
     static constexpr int kMinDots = MinDots;
-    /// log2 of the maximum probability of a wrong position. It is larger for the smallest frames,
+    /// log2 of the maximum probability of a wrong position. It is larger for the smallest frames
     /// because they have too few dots for the default maximum.
     static constexpr int kLimit_log2 = Limit_log2;
     using Memory = DeviceMemoryFor<Width, Height>;
@@ -160,7 +160,7 @@ TYPED_TEST(DeviceWorkspace, TakesAnyNoise) {
 }
 
 TEST(DeviceMemories, HaveTheSizesThatAreStated) {
-    // The memory is larger on desktops, because pointers are larger. `make budget` reports the size
+    // The memory is larger on desktops because pointers are larger. `make budget` reports the size
     // on devices.
     EXPECT_LT(sizeof(DeviceMemoryFor<36, 36>), 5'000U);
     EXPECT_LT(sizeof(DeviceMemoryFor<160, 120>), 12'000U);

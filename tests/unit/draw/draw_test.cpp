@@ -135,7 +135,7 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
 }
 
 TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
-    // Uses the device attempt, because the first attempt does not connect neighbouring dots to find
+    // Uses the device attempt because the first attempt does not connect neighbouring dots to find
     // the grid.
     DeviceOptions device;
     device.effort = Effort::device;

@@ -26,7 +26,7 @@ SheetEntry sheet_entry() {
     return entry;
 }
 
-/// A map with a different offset for each dot.
+/// Returns a map with a different offset for each dot.
 PrintMap small_map() {
     const SheetEntry entry = sheet_entry();
     MapPage page;
@@ -54,7 +54,7 @@ PrintMap small_map() {
     return {{page}};
 }
 
-/// The bytes of a map as earlier versions wrote them, without the errors.
+/// Returns the bytes of a map in format version 1, which does not contain the errors.
 std::string version_1_bytes() {
     PrintMap map = small_map();
     map.pages[0].errors = {};
@@ -188,7 +188,7 @@ TEST(PrintMapFile, InterpolatesTheErrors) {
     EXPECT_FLOAT_EQ(static_cast<float>(at(right, 0)[1][1]), 18e-8F);
     EXPECT_FLOAT_EQ(static_cast<float>(at(0, bottom)[0][1]), -5e-8F);
     EXPECT_FLOAT_EQ(static_cast<float>(at(right, bottom)[2][0]), 12e-10F);
-    // The factor of the nodes is 1 + x + 4 y, for x and y from 0 to 1 over the page.
+    // Each node has the factor 1 + x + 4 y, where x and y go from 0 to 1 across the page.
     const double x = 10.0 / right;
     const double y = 17.0 / bottom;
     EXPECT_NEAR(at(10, 17)[2][2], 1e-10 * (1 + x + 4 * y), 1e-15);

@@ -268,8 +268,7 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
         };
         const auto expected = expected_covariance(fix, [&](const Fix& moved) {
             const WorldPlace place = place_of(moved);
-            // Angles are taken relative to the angle of the fix, so that they do not jump at half a
-            // turn.
+            // Angles are relative to the angle of the fix, to avoid a jump at half a turn.
             const double yaw =
                 std::remainder(place.yaw_rad - place_of(fix).yaw_rad, 2 * std::numbers::pi);
             return std::array{place.x_m, place.y_m, yaw};

@@ -1,4 +1,4 @@
-// Tests the program that all devices share. In this test, its host reads and writes strings.
+// Tests the program that all devices share. The functions of `host` read from and write to strings.
 #include "locate_frames.hpp"
 
 #include <cstring>

@@ -24,8 +24,7 @@ TEST(FlatField, IsInterpolatedBetweenItsValues) {
     // The brightness decreases linearly by half from the first to the last column, and by half from
     // the first to the last row.
     const FlatFieldCorrection correction(camera_with({{1, 0.5}, {0.5, 0.25}}, 3, 3));
-    // Levels of paper in this light, if the level is 200 in full light: 200 * (1 - u / 4) * (1 - v
-    // / 4).
+    // Grey levels of paper in this light: 200 * (1 - u / 4) * (1 - v / 4).
     const GreyImage paper{{200, 150, 100, 150, 113, 75, 100, 75, 50}, 3, 3};
     for (const int level : correction.corrected(paper.view()).pixels)
         EXPECT_NEAR(level, 200, 1);

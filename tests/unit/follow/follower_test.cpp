@@ -68,7 +68,7 @@ TEST(Follower, TellsWhereTheRobotIsByItsCameraFile) {
         EXPECT_LT(turn_between(now.track.pose.theta_rad(), theta_rad + 30 * kDegree_rad), 0.01);
         tracked += fix.attempt == Attempt::tracked ? 1 : 0;
     }
-    // Most frames are tracked, because the predictions take the mount of the camera into account.
+    // Most frames are tracked because the predictions take the mount of the camera into account.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_FALSE(follower.is_in_world());
 }

@@ -51,7 +51,8 @@ double rms_mm(const InkPage& page, const std::vector<PenSample>& path) {
     return std::sqrt(squares / count);
 }
 
-/// Expects the strokes of the path. Each end of a stroke may be off by one frame.
+/// Expects that the page contains the strokes of the path. Each end of a stroke may be off by one
+/// frame.
 void expect_strokes(const InkPage& page, const std::vector<PenSample>& path) {
     std::vector<std::pair<std::size_t, std::size_t>> truth;
     for (std::size_t i = 0; i < path.size(); ++i) {
@@ -72,8 +73,8 @@ TEST(Ink, SmoothsStrokesAndFindsTheirEnds) {
     const std::vector<InkPage> pages = ink_of(noisy(path, kSigma_mm));
     ASSERT_EQ(pages.size(), 1U);
     expect_strokes(pages[0], path);
-    // The distance of a noisy sample is sqrt(2) kSigma_mm rms. The strokes are smoothed, so their
-    // error must be smaller.
+    // The noisy samples have an rms distance of sqrt(2) kSigma_mm from the path. The strokes are
+    // smoothed, so their error must be smaller.
     EXPECT_LT(rms_mm(pages[0], path), 0.8 * std::sqrt(2) * kSigma_mm);
 }
 

@@ -87,7 +87,8 @@ TEST(LocateFirst, SettlesImagesWithTooFewDotsBeforeTheirGrid) {
 TEST(LocateFirst, SettlesSmallViewsWithFewCells) {
     int found = 0;
     for (std::uint64_t i = 0; i < 100; ++i) {
-        // 64 cells do not suffice, even if some dots are not clear.
+        // A view of 64 cells is too small. The attempt must recognise this even if some dots are
+        // not clear.
         const Fix fix = outwards(render(shot_of({9, 72, 72, Preset::nominal}, kSeed, i)));
         EXPECT_NE(fix.status, Status::ok) << "shot " << i;
         found += large_workspace().measurement.shows_too_few_cells ? 1 : 0;
@@ -175,7 +176,7 @@ TEST(LocateFirst, RefusesWhatShowsNoPosition) {
             if (!is_seam) {
                 EXPECT_NE(fix.status, Status::ok);
             } else if (fix.status == Status::ok) {
-                // The fix may be on either side of the seam.
+                // The fix may belong to the pattern on either side of the seam.
                 EXPECT_NEAR(fix.x_grid(), x_grid(shot.pose), 1);
                 EXPECT_NEAR(fix.y_grid(), y_grid(shot.pose), 1);
             }

@@ -135,7 +135,7 @@ class KnownUnderGraphics : public Known {
     }
 };
 
-/// Regression: less than half of the dots agreed with the plane of the fix. The place was correct,
+/// Regression: fewer than half of the dots agreed with the plane of the fix. The place was correct,
 /// but the angle was wrong by 2 degrees, with a reported standard deviation of 0.25 degrees.
 TEST_F(KnownUnderGraphics, PlaneOfFewDotsIsNotReported) {
     const Shot shot = hidden_shot({1285, 1586661300511374774U, {1311, 1375}, 22}, 20, 640, 480);
@@ -144,8 +144,8 @@ TEST_F(KnownUnderGraphics, PlaneOfFewDotsIsNotReported) {
     EXPECT_TRUE(is_right(fix, shot));
 }
 
-/// Most of the windows around the dots that the code predicts contain graphics. The typical mass of
-/// a dot was then that of the graphics, so the dots were rejected.
+/// Most of the windows around the predicted dots contain graphics. Regression: the typical mass of
+/// a dot was computed from the graphics, so the dots were rejected.
 TEST_F(KnownUnderGraphics, TypicalMassIsThatOfTheDots) {
     for (const HiddenFrame& frame : {HiddenFrame{119, 9032920798099912513U, {1183, 1401}, 7},
                                      {270, 673474550873260226U, {1162, 1181}, 5},

@@ -50,7 +50,7 @@ void expect_same(const Fix& a, const Fix& b) {
     EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
 }
 
-/// Locates row by row, with a Locator or a DeviceLocator.
+/// Locates an image that is passed row by row to a Locator or a DeviceLocator.
 template <typename AnyLocator>
 Fix pushed(const GreyImage& image, AnyLocator&& locator) {
     static_cast<void>(locator.begin(image.width_px, image.height_px));
@@ -215,7 +215,7 @@ TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
 }
 
 TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
-    // Frames of other sizes and failures in between must have no effect.
+    // Frames of other sizes and refused frames in between must have no effect.
     const auto used_memory = std::make_unique<LargeMemory>();
     Locator used(*used_memory, DeviceOptions{});
     const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));

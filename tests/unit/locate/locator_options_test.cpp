@@ -162,7 +162,7 @@ TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
               Status::ok);
 }
 
-/// Returns the frame with the difference between each grey level and 128 multiplied by `by`.
+/// Returns the frame with its contrast scaled by `by`, relative to the grey level 128.
 GreyImage paled(GreyImage image, double by) {
     for (std::uint8_t& grey : image.pixels)
         grey = static_cast<std::uint8_t>(std::lround(128 + by * (grey - 128)));

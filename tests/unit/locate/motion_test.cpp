@@ -134,7 +134,7 @@ TEST_F(FramesReadTogether, SmallViewsOfTheWholePlaneBecomeCertain) {
     EXPECT_GT(series.with_earlier, 100);
 }
 
-// A single view of 4.9 x 4.9 cells is never certain, even if the sheets are known.
+// A single view of 4.9 x 4.9 cells is rarely certain, even if the sheets are known.
 TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
     ASSERT_EQ(locator_.set_known({&kSheet, 1}, OtherSheets::impossible), Status::ok);
     const Series series =

@@ -41,9 +41,8 @@ inline double turn_between(double a_rad, double b_rad) {
     return std::abs(std::remainder(a_rad - b_rad, 2 * std::numbers::pi));
 }
 
-/// Returns true if the section of a fix is the true section, its position is within a fifth of a
-/// spacing of the true position along each axis, and its angle is within two degrees of the true
-/// angle.
+/// Returns true if the fix has the true section, a position error of less than a fifth of a spacing
+/// along each axis, and an angle error of less than two degrees.
 inline bool is_right(const Fix& fix, const Shot& shot) {
     return std::abs(fix.x_grid() - x_grid(shot.pose)) < 0.2 &&
            std::abs(fix.y_grid() - y_grid(shot.pose)) < 0.2 &&

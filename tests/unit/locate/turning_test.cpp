@@ -35,8 +35,8 @@ Shot turned_shot(const ShotSize& size, double turn_deg, Vec2 motion, int index) 
 
 struct Counts {
     int located = 0;
-    double squares = 0;  ///< sum over all frames of the squared errors of x and y, divided by their
-                         ///< variances
+    double squares = 0;  ///< sum of the squared errors of x and y over all located frames,
+                         ///< each divided by its variance
 };
 
 Counts locate_turned(const ShotSize& size, double turn_deg, Vec2 motion, int frames) {
@@ -52,7 +52,7 @@ Counts locate_turned(const ShotSize& size, double turn_deg, Vec2 motion, int fra
         const double off_x = fix.x_grid() - x_grid(shot.pose);
         const double off_y = fix.y_grid() - y_grid(shot.pose);
         EXPECT_LT(std::hypot(off_x, off_y), 0.012) << turn_deg << ", frame " << i;
-        // The signs are opposite, because theta decreases if the scene turns clockwise.
+        // The signs are opposite because theta decreases if the scene turns clockwise.
         EXPECT_NEAR(fix.readout_turn_rad, -shot.camera.readout_turn_rad, 0.5 * kDegree) << i;
         counts.squares += off_x * off_x / double{fix.covariance[0][0]} +
                           off_y * off_y / double{fix.covariance[1][1]};

@@ -35,8 +35,8 @@ TEST(make_sheet, fills_a4_inside_the_default_margin) {
     options.pattern.section = {.u = 3, .v = 62};
     options.pattern.code = CodeVariant::microdots;
     const Sheet sheet = make_sheet(options);
-    // Computed by hand: 200 mm have room for 1 + floor((200 - 0.254) / 0.508) = 394 columns, and
-    // 287 mm for 565 rows.
+    // Computed by hand: a width of 200 mm has room for 1 + floor((200 - 0.254) / 0.508) = 394
+    // columns, and a height of 287 mm for 565 rows.
     EXPECT_EQ(sheet.columns, 394);
     EXPECT_EQ(sheet.rows, 565);
     EXPECT_EQ(sheet.width_mm, 210);

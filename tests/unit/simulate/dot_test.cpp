@@ -128,8 +128,8 @@ TEST(Dot, InkMassIsTheDotsAreaWhateverBlursIt) {
     }
 }
 
-// Together, dots remove the sum of the light that each dot removes alone. This is true even if
-// their blurred images overlap or are cut off by the frame, because light is additive.
+// The light removed by several dots is the sum of the light removed by each single dot. Light is
+// additive, so this is true even if blurred dots overlap or are cut off by the image border.
 TEST(Dot, ManyTakeAwayTheSumOfEach) {
     Rng rng(6);
     CameraModel camera;

@@ -71,7 +71,7 @@ MeasuredMotion odometry_until(std::int64_t time_us, bool is_y_up, Rng& rng) {
     return motion;
 }
 
-/// Solves a * x = b for a symmetric positive definite matrix a, in place, and returns b^T x.
+/// Returns b^T a^-1 b for a symmetric positive definite matrix a, by Gaussian elimination.
 double mahalanobis(std::array<std::array<double, 3>, 3> a, std::array<double, 3> b) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -151,7 +151,7 @@ TEST(TrackMotionLost, ARobotIsLostWhenItsOdometryIsTooUncertain) {
         if (tracker.track().events.lost) lost_us = t;
     }
     // The sum of 100 steps with independent errors of 0.01 mm has a standard deviation of 0.1 mm,
-    // which is the limit. The limit is reached earlier, because the rotation has errors, too.
+    // which is the limit. The limit is reached earlier because the rotation also has errors.
     EXPECT_GT(lost_us, 20 * kFrame_us);
     EXPECT_LT(lost_us, 102 * kFrame_us);
 }

@@ -199,7 +199,7 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     expect_as_seen(robot.predict(305'000), robot.fix);
 }
 
-/// The same movement as `driving`, at another place.
+/// Returns the pose of a robot that moves as in `driving`, but at another place.
 Pose driving_elsewhere(std::int64_t time_us) {
     const Pose pose = driving(time_us);
     return {pose.x + 9000, pose.y - 3000, pose.theta_rad};

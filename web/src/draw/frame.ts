@@ -33,7 +33,7 @@ export interface FrameOverlay {
     grid: readonly ArrayLike<number>[];
     /** Spacing of the grid, or 0 if there is no grid. */
     spacing_px: number;
-    /** Centres of the dots of the code in view, with their symbols. */
+    /** Symbols of the code in view, with the predicted centres of their dots. */
     symbols: readonly { at: Pixel; symbol: number }[];
     /** Null if there is no pose. */
     axes: Axes | null;
@@ -41,7 +41,7 @@ export interface FrameOverlay {
 
 export interface DrawnFrame {
     picture: CanvasImageSource;
-    /** Size of the frame. The picture may have another resolution. */
+    /** Size of the frame. The picture may have a different resolution. */
     width_px: number;
     height_px: number;
     overlay: FrameOverlay;

@@ -7,14 +7,14 @@ import { arrow, surfaceOf, themed } from "./surface.js";
 export interface Paper {
     name: string;
     corners: readonly Point_mm[];
-    /** Layout of the dots. The dots are drawn only if it is given. */
+    /** Layout of the dots. Without it, no dots are drawn. */
     layout?: SheetLayout;
 }
 
-/** Contents of the map, in mm on a page, in the pattern or in the world. */
+/** Contents of the map. Coordinates are in mm, on a page, in the pattern or in the world. */
 export interface MapContent {
     papers: readonly Paper[];
-    /** Uninterrupted strokes of the path. */
+    /** Parts of the path without gaps. */
     strokes: readonly (readonly Point_mm[])[];
     now: Point_mm | null;
     /** Direction of the x axis of the camera, from +x towards +y. Null if it is not drawn. */

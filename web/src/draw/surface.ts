@@ -1,4 +1,4 @@
-// Provides canvases with coordinates in CSS pixels, at the resolution of the screen.
+// Sets up canvases that use CSS pixels as coordinates and have the resolution of the screen.
 
 /**
  * Colours for drawing over camera frames. They are distinguishable with all types of colour vision.
@@ -57,7 +57,7 @@ export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
 const colours = [new Map<string, string>(), new Map<string, string>()] as const;
 let dark: MediaQueryList | undefined;
 
-/** Returns a colour from the style sheet. It depends on the colour scheme. */
+/** Returns a colour from the style sheet, for the current colour scheme. */
 export function themed(name: string): string {
     dark ??= window.matchMedia("(prefers-color-scheme: dark)");
     const known = colours[dark.matches ? 1 : 0];

@@ -1,4 +1,4 @@
-// Messages between the page and the worker. They are plain data that can be posted.
+// Messages between the page and the worker: plain data that `postMessage` can send.
 import type { Cell, Code, Fix, LocatorOptions, Section } from "dotpose";
 
 /** Intrinsic parameters of a camera. */
@@ -40,7 +40,7 @@ export interface SheetChoice extends Sheet {
 export interface SheetLayout extends Sheet {
     columns: number;
     rows: number;
-    /** Position of the intersection of the first dot, from the upper left corner of the page. */
+    /** Position of the first dot's intersection, relative to the upper left corner of the page. */
     first_x_mm: number;
     first_y_mm: number;
 }
@@ -97,7 +97,7 @@ export interface Reading {
     time_s: number;
 }
 
-/** Method of reading the grey levels of a camera frame. */
+/** How the grey levels of a camera frame were read. */
 export type LumaPath = "processor" | "canvas";
 
 /** Requests from the page. A request with an `id` gets exactly one answer. */

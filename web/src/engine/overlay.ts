@@ -8,8 +8,8 @@ import type { CellsInView, Reading } from "./messages.js";
 const kDisplacement = 1 / 6;
 
 /**
- * Returns the point of the frame, in px from its upper left corner, that shows the pattern point (x, y), in spacings.
- * In image coordinates, (0, 0) is the centre of the first pixel.
+ * Converts the pattern point (x, y), in spacings, to a point of the frame, in px from its upper left corner. In image
+ * coordinates, (0, 0) is the centre of the first pixel, which is at (0.5, 0.5) in the frame.
  */
 function pixelOf({ fix }: Reading, x: number, y: number): Pixel {
     const { u_px, v_px } = imageFromPattern(fix, x * fix.spacing_mm, y * fix.spacing_mm);

@@ -14,7 +14,7 @@ const connection = new Connection((is_open) => {
     show({ "live-status": is_open ? "live" : "no connection to dotpose" });
     if (is_open) return;
     announce("No connection to dotpose");
-    // If the program is restarted, the robots are numbered anew.
+    // A restarted program assigns new numbers to the robots.
     panel.choose(null);
 });
 const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_mm, path_mm }) => {
@@ -25,7 +25,7 @@ const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_
 const table = new RobotTable(connection, (id) => panel.choose(id, true));
 const fleet_map = new FleetMap(connection, (id) => panel.choose(id));
 const history = new HistoryPanel(connection, (tracks) => fleet_map.takeTracks(tracks));
-/** True if the page must choose the device of `dotpose listen`, which is the only robot, as soon as it appears. */
+/** True while waiting for the device of `dotpose listen`, its only robot. The page chooses it as soon as it appears. */
 let awaits_device = false;
 const summary = new SummaryView(announce, (state) => {
     table.showOnly(state);

@@ -1,5 +1,5 @@
-// Draws thousands of robots by copying the pixels of their marks, which takes a tenth of the time of filling paths if
-// there is no graphics processor. Positions are rounded to whole pixels.
+// Draws thousands of robots by copying the pixels of their marks. Without a graphics processor, this takes a tenth of
+// the time needed to fill paths. Positions are rounded to whole pixels.
 import { themed } from "../draw/surface.js";
 import { addMark, kDrawingOrder, kSquare, paintMarks, paintSquares, radiusFor } from "./marks.js";
 import { kConditions, type Positions } from "./messages.js";
@@ -46,7 +46,7 @@ export class MarkPixels {
     #pixels = new Uint32Array(0);
     /** The marks of the conditions and of the headings, and the square for unknown robots. */
     #marks: Mark[] = [];
-    /** Scale, radius and colour of the marks. */
+    /** Scale, radius and colour for which `#marks` were drawn. */
     #look = "";
 
     /** Sets the background of the robots. The canvas must be opaque. `scale` is the number of canvas pixels per unit

@@ -34,7 +34,7 @@ export function addMark(context: CanvasRenderingContext2D, condition: Condition,
         context.lineTo(x + r, y - r);
     } else if (condition === "moving" && angle !== null) {
         const [cos, sin] = [r * Math.cos(angle), r * Math.sin(angle)];
-        // Chromium's closePath takes time proportional to the length of the path.
+        // Does not use closePath, which in Chromium takes time proportional to the length of the path.
         context.moveTo(x + 1.5 * cos, y + 1.5 * sin);
         context.lineTo(x - cos - 0.9 * sin, y - sin + 0.9 * cos);
         context.lineTo(x - cos + 0.9 * sin, y - sin - 0.9 * cos);
@@ -46,7 +46,7 @@ export function addMark(context: CanvasRenderingContext2D, condition: Condition,
     }
 }
 
-/** Paints the marks of the path. */
+/** Paints the marks that the current path contains. */
 export function paintMarks(context: CanvasRenderingContext2D, condition: Condition): void {
     const is_outline = condition === "lost" || condition === "silent";
     context.lineWidth = is_outline ? 2.5 : 1;
@@ -56,7 +56,7 @@ export function paintMarks(context: CanvasRenderingContext2D, condition: Conditi
     context.stroke();
 }
 
-/** Paints the squares of the path. */
+/** Paints the squares that the current path contains. */
 export function paintSquares(context: CanvasRenderingContext2D): void {
     context.strokeStyle = themed("--warn");
     context.lineWidth = 1.5;
@@ -175,7 +175,7 @@ export function drawRing(context: CanvasRenderingContext2D, x_mm: number, y_mm: 
     }
 }
 
-/** Draws a bar of a round length in the lower left corner. */
+/** Draws a scale bar in the lower left corner. Its length is 1, 2 or 5 times a power of ten. */
 export function drawScale(context: CanvasRenderingContext2D, view: Viewport): void {
     const kTarget_px = 110;
     const target_mm = kTarget_px / view.scale;

@@ -44,7 +44,7 @@ export interface Summary {
     unknown: number;
     states_per_s: number;
     messages: number;
-    /** Missing if several fleets share the states. */
+    /** Missing if several instances of `dotpose fleet` divide the states among themselves (`--share`). */
     missed?: number;
     late: number;
     repeated: number;
@@ -114,7 +114,7 @@ export interface StoredHistory {
     max_speed_mm_s: number;
     is_cut: boolean;
     maps: string[];
-    /** Time of each span, from `first_us`. */
+    /** Time of each span, relative to `first_us`. */
     times_ms: number[];
     /** First position in the span. Null if the robot was lost. */
     x_mm: (number | null)[];
@@ -145,7 +145,7 @@ const kRecordBytes = 16;
 const kHasHeading = 1;
 const kIsUnknown = 2;
 
-/** The robots in view. The functions read the bytes of the message (little-endian), so nothing is copied for each robot. */
+/** The robots in view. The methods read the little-endian records directly, without creating an object per robot. */
 export class Positions {
     readonly map: string;
     readonly count: number;
@@ -159,7 +159,7 @@ export class Positions {
     constructor(message: Uint8Array<ArrayBuffer>) {
         const { head, end } = headOf(message);
         [this.map, this.count, this.names, this.#origin_mm] = [head.map, head.count, head.names, head.origin_mm];
-        // The copy is aligned to words.
+        // Copies the records, because the typed arrays require alignment to words.
         const records = message.slice(end, end + head.count * kRecordBytes);
         this.#bytes = records;
         this.#words = new Uint32Array(records.buffer);
@@ -203,8 +203,8 @@ export interface Trails {
     trails_mm: Map<number, Float64Array>;
 }
 
-/** Parses the head of a message, which consists of a size and JSON. Returns the head, a view of the bytes, and the
- * end of the head. */
+/** Parses the head of a message: its size, followed by JSON. Returns the head, a view of the message, and the offset
+ * at which the head ends. */
 function headOf(bytes: Uint8Array<ArrayBuffer>): { head: Head; view: DataView; end: number } {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const end = 4 + view.getUint32(0, true);

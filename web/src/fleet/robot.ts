@@ -33,8 +33,8 @@ export class RobotPanel {
     #listed = "";
     #reveals = false;
 
-    /** `changed` is called with each new state of the chosen robot. `find` is called when the map must show its
-     * position. */
+    /** `changed` is called with each new state of the chosen robot. `find` is called when the user asks to see the
+     * robot on the map. */
     constructor(connection: Connection, changed: (robot: Robot | null) => void, find: (robot: Robot) => void) {
         this.#connection = connection;
         this.#changed = changed;

@@ -1,5 +1,5 @@
-// Keeps the newest part of the trails, which consists of the positions of the robots since the trails arrived. Trails
-// arrive once per second.
+// Extends the trails of the robots to their newest positions. Trails arrive once per second. The end of a trail
+// contains the positions that have arrived since.
 import type { Positions, Trails } from "./messages.js";
 
 /** With more robots, only the newest position is kept. The ends are then too short on the screen to appear as

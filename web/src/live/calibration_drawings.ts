@@ -3,10 +3,10 @@ import { arrow, surfaceOf, themed } from "../draw/surface.js";
 import type { LensCoverage, Residuals, Station } from "./calibration_state.js";
 
 const kMissing = "rgba(213, 60, 40, 0.34)";
-/** Values at the rim of the drawing of the tilts: the change of the scale, and the tangent of the tilt of a pen. */
+/** Values at the rim of the tilt drawing: the change of the scale for a lens, and the tangent of the tilt for a pen. */
 export const kMaxTilt = 0.15;
 export const kMaxLean = Math.tan((45 * Math.PI) / 180);
-/** Minimum residual that an arrow of maximum length represents. It keeps the arrows of mere noise short. */
+/** Minimum residual that an arrow of maximum length represents. It keeps arrows short that show only noise. */
 const kMinFullScale_px = 0.05;
 
 /** Marks the parts of the frame that have not shown dots. The frame must be on the canvas. */
@@ -21,7 +21,7 @@ export function drawMissing(canvas: HTMLCanvasElement, { columns, covered }: Len
 
 /**
  * Draws the sectors of a full turn, filled if they have been seen, and the direction of the newest frame. The first
- * sector begins at the angle of `begin` sectors.
+ * sector begins `begin` sectors after direction 0.
  */
 export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], theta_rad: number | null, begin = 0): void {
     const { context, width, height } = surfaceOf(canvas);
@@ -45,7 +45,7 @@ export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], t
     arrow(context, [x, y], [x + 0.8 * radius * Math.cos(theta_rad), y + 0.8 * radius * Math.sin(theta_rad)], 9);
 }
 
-/** Draws the tilt of each frame as a point. A camera that looks straight down is in the middle. */
+/** Draws the tilt of each frame as a point. Frames without a tilt are in the middle. */
 export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, number][], max: number): void {
     const { context, width, height } = surfaceOf(canvas);
     const [x, y] = [width / 2, height / 2];

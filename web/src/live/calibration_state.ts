@@ -36,13 +36,13 @@ export interface Residuals {
 }
 
 /**
- * Position of the camera relative to the centre of rotation, and the offset of the centre that is computed from this
- * frame alone.
+ * Pose of the camera in one frame, relative to the centre of rotation. The offset is the centre computed from this
+ * frame alone minus the centre computed from all frames.
  */
 export type Station = [x_mm: number, y_mm: number, theta_rad: number, off_x_mm: number, off_y_mm: number];
 
 export interface Result {
-    /** Labels and texts of the rows of the report. */
+    /** Rows of the report, each with a label and a text. */
     rows: [string, string][];
     is_good: boolean;
     /** Improvements that more frames could bring. */
@@ -68,7 +68,7 @@ export interface CalibrationState {
     needs: string[];
     problem: string;
     result: Result | null;
-    /** Values in the camera file, by step. Empty if a value is missing. */
+    /** Text of each step's value in the camera file. Empty if the file does not contain the value. */
     values: Record<StepName, string>;
 }
 

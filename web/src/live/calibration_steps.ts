@@ -42,7 +42,7 @@ export const kSteps: readonly Step[] = [
     },
 ];
 
-/** Replaces the ASCII notation of terminal texts by typographic characters. */
+/** Replaces the ASCII notation of terminal texts with typographic characters. */
 export function typeset(text: string): string {
     return text.replaceAll("+-", "±").replaceAll("^2", "²");
 }
@@ -76,7 +76,7 @@ export class StepList {
             value.textContent = text === "" ? "not calibrated" : typeset(text);
             value.classList.toggle("known", text !== "");
             const is_running = state?.phase === "collecting" || state?.phase === "solving";
-            // A result must be saved or discarded first.
+            // An unsaved result must be saved or discarded before another step.
             button.disabled = state === null || is_running || state.phase === "solved";
             item.classList.toggle("current", is_running && state?.step === name);
         }

@@ -4,7 +4,7 @@ import { element, show } from "../page/dom.js";
 import type { Point_mm } from "../page/sheet_frame.js";
 import type { Line, Path, Setup } from "./messages.js";
 
-/** Maximum number of positions since the last message with the path. */
+/** Maximum number of positions that are stored between two messages with the path. */
 const kMaxRecent = 2000;
 
 function pointsOf(coordinates: readonly number[]): Point_mm[] {

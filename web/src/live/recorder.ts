@@ -1,4 +1,4 @@
-// Controls the button that records, and offers the recorded files for download.
+// Controls the record button, and offers the recorded files for download.
 import { element, make, show } from "../page/dom.js";
 import type { Connection } from "./connection.js";
 import type { Setup, State } from "./messages.js";

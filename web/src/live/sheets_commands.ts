@@ -1,4 +1,4 @@
-// Commands about sheets, and their answers.
+// Sends commands about sheets, and shows their answers.
 import { element, show } from "../page/dom.js";
 import type { Connection, Value } from "./connection.js";
 import type { Answer } from "./sheets_messages.js";

@@ -3,7 +3,7 @@ import type { PageCamera } from "../engine/messages.js";
 
 type Values = Map<string, string>;
 
-/** Returns the values of the keys that are not nested, without comments. */
+/** Returns the values of the top-level keys, without comments. */
 function valuesOf(text: string): Values {
     const values: Values = new Map();
     for (const line of text.split(/\r?\n/)) {

@@ -1,6 +1,6 @@
 // The log of readings, with a subset of the CSV columns of `dotpose watch --log` (docs/output.md). `dotpose replay` can
-// read the log. The page has no tracker, so the track is the fix, and the velocity is computed from the difference from
-// the previous fix.
+// read the log. The page has no tracker, so the track is the fix, and the velocity is computed from the fix and the
+// previous one.
 import type { Reading } from "../engine/messages.js";
 import { pageFromPattern } from "../page/sheet_frame.js";
 import type { KnownSheet } from "../print/known_sheets.js";

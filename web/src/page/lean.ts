@@ -72,7 +72,7 @@ export function leanOf({ quaternion_xyzw, covariance }: SpacePose): Lean {
 }
 
 /**
- * Returns the pose in a sheet frame that has the x axis of the world. In the world, y points up, z points OUT of the
+ * Converts a pose in the world to a sheet frame with the same x axis. In the world, y points up, z points OUT of the
  * paper, lengths are in metres, and the covariance is that of a rotation vector in the WORLD.
  */
 export function fromWorld(z_m: number, quaternion_xyzw: Quaternion, covariance: ArrayLike<number>): SpacePose {

@@ -65,7 +65,7 @@ function sheetOf(entry: unknown, i: number): KnownSheet {
 }
 
 /**
- * Returns the sheets of a sheet file. Throws an Error that names the key if the file is not valid. The print scales of
+ * Returns the sheets of a sheet file. If a key is not valid, throws an Error that names it. The print scales of
  * the pages and their poses in the world are not read.
  */
 export function sheetsOfFile(text: string): KnownSheet[] {

@@ -8,7 +8,7 @@ export interface Slider {
     min: number;
     max: number;
     step: number;
-    /** Returns the text of a value. An image pixel corresponds to `px` pixels on the scale of the slider. */
+    /** Returns the text for a value. `px` is the size of an image pixel, in pixels on the slider's scale. */
     shown(value: number, px: number): string;
 }
 

@@ -1,6 +1,6 @@
 /* Prints the position of a pen tip, computed from one frame and corrected with a print map. The
  * arguments are the focal length in px, the distance of the tip along the optical axis in mm, a
- * print map file, and an 8-bit binary PGM file. Links dotpose::c_space. */
+ * print map file, and an 8-bit binary PGM file. Link with dotpose::c_space. */
 #include <dotpose_print_map.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Prints the position and angles of a camera in space, computed from one frame. The arguments are
- * the focal length in px and an 8-bit binary PGM file. Links dotpose::c_space. */
+ * the focal length in px and an 8-bit binary PGM file. Link with dotpose::c_space. */
 #include <dotpose_space.h>
 #include <stdio.h>
 #include <stdlib.h>

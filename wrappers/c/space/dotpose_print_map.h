@@ -30,7 +30,7 @@ typedef struct dotpose_print_map dotpose_print_map;
 
 /* Reads a map from the contents of a map file, and allocates memory for the map. Returns OK,
  * BAD_VALUE if the bytes are not a map, are damaged or have a newer version, OUT_OF_MEMORY, or
- * NULL_POINTER. Unless the status is OK, `map` receives null. */
+ * NULL_POINTER. On failure, sets `map` to null. */
 dotpose_status dotpose_print_map_create(const void* bytes, size_t byte_count,
                                         dotpose_print_map** map);
 
@@ -47,9 +47,9 @@ enum {
 };
 
 /* Corrects the fix of the image that the locator located most recently, and writes the result to
- * `fix`, which must have been set up by dotpose_fix_init. Unless `use` is DOTPOSE_MAP_USED, the
- * result is the uncorrected fix. Otherwise, its covariance is the covariance of the absolute
- * position on the page, and includes the error of the map. Returns OK, NO_FIX if the image was not
+ * `fix`, which must have been set up by dotpose_fix_init. If `use` is DOTPOSE_MAP_USED, the
+ * covariance is that of the absolute position on the page, and includes the error of the map.
+ * Otherwise, the result is the uncorrected fix. Returns OK, NO_FIX if the image was not
  * located, WRONG_KIND for device locators and for locators without `show_stages`, OUT_OF_MEMORY, or
  * another misuse. */
 dotpose_status dotpose_print_map_correct(const dotpose_print_map* map,
@@ -57,8 +57,8 @@ dotpose_status dotpose_print_map_correct(const dotpose_print_map* map,
                                          dotpose_map_use* use);
 
 /* Fits the pose of the camera as dotpose_space_fit does, but with the dot positions of the map.
- * Unless `use` is DOTPOSE_MAP_USED, the result is the pose of dotpose_space_fit. Returns the
- * statuses of dotpose_space_fit. */
+ * If `use` is not DOTPOSE_MAP_USED, the result is the pose of dotpose_space_fit. Returns the same
+ * statuses as dotpose_space_fit. */
 dotpose_status dotpose_print_map_fit_space(const dotpose_print_map* map,
                                            const dotpose_locator* locator,
                                            const dotpose_space_camera* camera,

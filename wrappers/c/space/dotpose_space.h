@@ -46,7 +46,7 @@ typedef struct dotpose_space_camera {
     double lens_k_per_px2;   /* 48: radial distortion, negative for barrel distortion */
     double lens_centre_u_px; /* 56: distortion centre */
     double lens_centre_v_px; /* 64 */
-    double print_scale;      /* 72: printed length over nominal length of the sheet */
+    double print_scale;      /* 72: printed length divided by nominal length */
 } dotpose_space_camera;
 
 /* Sets up a camera with square pixels, an optical axis through the image centre, and no distortion.
@@ -54,8 +54,7 @@ typedef struct dotpose_space_camera {
 dotpose_status dotpose_space_camera_init(dotpose_space_camera* camera, size_t bytes,
                                          int32_t width_px, int32_t height_px, double focal_px);
 
-/* Sets the members of the options that a locator for this camera needs: the lens and
- * `show_stages`. */
+/* Sets the options that a locator for this camera needs: the lens and `show_stages`. */
 dotpose_status dotpose_space_use_camera(const dotpose_space_camera* camera,
                                         dotpose_options* options);
 
@@ -98,7 +97,7 @@ dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes);
  * - OK,
  * - NO_FIX if the last image was not located or if the spacing of the sheet is not known,
  * - TOO_FEW_DOTS if the dots do not determine a pose,
- * - BAD_VALUE if a member of the camera is out of its range, or if the image has another size,
+ * - BAD_VALUE if a member of the camera is out of its range, or if the image has a different size,
  * - WRONG_KIND for device locators, and for locators without `show_stages`,
  * - OUT_OF_MEMORY, or another misuse. The pose is written only if the status is OK. */
 dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_space_camera* camera,
@@ -143,9 +142,9 @@ dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpos
 
 /* Detects with hysteresis whether the pen touches the paper. `is_down` must contain the result for
  * the previous pose, or 1 before the first pose. It receives the new result: 1 if the pen is on the
- * paper, and otherwise 0. A pen on the paper is reported as lifted at a height of at least 0.05 mm
- * plus three standard deviations. A lifted pen is reported as touching the paper at a height below
- * 0.05 mm. */
+ * paper, and otherwise 0. A pen on the paper is reported as lifted when its height reaches 0.05 mm
+ * plus three standard deviations. A lifted pen is reported as touching the paper when its height
+ * falls below 0.05 mm. */
 dotpose_status dotpose_space_update_contact(const dotpose_space_tip* tip, int32_t* is_down);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-// Callbacks of the element, which GStreamer calls. They have C interfaces, delegate the work to a
-// Stream, and do not throw.
+// GStreamer callbacks of the element. They have C interfaces, delegate the work to a Stream, and do
+// not throw.
 #include "element.hpp"
 
 #include <memory>

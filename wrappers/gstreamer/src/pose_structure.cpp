@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Sets the fields of a structure, with one function for each type.
+/// Sets the fields of a structure, with one function for each type of value.
 class Fields {
   public:
     explicit Fields(GstStructure* structure) : structure_(structure) {}
@@ -105,8 +105,8 @@ void put_evidence(const Fields& fields, const Fix& fix) {
     if (is_known) fields.evidence(#name, fix.name);
 #include "dotpose/fix_fields.def"
     if (!fix) return;
-    // Minimum reported probability, because the model of paper, ink and camera does not justify
-    // smaller values.
+    // Minimum reported probability. The model of paper, ink and camera does not justify smaller
+    // values.
     constexpr double kMin_p_wrong = 1e-30;
     fields.number("p_wrong", std::max(fix.p_wrong(), kMin_p_wrong));
     fields.number("spacing_px", fix.spacing_px());

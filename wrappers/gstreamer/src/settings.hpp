@@ -19,7 +19,7 @@ struct Switches {
 struct Settings {
     std::string sheets;        ///< path of the sheet file, or empty for none
     std::string camera;        ///< path of the camera file, or empty for none
-    FollowerOptions options;   ///< options of the follower, except those that the files determine
+    FollowerOptions options;   ///< follower options, except those determined by the files
     bool is_tracked = true;    ///< false to locate each frame independently
     bool has_overlay = false;  ///< true to draw dots and pose on the frames
     Switches switches;

@@ -23,11 +23,11 @@ class Stream {
     /// Reads the sheet and camera files. Throws Error if a file cannot be read.
     explicit Stream(const Settings& settings);
 
-    /// Throws BadArgument if the camera file belongs to another frame size.
+    /// Throws BadArgument if the camera file is for a different frame size.
     void require_size(int width_px, int height_px) const;
 
     /// Locates the next frame. If the time goes backwards, restarts tracking. The image must remain
-    /// valid as long as `follower` is used to access it.
+    /// valid while the trace of `follower` is in use.
     Reading read(ImageView image, bool is_inverted, std::int64_t time_us);
 
     bool has_overlay() const { return options_.locate.show_stages; }

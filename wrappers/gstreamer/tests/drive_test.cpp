@@ -22,8 +22,8 @@ class GstreamerDrive : public WatchCommand {
   protected:
     static void SetUpTestSuite() { start_gstreamer(); }
 
-    /// Writes the frames of drive.raw to another file. After each frame, adds chroma planes of a
-    /// neutral colour.
+    /// Copies the frames of drive.raw to colours.raw, and appends neutral chroma planes to each
+    /// frame.
     void put_colours() {
         const std::string grey = file("drive.raw");
         const std::size_t size = std::size_t{kWidth} * kHeight;

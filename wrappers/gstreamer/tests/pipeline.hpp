@@ -9,8 +9,7 @@
 
 namespace dotpose::test {
 
-/// Initialises GStreamer with the plugin of this build, and with a registry that no other program
-/// uses.
+/// Initialises GStreamer with the plugin of this build and a private registry.
 inline void start_gstreamer() {
     g_setenv("GST_PLUGIN_PATH", DOTPOSE_GSTREAMER_FOLDER, TRUE);
     g_setenv("GST_REGISTRY", DOTPOSE_REGISTRY, TRUE);

@@ -23,7 +23,7 @@ void define_point(py::class_<Camera>& camera, const char* name, Member member, c
         doc);
 }
 
-/// Applies a function of single points to an n x 2 array of points.
+/// Applies `map`, a function of a single point, to each row of an n x 2 array of points.
 template <typename Map>
 py::array_t<double> mapped(
     const Camera& camera,

@@ -11,7 +11,7 @@
 namespace dotpose::python {
 namespace {
 
-/// Result of a check, and the scan. The scan is needed to draw the result.
+/// Result of a check, with the scan, which is needed to draw the result.
 struct SeenCheck {
     PrintCheck check;
     GreyImage scan;

@@ -15,8 +15,8 @@
 namespace dotpose::python {
 namespace {
 
-/// Result for an image: the Python class Located. `track` is empty if the image is not part of a
-/// sequence.
+/// Result for one image, which Python sees as the class Located. `track` is empty if the image is
+/// not part of a sequence.
 struct SeenLocated {
     SeenFix fix;
     std::optional<SeenPlace> place;

@@ -1,4 +1,4 @@
-/// Images passed from Python: arrays or paths of files.
+/// Images passed from Python, as arrays or file paths.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ namespace dotpose::python {
 /// An image: pixels copied from an array, or the path of a file that is read when needed.
 using Frame = std::variant<GreyImage, std::filesystem::path>;
 
-/// Returns the image of an array or a path. Throws TypeError for any other object.
+/// Converts an array or a path to a Frame. Throws TypeError for any other object.
 Frame frame_of(const py::handle& image);
-/// Returns the images of a sequence.
+/// Converts each image of a sequence to a Frame.
 std::vector<Frame> frames_of(const py::iterable& images);
 /// Returns the pixels of an image. Throws Error if the file cannot be read.
 GreyImage pixels_of(const Frame& frame);

@@ -62,7 +62,7 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
                           const std::optional<MeasuredMotion>& motion);
 
     LocatorSetup setup_;
-    std::mutex mutex_;  ///< guards the members below, except those that the GIL guards
+    std::mutex mutex_;  ///< guards the members below, except those guarded by the GIL
     Locator locator_;
     DeviceOptions options_;  ///< options for images of the newest size
     int width_px_ = 0;

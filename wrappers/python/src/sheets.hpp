@@ -24,12 +24,12 @@ Pattern pattern_of(const std::string& code, double spacing_mm, const std::option
 /// BadArgument for any other name.
 DotDrawing drawing_named(const std::string& name);
 
-/// A place on a sheet with a copy of its entry.
+/// A place on a sheet, with a copy of the sheet's entry.
 struct SeenPlace {
     SheetPlace place;
     SheetEntry entry;
 };
-/// Returns the place with a copy of its entry, or none if there is no place.
+/// Adds a copy of the sheet's entry to the place. Returns none if there is no place.
 std::optional<SeenPlace> seen_place(const std::optional<SheetPlace>& place);
 
 /// Returns the covariance as a 3 x 3 array.

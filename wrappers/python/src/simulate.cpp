@@ -45,7 +45,7 @@ constexpr std::array kEffects = {
     Effect{"texture", &Imperfections::texture, "Standard deviation of the paper's reflectance."},
 };
 
-/// A shot and the image that the simulated camera takes of it.
+/// A shot and its rendered image.
 struct SimulatedFrame {
     Shot shot;
     py::array_t<std::uint8_t> image;

@@ -40,8 +40,8 @@ class Stages {
 class StageSource {
   public:
     virtual ~StageSource() = default;
-    /// Returns the stages of the frame with the given number. Throws Error if a newer frame was
-    /// located.
+    /// Returns the stages of the frame with the given number. Throws Error if they are no longer
+    /// available, for example because a newer frame was located.
     virtual std::shared_ptr<const Stages> stages_of(std::uint64_t number) = 0;
 };
 

@@ -3,7 +3,7 @@
     python3 cost.py
 
 Python and C++ locate the same image with the same options, in short alternating batches. The
-result is the fastest batch of each, because other programs slow down the other batches.
+result is the fastest batch of each, because slower batches were disturbed by other programs.
 """
 
 import time

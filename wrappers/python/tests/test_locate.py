@@ -64,7 +64,7 @@ def test_rows_may_lie_apart_and_in_any_order(frames):
 
 
 def test_the_pixels_are_not_copied(frames):
-    # A view can be larger than the memory, because it does not copy pixels.
+    # A view does not copy pixels, so it can be larger than the available memory.
     huge = np.broadcast_to(np.uint8(200), (1 << 40, 100))
     with pytest.raises(TypeError, match="not contiguous"):
         dotpose.Locator().locate(huge)

@@ -49,8 +49,8 @@ def run(*command, **environment):
 
 @pytest.fixture(scope="module")
 def copy_of_sources(tmp_path_factory):
-    """Returns a copy of the folder, because setuptools writes beside the sources. DOTPOSE_BUILD is
-    the build directory of this test, so that nothing is compiled twice."""
+    """Returns a copy of this package's folder, because setuptools writes files next to the sources.
+    Wheels are built from the compiled files in DOTPOSE_BUILD, so nothing is compiled again."""
     if not os.environ.get("DOTPOSE_BUILD"):
         pytest.skip("without DOTPOSE_BUILD, a build directory")
     root = tmp_path_factory.mktemp("checkout")

@@ -18,7 +18,7 @@ def entry():
 
 
 def shots_of(entry, count, seed, print_seed=5):
-    """Yields shots of a print of the page, whose dots have errors of 10 um."""
+    """Yields shots of one print of the page. The dots of the print have errors of 10 um."""
     rng = random.Random(seed)
     first = dotpose.draw_shots(1, seed=print_seed, width_px=320, height_px=240, section=(0, 0))[0]
     first.tilt_x_rad = first.tilt_y_rad = 0.0
@@ -42,8 +42,8 @@ def error_um(follower, shots):
     """Returns the rms error of the fixes, per axis, after removal of the mean offset, rotation and
     scale.
 
-    By definition, the dots of a map have no mean offset, rotation or scale error. The true errors
-    of the print in these terms are about 0.2 um on a page of this size.
+    By definition, the dots of a map have no mean offset, rotation or scale error. In the print, the
+    mean offset, rotation and scale error amount to about 0.2 um on a page of this size.
     """
     rows, errors = [], []
     for shot in shots:

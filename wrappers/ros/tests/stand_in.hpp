@@ -1,7 +1,7 @@
 /// Replacement for ROS 2, which Debian does not package. Declares the parts of rclcpp and of the
 /// messages that the node uses, according to their documentation. With these declarations, the node
-/// can be compiled but not run. For each ROS header that the node includes, a file is generated
-/// that includes this header.
+/// can be compiled but not run. Each ROS header that the node includes is replaced with a generated
+/// file that includes stand_in.hpp.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 #include <dotpose/tools/ros_messages.hpp>
 
-// These messages have the same members as in ROS, as robots.Cdr.TypesAreDefinedAsInRos checks.
+// These messages have the same members as in ROS. robots.Cdr.TypesAreDefinedAsInRos checks this.
 namespace std_msgs::msg {
 using dotpose::ros::Header;
 }

@@ -1,6 +1,6 @@
 // Prints the times of the C++ library without AVX2 for the golden frames
 // (wrappers/golden/README.md). Each line contains two times in µs: for a frame without a
-// prediction, and for its next frame with a prediction.
+// prediction, and for the next frame with a prediction.
 //
 //   dotpose_wasm_time FILE.frames...
 #include <chrono>

@@ -8,8 +8,8 @@ import type { SpacePose } from "./space.js";
  * between workers.
  *
  * In the pattern frame, x points to the right and y DOWN on the printed page as it is read. The
- * pose is the pattern position at the image centre. Unless `ok`, the pose and covariance are NaN,
- * and only `status`, `message` and `dots_seen` are valid.
+ * pose is the pattern position at the image centre. If `ok` is false, the pose and covariance are
+ * NaN, and only `status`, `message` and `dots_seen` are valid.
  */
 export interface Fix extends FixFields {
     /**
@@ -40,12 +40,12 @@ export interface Fix extends FixFields {
     dots: Float32Array | null;
     /**
      * Pose of the camera in space. Null without the option `space`, or if the dots do not determine
-     * it.
+     * the pose.
      */
     space: SpacePose | null;
     /** How the option `print_map` was used. Always "no_map" without the option. */
     map_use: MapUse;
-    /** The same fix, bit by bit, as a dotpose_fix of wrappers/c/dotpose.h. */
+    /** The bytes of this fix as a dotpose_fix of wrappers/c/dotpose.h. */
     bytes: Uint8Array<ArrayBuffer>;
 }
 

@@ -60,8 +60,8 @@ export interface LocatorOptions {
     dots?: boolean;
     /**
      * Intrinsic parameters of the camera, to fit its pose in space to every fix (`Fix.space`). The
-     * locator then uses a larger module, `dotpose-space.wasm`, which takes more time. The distortion
-     * of its lens is `lens_k_per_px2` about `lens_centre_offset_px`. Default: none.
+     * locator then uses a larger module, `dotpose-space.wasm`, which takes more time. The options
+     * `lens_k_per_px2` and `lens_centre_offset_px` give its lens distortion. Default: none.
      */
     space?: SpaceCamera;
     /**
@@ -89,8 +89,8 @@ export interface FrameOptions {
      * Motion of the camera since the previous frame. If a frame alone is not certain, it is read
      * together with the previous frames, and `frames` of the fix is the number of frames read. Give
      * a motion with every frame of a series, including the first. A frame without a motion ends the
-     * series. If the previous frame was located, the search starts at the position to which the
-     * motion leads, so a motion replaces a prediction.
+     * series. If the previous frame was located, the search starts at the position that results
+     * from the motion, so a motion replaces a prediction.
      */
     motion?: MeasuredMotion | null | undefined;
 }
@@ -241,7 +241,7 @@ export class Locator {
         return this.#prediction;
     }
 
-    /** Returns the number of the given code or, if the code is detected, of the last code read. */
+    /** Returns the number of the given code or, for "auto", of the code of the last image. */
     #codeRead(): number {
         callOk(this.#core, "dotpose_code_of", this.#locator, this.#code);
         return this.#core.view(this.#code, kCodeBytes).getInt32(0, true);

@@ -1,4 +1,4 @@
-// Writes PNG files with 1 bit per pixel, compressed with the deflate of the engine.
+// Writes PNG files with 1 bit per pixel, using the engine's deflate compression.
 import type { Raster } from "./tools.js";
 
 const kSignature = [137, 80, 78, 71, 13, 10, 26, 10];

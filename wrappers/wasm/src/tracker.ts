@@ -138,7 +138,7 @@ export class Tracker {
     readonly #track: number;
     readonly #prediction: number;
     /**
-     * Locators by code, from which predictions take their options. They do not locate frames.
+     * Locators by code. They provide the options for predictions, and do not locate frames.
      */
     readonly #locators = new Map<Code, number>();
     /** Code of the newest fix. */
@@ -166,8 +166,8 @@ export class Tracker {
 
     /**
      * Updates the tracker with a frame. `time_us` is its time on any clock, as a whole number. The
-     * fix need not be ok. `motion` is the motion since the previous update. Without fixes, the
-     * motions move the pose. A frame that is not newer than the previous frame is ignored.
+     * fix need not be ok. `motion` is the motion since the previous update. Without a fix, the pose
+     * is updated with the motion. A frame that is not newer than the previous frame is ignored.
      */
     update(time_us: number, fix?: Fix | null, motion?: MeasuredMotion | null): Track {
         const time = timeOf(time_us);

@@ -24,7 +24,7 @@ interface Answer {
  *     const { fix, image } = await locator.locate({ data, width, height });
  *
  * Images are transferred to the worker rather than copied. `data` is empty until the answer returns
- * it. Calls are answered in order.
+ * the image. Calls are answered in order.
  */
 export class WorkerLocator {
     readonly #worker: Worker;

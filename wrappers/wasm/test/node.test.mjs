@@ -219,7 +219,7 @@ describe("Tracker", () => {
         assert.ok(Math.abs(track.x_mm - x_mm(39)) < 0.01 && Math.abs(track.y_mm - 1070) < 0.01, `${track.x_mm}, ${track.y_mm}`);
         assert.ok(Math.abs(track.theta_rad - 0.5) < 0.002);
         assert.ok(Math.abs(track.vx_mm_s - kSpeed_mm_s) < 1 && Math.abs(track.vy_mm_s) < 1, `${track.vx_mm_s}, ${track.vy_mm_s}`);
-        // The velocity is known from the second frame on. The robot moves by two spacings per frame.
+        // The velocity is known after the second frame. The robot moves by two spacings per frame.
         assert.deepEqual(new Set(attempts.slice(2)), new Set(["tracked"]));
     });
 
@@ -240,8 +240,8 @@ describe("Tracker", () => {
         assert.equal(carried.is_lost, false);
         assert.equal(carried.verdict, "none");
         assert.ok(Math.abs(carried.x_mm - x_mm(59)) < 0.1, `${carried.x_mm}`);
-        // The variance is the sum of twenty independent errors of 0.01 mm and of the errors of the
-        // heading.
+        // The variance is the sum of the variances of twenty independent errors of 0.01 mm, and of
+        // the errors that result from the heading.
         assert.ok(carried.covariance[0] > 0.9 * 20 * 0.01 ** 2 && carried.covariance[0] < 0.1 ** 2, `${carried.covariance[0]}`);
         assert.equal(lost.is_lost, true);
         assert.ok(Number.isNaN(lost.x_mm) && Number.isNaN(lost.covariance[0]));

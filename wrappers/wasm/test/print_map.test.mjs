@@ -40,10 +40,10 @@ function withSum(bytes) {
     return bytes;
 }
 
-/** Offset in a map file of the number of columns of the first page, whose sheet is `name`
- * (docs/print-map.md). */
+/** Returns the offset of the first page's column count in a map file (docs/print-map.md). `name` is
+ * the name of its sheet. */
 const columnsAt = (name) => 20 + name.length + 3 + 8;
-/** Offset of the array that contains the number of views of each dot of this page. */
+/** Returns the offset of this page's view counts, an array with one element per dot. */
 const viewsAt = (name, dots) => columnsAt(name) + 8 + 8 + 4 + 16 + 4 * dots;
 
 const near = (expected, actual, tolerance) =>
@@ -89,8 +89,8 @@ describe("print map", () => {
 
     test("fixes are those of the tool, and more accurate than without the map", async () => {
         const without = await dotpose.Locator.create({ ...options, print_map: undefined });
-        // The page fills the frames, because the tool, unlike the module, removes everything
-        // outside the page.
+        // In all poses, the page fills the frame. Outside the page, the results would differ,
+        // because only the tool removes what is outside.
         const next = random(2);
         let [squares, squares_without] = [0, 0];
         for (let k = 0; k < 6; ++k) {
@@ -100,7 +100,8 @@ describe("print map", () => {
             const tool_line = JSON.parse(run("locate", "--sheets", "sheets.json", "--print-map", "page.map", "frame.pgm"));
             const fix = locator.locate(image);
             assert.equal(fix.map_use, "used");
-            // Other compilers may round to the next multiple of 2^-16 spacings, which is 8 nm.
+            // With another compiler, a result may be rounded to a neighbouring multiple of 2^-16
+            // spacings, which is 8 nm.
             near(tool_line.x_mm, fix.x_mm, 1e-5);
             near(tool_line.y_mm, fix.y_mm, 1e-5);
             near(tool_line.theta_deg, (fix.theta_rad * 180) / Math.PI, 1e-6);
@@ -126,7 +127,7 @@ describe("print map", () => {
         tool_line.camera_quaternion_xyzw.forEach((value, i) => near(value, space.quaternion_xyzw[i], 1e-9));
         near(tool_line.camera_tilt_deg, (space.tilt_rad * 180) / Math.PI, 1e-6);
         assert.equal(space.dots, tool_line.camera_dots);
-        // Without the map, the print errors are in the residuals.
+        // Without the map, the residuals contain the print errors.
         const without = await dotpose.Locator.create({ ...options, print_map: undefined, space: { focal_px: kFocal_px } });
         assert.ok(without.locate(image).space.residual_px > 5 * space.residual_px);
     });

@@ -8,23 +8,23 @@
 
 namespace dotpose::core {
 
-/// Darkness sums over a square. The darkness of a pixel is max(level - pixel, 0). For at most 11 x
-/// 11 pixels, the mass is below 2^15 and the moments are below 2^18.
+/// Darkness sums over a square. The darkness of a pixel is max(level - pixel, 0). The mass is below
+/// 2^15, and the moments are below 2^18, for squares of up to 11 x 11 pixels.
 struct DarkSums {
     std::int32_t mass = 0;  ///< sum of the darkness
     std::int32_t x = 0;     ///< sum of x * darkness, with x = 0 in the middle column
     std::int32_t y = 0;     ///< sum of y * darkness, with y = 0 in the middle row
 };
 
-/// Half side of the squares in which `dark_sums` sums only a diamond, without the corners. At all
+/// Half-width at which `dark_sums` skips the corners of the square and sums only a diamond. At all
 /// dot sizes that can be tracked, no corner pixel is more than half as dark as the centre of the
 /// dot, so the corners contribute little.
 inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the darkness sums over a square with 2 Half + 1 pixels per side, or over a diamond if
 /// Half is kHalfOfDiamond. `row` points to the upper left pixel of the square. The size is a
-/// template argument so that compilers unroll the loops. The function is not inlined, because its
-/// caller would then need more registers than small processors have.
+/// template argument so that compilers unroll the loops. Not inlined on processors with few
+/// registers, because the caller would otherwise run out of registers.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {

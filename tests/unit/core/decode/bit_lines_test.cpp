@@ -45,7 +45,7 @@ void set_bit(core::BitLines& lines, int line, int cell, bool value) {
 }
 
 /// Returns the bits of the cells from `least` to `most` - 1, as a camera rotated by `quarters`
-/// quarter turns sees them. Each dot is rotated about its intersection together with the paper.
+/// quarter turns sees them. The displacement of each dot from its intersection is also rotated.
 BitBlock seen_block(CodeVariant code, const Place& zero, int quarters, FixedVec least,
                     FixedVec most, const Damage& damage, Rng& rng) {
     BitBlock block;
@@ -77,7 +77,7 @@ void expect_same(const BitBlock& a, const BitBlock& b) {
     }
 }
 
-/// Returns a random place, which in three of four cases is near an end of the code.
+/// Returns a random place. Three out of four places are near an end of the code.
 Place some_place(int i, Rng& rng) {
     Place place = random_place(rng);
     if (i % 4 == 1) place.cell.x = i % 8 == 1 ? 3 : kPositionsPerAxis - 4;
@@ -205,7 +205,7 @@ TEST(BitLines, OneWrongBitMakesALineInexact) {
             const std::uint64_t here = std::uint64_t{1} << cell;
             const bool bit = main_bit(roll + static_cast<unsigned>(cell)) == 1;
             bits = bit ? bits | here : bits & ~here;
-            // The first six adjacent bits are always present, because six bits are needed to
+            // The first six adjacent bits are always present because six bits are needed to
             // determine the roll. Any other bit may be missing.
             if (cell < first + 6 || rng.below(8) != 0) valid |= here;
         }

@@ -1,4 +1,4 @@
-// Tests the weighted correlation with the main sequence (paper section II-B.7) against loops over
+// Tests the weighted correlation with the main sequence (paper, section II-B.7) against loops over
 // the text of the sequence.
 #include "core/decode/correlation.hpp"
 

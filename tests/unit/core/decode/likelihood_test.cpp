@@ -21,8 +21,8 @@ double f(double r) {
 TEST(Likelihood, QuasiProbabilityIsEquation9) {
     for (int projection = -65536; projection <= 65536; projection += 7) {
         const int found = quasi_probability(projection);
-        // The code rounds r / r0 to multiples of 1/256, and f changes by at most 3/256 between two
-        // multiples.
+        // `quasi_probability` rounds r / r0 to multiples of 1/256. Between two adjacent multiples,
+        // f changes by at most 3/256.
         ASSERT_NEAR(found / 127.0, f(projection / 65536.0), 0.024) << projection;
     }
     EXPECT_EQ(quasi_probability(0), 0);
@@ -102,8 +102,8 @@ TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
     EXPECT_EQ(owned.grid.j0, -5);
     EXPECT_EQ(owned.grid.i0, -8);
     EXPECT_EQ(owned.grid.at(3, 2).dot, 2);
-    // The dots extend over more cells than the grid can hold, on one side of the origin. The grid
-    // must keep the cells that are nearest to the origin.
+    // On one side of the origin, the dots cover more cells than the grid can hold. The grid must
+    // keep the cells nearest to the origin.
     ASSERT_EQ(assign_likelihoods(corners(2, -5, 40, 12), kPlane, owned.grid), Status::ok);
     EXPECT_EQ(owned.grid.i0, 2);
     ASSERT_EQ(assign_likelihoods(corners(-45, -5, 40, 12), kPlane, owned.grid), Status::ok);

@@ -32,8 +32,8 @@ Place wrapped(CodeVariant code, std::uint64_t x, std::uint64_t y, Section sectio
             {static_cast<std::uint8_t>(u % 63), static_cast<std::uint8_t>(v % 63)}};
 }
 
-/// Checks a grid that contains a window of the pattern, rotated by quarter turns. The symbol
-/// `known` of the window is at cell (0, 0).
+/// Checks a grid that contains a window of the pattern, rotated by quarter turns. The symbol at
+/// index `known` of the window is at cell (0, 0).
 void check(CodeVariant code, const Place& first, int columns, int rows, QuarterTurn turn,
            FixedVec known) {
     const code_test::Grid expected = code_test::reference_window(code, first, columns, rows);

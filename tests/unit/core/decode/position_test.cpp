@@ -27,7 +27,7 @@ void expect_truth(Decode decode, const Reading& reading) {
     EXPECT_EQ(found.place.section, truth.place.section);
 }
 
-/// Runs a check on views anywhere on the plane, for all code variants and turns.
+/// Runs a check on views at random positions, for all code variants and quarter turns.
 template <typename Check>
 void for_many_views(int count, Check check) {
     Rng rng(kSeed);

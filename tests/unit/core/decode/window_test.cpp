@@ -1,4 +1,4 @@
-// Tests the choice of the best 8 x 8 cells (paper section II-B.5) against an exhaustive search.
+// Tests the choice of the best 8 x 8 cells (paper, section II-B.5) against an exhaustive search.
 #include "core/decode/window.hpp"
 
 #include <gtest/gtest.h>

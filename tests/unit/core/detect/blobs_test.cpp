@@ -41,7 +41,7 @@ TEST(Blobs, ABlurredDotIsFoundAtEverySubPixelPhase) {
         double squares = 0;
         for (int phase = 0; phase < 64; ++phase) {
             const Vec2 centre{40 + phase % 8 / 8.0, 33 + phase / 8 / 8.0};
-            // Large dots are drawn in a larger image, because they occur only with a large spacing.
+            // Large dots are drawn in a larger image because they occur only with a large spacing.
             GreyImage image = sigma < 4 ? blank(80, 64) : blank(256, 256);
             darken(image, centre, sigma, 0.7);
             const auto dots = blobs_of(image);
@@ -300,7 +300,7 @@ void compare_with_flooding(GreyImage image) {
                 continue;
             }
             ++all;
-            // The detector may reject larger blobs, because dots are always smaller than 30 px.
+            // The detector may reject larger blobs because dots are always smaller than 30 px.
             if (blob.right - blob.left > 30 || blob.bottom - blob.top > 30) continue;
             ++least;
             ASSERT_TRUE(contains(blob))
@@ -333,7 +333,7 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     }
 }
 
-/// Dots after the size filter. The first `count` dots are those that the filter keeps.
+/// Dots after the size filter. The filter keeps the first `count` dots.
 struct Sifted {
     std::vector<DetectedDot> dots;
     int count = 0;

@@ -71,7 +71,7 @@ TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
 
 TEST(Derotated, IsTheImageOfAStillScene) {
     constexpr int kBorder_px = 40;  // the rotation moves other parts of the scene into this border
-    // Maximum mean difference in grey levels. It is small, because most pixels are paper in both
+    // Maximum mean difference in grey levels. It is small because most pixels are paper in both
     // images.
     constexpr double kMaxMeanDifference = 1;
     dotpose::Setup setup;

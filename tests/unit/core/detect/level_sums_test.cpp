@@ -1,4 +1,4 @@
-// Tests the sums of the levels in boxes against sums over single pixels.
+// Tests sums of grey levels over boxes against sums computed pixel by pixel.
 #include "core/detect/level_sums.hpp"
 
 #include <gtest/gtest.h>

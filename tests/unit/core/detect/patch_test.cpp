@@ -34,8 +34,8 @@ TEST(Patch, LiesAroundItsCentreWithinTheImage) {
         EXPECT_GE(patch->top_px, 0);
         EXPECT_LE(patch->left_px + patch->width_px * scale, image.width_px);
         EXPECT_LE(patch->top_px + patch->height_px * scale, image.height_px);
-        // Unless the image border forces a shift of the patch, its middle is at the requested
-        // pixel.
+        // The middle of the patch is at the requested pixel, unless the image border shifts the
+        // patch.
         const double off_u = double{core::middle_u_px(*patch)} - u;
         if (patch->left_px > 0 && patch->left_px + patch->width_px * scale < image.width_px) {
             EXPECT_LE(std::abs(off_u), 1);

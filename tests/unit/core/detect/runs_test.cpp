@@ -24,8 +24,8 @@ struct Row {
 
     void draw(Rng& rng, int width_px) {
         std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width_px));
-        // Random fraction of dark pixels. In half of the tiles, all grey levels are at the
-        // thresholds, or one level below them.
+        // Fraction of dark pixels. In half of the tiles, every grey level equals one of the two
+        // thresholds or is one below it.
         const double dark_share = rng.uniform(0, 1);
         begin_threshold(width_px, kMinFrameSide_px, threshold);
         for (int u = 0; u < whole_width(threshold); u += kTileWidth_px) {

@@ -15,9 +15,9 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Computes the mean and the darkest pair of the pixels in every fourth row of the tile. A pair
-/// consists of two adjacent pixels, the first of which is in an even column. Rows extend beyond the
-/// image to the end of the last tile.
+/// Computes the mean level and the darkest pair of pixels in every fourth row of the tile. A pair
+/// consists of two adjacent pixels, the first of which is in an even column. The stored rows extend
+/// beyond the image to the end of the last tile.
 Tile expected_tile(const AdaptiveThreshold& threshold, int band, int tile) {
     const int begin = band_begin(threshold, band);
     const int end = band_end(threshold, band);

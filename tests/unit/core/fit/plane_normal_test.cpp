@@ -84,7 +84,7 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             const Vec2 change =
                 (1 / (2 * static_cast<double>(kStep))) * (formula(scaled(plane).changed(more), px) -
                                                           formula(scaled(plane).changed(less), px));
-            // The tolerance for the lens term, kBend, is larger, because its derivative neglects
+            // The tolerance for the lens term, kBend, is larger because its derivative neglects
             // tilt and shear.
             const double most = k == kBend ? 0.15 : 0.002;
             ASSERT_NEAR(derivatives[0][k], change.x, most);

@@ -60,7 +60,7 @@ TEST(Alternatives, AreNotMoreWithMoreColumns) {
         }
         // A position that shares only five of 17 lines with the reading differs in twelve lines, by
         // at least two bits each. With odds of 2^-5 per bit, its odds are at most 2^-120, and there
-        // are 2^29 such positions. The limit is much larger than their sum, because small odds are
+        // are 2^29 such positions. The limit is much larger than their sum because small odds are
         // counted as 2^-56.
         EXPECT_LE(before, -40);
         // If a bit is more reliable, the alternatives must not become more probable.
@@ -183,7 +183,7 @@ TEST(ExpectedAlternatives, OfTwoLinesAreThoseOfEveryPairOfDigits) {
 
 TEST(ExpectedAlternatives, EachDifferenceHasItsOwnShare) {
     // Each line has nonzero odds at only one roll offset, so the sum is the expected number of
-    // alternatives whose two roll offsets have this difference.
+    // alternatives whose roll offsets in the two lines differ by `to` - `from`.
     for (const int from : {0, 5, 62}) {
         for (int to = 0; to < 63; ++to) {
             Odds first{};

@@ -99,9 +99,9 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     return rolls;
 }
 
-/// Returns log2 of a sum over both axes. The term of an axis is the probability of a match by
-/// chance, plus the odds of two kinds of alternatives: positions that differ in one sequence and
-/// share a line, and other sections. The odds per bit are those of the verdict.
+/// Returns log2 of a sum over both axes. Each axis contributes the probability of a match by
+/// chance, and the odds of two kinds of alternatives: positions that differ in one sequence and
+/// share a line, and other sections. The odds per bit are computed as in the verdict.
 inline double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;

@@ -70,7 +70,7 @@ TEST(CodedBlock, HasTheCodesBitsInTheMiddleAndWhichAreWrong) {
         const core::CodedBlock coded(CodeVariant::anoto, place, seen.view, seen.block);
         const core::AxisBits x = coded.axis(core::Axis::x, {});
         const core::AxisBits y = coded.axis(core::Axis::y, {});
-        // A line has at most 32 cells, from cell -16 on, so 32 of the 37 rows are kept.
+        // A line holds at most 32 cells, starting at cell -16, so only 32 of the 37 rows are kept.
         ASSERT_EQ(x.lines.size(), 16U);
         ASSERT_EQ(y.lines.size(), 32U);
         EXPECT_EQ(x.reading.position, moved(CodeVariant::anoto, place, -7, 0).cell.x);

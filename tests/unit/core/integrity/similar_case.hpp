@@ -8,8 +8,8 @@
 
 namespace dotpose::core_test {
 
-/// Returns another place in a sequence. As many as possible of its digits 3 to 6 equal those of the
-/// place `own`. Ties are broken at random.
+/// Returns the place in a sequence, other than `own`, that has the most digits in common with `own`
+/// at steps 3 to 6. Ties are broken at random.
 inline std::uint32_t similar_place(const std::string_view text, std::uint32_t own, Rng& rng) {
     const auto length = static_cast<std::uint32_t>(text.size());
     const std::uint32_t first = rng.below(length);

@@ -149,8 +149,8 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
             verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
             Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
-        // After the scores in the storage are cleared, they are equal for all rolls and exclude no
-        // alternative. `verify` must use these scores, and therefore refuse the position.
+        // Clears the stored scores. All rolls then have equal scores, so no alternative is
+        // excluded. `verify` must use the stored scores, and therefore refuse the position.
         storage.fill({});
         EXPECT_EQ(
             verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
@@ -199,8 +199,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns log2 of a sum over both axes. The term of an axis is the probability of a match by
-/// chance, plus the odds of all alternatives. Uses the exact sums.
+/// Returns log2 of a sum over both axes. Each axis contributes the probability of a match by
+/// chance, and the exact sum of the odds of all alternatives.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;

@@ -15,8 +15,8 @@ namespace {
 
 using namespace core;
 
-/// The places of a reading in the four sequences. Also computes the difference between the roll of
-/// a line at another place of a sequence and that of the reading.
+/// The places of a reading in the four sequences. `offset` returns the roll of a line at another
+/// place in sequence `k`, relative to its roll in the reading.
 struct OwnPlaces {
     const code::Basis& basis;
     std::array<std::uint32_t, 4> own;
@@ -197,10 +197,10 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 /// and the digits of the reading. It ends with the newest line.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
-/// Calls `use` for every choice of digits at one step. Digits are chosen in the sequences from
-/// index `k` on whose bits in `different` are set. The first argument of `use` is the change of the
-/// roll modulo 63. The second argument is true if all digits equal those of the reading. `shift`
-/// and `are_equal` are the values of the two arguments for the sequences below `k`.
+/// Calls `use` for every choice of digits at one step. Digits are chosen only in sequences with
+/// index `k` or higher whose bits in `different` are set. The first argument of `use` is the change
+/// of the roll modulo 63. The second argument is true if all digits equal the digits of the
+/// reading. `shift` and `are_equal` are these two values for the sequences before `k`.
 void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line, std::size_t k,
                   int shift, bool are_equal, const auto& use) {
     if (k == 4) return use((shift + 63 * 63) % 63, are_equal);

@@ -1,5 +1,5 @@
-// Tests that all forms of a kernel (portable, wide and AVX2) give the same bits for any input.
-// `kernels_plain_test.cpp` tests that the results are correct.
+// Tests that all forms of a kernel (portable, wide and AVX2) give bit-identical results for any
+// input. `kernels_plain_test.cpp` tests that the results are correct.
 #include "core/kernels/kernels.hpp"
 
 #include <cmath>

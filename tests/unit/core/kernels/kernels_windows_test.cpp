@@ -12,8 +12,8 @@ namespace {
 
 using namespace core;
 
-/// Expects that the paper level and the sums of dot `k` equal those of a loop over the pixels of
-/// its window.
+/// Compares the paper level and the sums of dot `k` with those computed in a loop over the pixels
+/// of its window.
 void expect_sums(const Picture& picture, int half_px, int cut_q8, const MeasuredDots& dots,
                  std::size_t k) {
     const int u = dots.window_u[k];
@@ -75,7 +75,7 @@ TEST(KernelsWindows, WindowsAreSummedUpToTheBorder) {
     });
 }
 
-/// One dot on an image, and a possible output of `measure_windows` for it.
+/// An image of one dot, and a possible output of `measure_windows` for this dot.
 struct OneDot {
     static constexpr int kSide_px = 80;
     static constexpr double kPaper = 200;
@@ -117,8 +117,7 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
-        // Only small dots are drawn at the border, because a large dot would be only partly in
-        // view.
+        // Only small dots are drawn at the border because a large dot would be only partly in view.
         const bool is_inside = sigma_px > 0.8 || rng.below(2) == 0;
         const double u = is_inside ? anywhere() : at_border();
         const double v = anywhere();
@@ -148,7 +147,7 @@ TEST(KernelsWindows, CentresFarFromTheirDotsStay) {
 TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
         // One dot is listed eight times, with different predicted centres. Four predictions are
-        // close to the dot, because the kernel uses them to estimate how the moment depends on the
+        // close to the dot because the kernel uses them to estimate how the moment depends on the
         // offset.
         const double u = rng.uniform(20, OneDot::kSide_px - 21);
         const double v = rng.uniform(20, OneDot::kSide_px - 21);
@@ -170,7 +169,7 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
         double across = 0;
         for (std::size_t k = 0; k < 8; ++k) {
             if (k == 5) continue;
-            // The tolerance increases with the offset, because a large dot with a large offset
+            // The tolerance increases with the offset because a large dot with a large offset
             // extends beyond the window.
             const double max_px = 0.02 + 0.2 * std::pow(std::abs(off[k]), 3);
             EXPECT_NEAR(dots.x[k], u, max_px) << off[k];

@@ -61,7 +61,7 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
         }
     }
     // Displacements change the length of an edge by up to a third, so the axes have an error of a
-    // few percent. The limit is 5 %, because the refinement starts with dots up to 4 cells away,
+    // few percent. The limit is 5 % because the refinement starts with dots up to 4 cells away,
     // where an error of 5 % is 1/5 cell.
     const auto worst = [](std::vector<double>& errors, double share) {
         std::sort(errors.begin(), errors.end());

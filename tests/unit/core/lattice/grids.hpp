@@ -24,7 +24,7 @@ inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
 }
 
 /// Expects that the plane maps the intersection of each dot to the dot's cell, within a tolerance
-/// in spacings. The origin of the plane may be at a different intersection than that of the mesh.
+/// in spacings. The plane and the mesh may have their origins at different intersections.
 inline void expect_grid(const PlaneFromImage& plane, const std::vector<PlacedDot>& dots,
                         const std::vector<Vec2>& intersections_px, double tolerance) {
     const auto at = [&](Vec2 p) { return real(core::plane_point_q16(plane, fixed(p, 8)), 16); };

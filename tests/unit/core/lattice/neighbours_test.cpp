@@ -28,7 +28,8 @@ std::int64_t squared_distance(const DetectedDot& a, const DetectedDot& b) {
     return x * x + y * y;
 }
 
-/// Returns true if two dots are close enough to be neighbours, because no grid has cells of 128 px.
+/// Returns true if two dots are less than 128 px apart along each axis. The cells of all grids are
+/// smaller than this.
 bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
     const std::int32_t x = std::abs(a.centre_q8.x - b.centre_q8.x);
     const std::int32_t y = std::abs(a.centre_q8.y - b.centre_q8.y);
@@ -134,7 +135,7 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
             const FixedVec from = dots[static_cast<std::size_t>(edge.from)].centre_q8;
             const FixedVec to = dots[static_cast<std::size_t>(edge.to)].centre_q8;
             ASSERT_EQ(edge.step_q8, (FixedVec{to.x - from.x, to.y - from.y}));
-            // All edges point down, and horizontal edges point to the right (figure 4).
+            // All edges point down, and horizontal edges point to the right (paper, figure 4).
             ASSERT_TRUE(edge.step_q8.y > 0 || (edge.step_q8.y == 0 && edge.step_q8.x >= 0));
         }
         ASSERT_EQ(static_cast<int>(found.size()), count);  // each edge is found once

@@ -49,8 +49,8 @@ std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble,
     for (int j = -70; j <= 70; ++j) {
         for (int i = -70; i <= 70; ++i) {
             const Vec2 d = 6 * trouble.displacement * random_displacement(rng);
-            // A point behind the horizon of a tilted plane has no image, which the negated
-            // condition below excludes.
+            // A point behind the horizon of a tilted plane has no image point, so `at` may be NaN.
+            // The negated condition below also excludes NaN.
             const Vec2 at = image_of(plane, {i + d.x, j + d.y});
             const Vec2 seen = at + trouble.jitter_px * Vec2{rng.normal(), rng.normal()};
             if (!(std::abs(seen.x) < half.x - 2 && std::abs(seen.y) < half.y - 2)) continue;
@@ -108,7 +108,7 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
         // The plane must be accurate enough for the windows around the intersections to contain the
-        // dots. One grid may be less accurate, because its growth ended early. Such a grid is
+        // dots. One grid may be less accurate because its growth ended early. Such a grid is
         // refused later, when its dots are measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
                  difference(grid.grid_from_image, truth, {112, 80}) < 0.45;

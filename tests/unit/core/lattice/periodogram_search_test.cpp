@@ -59,8 +59,8 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
 }
 
 TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
-    // The camera is tilted by 30 degrees about any axis, which shortens the grid in one direction
-    // by a factor of cos 30.
+    // The camera is tilted by 30 degrees about a random axis, which shortens the grid in one
+    // direction by a factor of cos 30.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
@@ -99,7 +99,7 @@ TEST(SearchPeriodogram, LeavesAGoodEstimateGood) {
     search_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
                        fixed(centre, 8), 12, lattice);
     const Mesh found = mesh_of(lattice);
-    // The last steps of the search are an eighth of a degree and 1/640 of the spacing.
+    // The search ends with steps of 1/8 degree and 1/640 of the spacing.
     EXPECT_NEAR(length(found.u), 12, 12.0 / 640);
     EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), 0.3), 0, 0.13);
     const Vec2 at = mesh.inverse(found.origin);

@@ -38,7 +38,7 @@ bool is_inside(const View& view, Vec2 point_px, double margin_px) {
 
 /// Expects that all dots that are at least `margin_px` from the border are measured, with errors
 /// below the tolerance. Dots closer to the border may be missing or have an error of up to a third
-/// of a pixel, because the border truncates the centroid window.
+/// of a pixel because the border truncates the centroid window.
 void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int quarters,
                      double margin_px, double tolerance_px, Rng& rng) {
     const GreyImage image = drawn(view, placed, rng.uniform(0, 6.3));
@@ -102,8 +102,8 @@ TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
             Vec2& at = placed[d].centre_px;
             at = at + 0.15 * view.spacing_px * Vec2{std::cos(direction), std::sin(direction)};
         }
-        // The tolerance is large, because a displaced dot may be only half a spacing from a
-        // neighbour, so that its window includes the rim of the neighbour.
+        // The tolerance is large because a displaced dot may be only half a spacing from a
+        // neighbour. Its window then includes the rim of the neighbour.
         expect_measured(view, placed, i % 4, 7, 0.14, rng);
     }
 }

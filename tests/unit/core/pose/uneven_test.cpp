@@ -27,8 +27,8 @@ constexpr double kMaxSigmas = 4.5;
 /// The displacement of the paper, in spacings, at a position relative to the image centre.
 using Shift = std::function<Vec2(Vec2)>;
 
-/// A sheet whose paper is displaced by a function, seen in an image of 188 x 120 px, and the pose
-/// fitted to its dots.
+/// A sheet whose paper is displaced by a `Shift`, its dots in an image of 188 x 120 px, and the
+/// pose fitted to these dots.
 struct Sheet {
     FloatPlane truth;
     OwnedDots owned;
@@ -132,8 +132,8 @@ TEST(FitUneven, LeavesOpenWhichSideAReferencePointAtTheLineIsOn) {
 }
 
 // A plane absorbs most of a small step in the middle of the view, and the residuals of each row
-// that crosses the step have a mean of 0. Regression: because of both effects, the step was not
-// found. The sheet was classified as even, with errors of up to 24 standard deviations.
+// that crosses the step have a mean of 0. Regression: for these two reasons, the step was not
+// found, and the sheet was classified as even, with errors of up to 24 standard deviations.
 TEST(FitUneven, SeesASmallStepInTheMiddle) {
     Rng rng(kSeed);
     int claim_too_much = 0;

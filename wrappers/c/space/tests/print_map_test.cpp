@@ -31,8 +31,8 @@ class PrintMapInC : public SpaceInC {
         ASSERT_EQ(dotpose_fix_init(&fix_, sizeof fix_), DOTPOSE_OK);
     }
 
-    /// Returns the contents of a map of the page in view, with all dots displaced along x. The high
-    /// noise makes the map acceptable for a print without these displacements.
+    /// Returns the contents of a map of the page in view, with all dots displaced along x. The
+    /// noise is high, so the map is accepted although the print does not have these displacements.
     std::string displaced_map() const {
         PrintMap map;
         MapPage& page = map.pages.emplace_back();

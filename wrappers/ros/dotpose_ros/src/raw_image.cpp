@@ -126,7 +126,7 @@ class Levels {
     }
 
   private:
-    /// Reads a pixel and advances `sample` to the next.
+    /// Returns the grey level of the pixel at `sample`, and advances `sample` to the next pixel.
     static std::uint16_t level(const std::uint8_t*& sample, const Encoding& encoding,
                                bool is_bigendian) {
         std::uint32_t sum = kWhole / 2;
@@ -139,8 +139,8 @@ class Levels {
         return static_cast<std::uint16_t>(sum / kWhole);
     }
 
-    /// Returns the index of a neighbour of `place`. At an edge, returns the neighbour on the
-    /// opposite side, which has the same colour in a mosaic as the missing neighbour.
+    /// Returns the index of the neighbour of `place` in the direction `step`, which is -1 or 1. If
+    /// there is none, returns the neighbour on the opposite side, which has the same mosaic colour.
     static std::size_t beside(std::size_t place, std::size_t size, int step) {
         if (size < 2) return place;
         const bool is_beyond = step < 0 ? place == 0 : place + 1 == size;

@@ -21,12 +21,14 @@ struct RawImage {
 };
 
 /// Returns the grey levels of an image. If the encoding has 8-bit grey levels, the result is a view
-/// of the data, otherwise a view of `buffer`. Colours are converted to luma (Rec. 601). Levels of
-/// more than 8 bits are divided by the smallest power of two that reduces the brightest pixel to 8
-/// bits, because cameras with 10 and 12 bits use 16-bit encodings. In a Bayer mosaic, each pixel is
-/// replaced with a weighted mean of 3 x 3 pixels, in which the total weight of each colour is the
-/// same for all pixels. Throws dotpose::Error with a remedy if the encoding is not supported, or if
-/// the image has less data than its size requires.
+/// of the data, otherwise a view of `buffer`.
+/// - Colours are converted to luma (Rec. 601).
+/// - Levels of more than 8 bits are divided by the smallest power of two that reduces the brightest
+///   pixel to 8 bits, because cameras with 10 or 12 bits use 16-bit encodings.
+/// - Each pixel of a Bayer mosaic is replaced with a weighted mean of 3 x 3 pixels, in which each
+///   colour has the same total weight at every pixel.
+/// Throws dotpose::Error with a remedy if the encoding is not supported, or if the image has less
+/// data than its size requires.
 dotpose::ImageView grey_view(const RawImage& image, dotpose::GreyImage& buffer);
 
 }  // namespace dotpose_ros

@@ -39,8 +39,8 @@ struct Lens {
 class RobotLocator {
   public:
     struct Answer {
-        /// Messages to publish. They contain a status only if it has changed or a second has
-        /// passed.
+        /// Messages to publish. They contain a status only if it has changed, or if the previous
+        /// status is a second old.
         dotpose::ros::RobotMessages messages;
         /// New warning about the images, to be logged. Empty if there is none.
         std::string warning;
