@@ -20,8 +20,8 @@ enum class Delivery { all, shared };
 
 /// The contents of the sheet file of a fleet.
 struct FleetMap {
-    std::string id;               ///< name of the map, or empty if there is no sheet file
-    std::set<std::string> names;  ///< names of all sheets
+    std::string id;                        ///< name of the map, or empty if there is no sheet file
+    std::set<std::string> names;           ///< names of all sheets
     std::vector<draw::MapSheet> outlines;  ///< outlines of the sheets that have a world pose
 
     /// Returns false if the last known place of the robot is on a map or sheet that is not in the

@@ -60,9 +60,9 @@ struct CellSums {
     float used = 0;  ///< number of these dots within `CellPass::max_off` of a dot position
     /// Sum of squared distances from the used dots to the nearest dot positions, in spacings^2.
     float squares = 0;
-    std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy and yy over the used dots
-    std::array<float, 6> i{};       ///< sums of i, i x, i y, i xx, i xy and i yy
-    std::array<float, 6> j{};       ///< sums of j, j x, j y, j xx, j xy and j yy
+    std::array<float, 6> one{};  ///< sums of 1, x, y, xx, xy and yy over the used dots
+    std::array<float, 6> i{};    ///< sums of i, i x, i y, i xx, i xy and i yy
+    std::array<float, 6> j{};    ///< sums of j, j x, j y, j xx, j xy and j yy
     /// Sums of s, s x, s y, s xx, s xy and s yy, with s = i^2 + j^2.
     std::array<float, 6> square{};
 };

@@ -151,8 +151,8 @@ class VideoFile : public capture::FrameSource {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is the duration of its longest stream. It is used only if the video
-        // is the only stream.
+        // The duration of a file is the duration of its longest stream. It is used only if the
+        // video is the only stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
