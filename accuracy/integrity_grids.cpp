@@ -68,7 +68,8 @@ struct Noise {
 
 /// Draws random odds of a correct bit at which a reading with this number of cells is doubtful.
 /// Along one axis, there are 2^36.6 combinations of position, section and turn, so the decoder
-/// needs 36.6 bits to distinguish them. With 30 more bits, p_wrong is about 2^-13.
+/// needs 36.6 bits to distinguish them, and 30 more bits for a p_wrong of about 2^-30. The number
+/// of bits is drawn around this sum.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;

@@ -152,6 +152,7 @@ TEST(CodeProperty, TheDrawsReachTheCorners) {
 
 TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
     int n = 0;
+    int section = 0;
     for (int u = 0; u < 63; ++u) {
         for (int v = 0; v < 63; ++v) {
             for (const std::uint32_t x : {0U, kL - 1, kL - 5}) {
@@ -161,11 +162,12 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
                     {{x, y}, {static_cast<std::uint8_t>(u), static_cast<std::uint8_t>(v)}},
                     8,
                     8,
-                    n % 4};
+                    (n + section) % 4};
                 ASSERT_EQ(check(draw), "") << describe(draw);
                 ++n;
             }
-            ++n;  // so that each x occurs with every code variant
+            ++n;        // so that each x occurs with every code variant
+            ++section;  // so that each x occurs with every turn
         }
     }
 }
