@@ -1,10 +1,10 @@
-// Measures all numbers in docs/accuracy.md. `make accuracy` runs this table.
+// Measures all numbers in docs/accuracy.md. `make accuracy` runs this command.
 //
 //   dotpose_tables accuracy [--quick] [--update docs/accuracy.md] [--seed S] [FOLDER]
 //
 // Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER (default:
-// accuracy-out). --update also replaces the generated blocks of the document and its pictures.
-// --quick locates only a tenth of the frames, which is enough to test the program but too few for
+// accuracy-out). --update also replaces the generated blocks in the document and its pictures.
+// --quick locates only a tenth of the frames. This is enough to test the program, but not to obtain
 // accurate numbers.
 #include <array>
 #include <cmath>
@@ -76,8 +76,8 @@ std::string status_rows(Preset preset, const Score& score) {
     return rows;
 }
 
-/// Prints the tables of clean, nominal and hard frames, with one row for each combination in
-/// `kWays`.
+/// Prints the tables for clean, nominal and hard frames. The first table has one row for each
+/// preset and each combination in `kWays`.
 void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     std::string frames =
         "| preset | decoder | frames | located | wrong | position error, µm: median / 95 % / max | "

@@ -38,7 +38,7 @@ double thread_seconds() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Results and CPU times of the frames of one class.
+/// Results and CPU times for the frames of one class.
 struct ClassTally {
     Counts verdicts{};
     double rendering_s = 0;

@@ -1,7 +1,7 @@
-// Measures the accuracy in frames whose dots all have the same sub-pixel phase: the spacing is a
+// Measures the accuracy for frames whose dots all have the same sub-pixel phase: the spacing is a
 // whole number of pixels, there are no printing errors, and the angle is 0, 45 or 90 degrees. The
 // reference is the accuracy at 7 degrees, where the biases of the dots average out. Prints a table
-// of docs/accuracy.md in Markdown.
+// for docs/accuracy.md in Markdown.
 //
 //   dotpose_tables alike [--frames N] [--seed S] [--threads N] [--spacings P,...] [--dots D,...]
 //                        [--blurs B,...]

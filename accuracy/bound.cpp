@@ -1,6 +1,6 @@
-// Compares position errors with the Cramer-Rao bound in frames in which noise is the only source of
-// error. The frames are drawn by the simulator and by an independent renderer (dot_image.hpp).
-// Prints a table of docs/accuracy.md in Markdown.
+// Compares position errors with the Cramer-Rao bound. Noise is the only source of error in the
+// frames. The frames are drawn by the simulator and by an independent renderer (dot_image.hpp).
+// Prints a table for docs/accuracy.md in Markdown.
 //
 //   dotpose_tables bound [--frames N] [--seed S] [--threads N] [--rows R,...]
 #include <algorithm>
@@ -63,7 +63,7 @@ DotImage dot_of(const BoundFrames& frames) {
              frames.motion_px * std::sin(kMotionDirection_rad)}};
 }
 
-/// Returns the Cramer-Rao bound of the median position error, in px, given that scale, angle and
+/// Returns the Cramer-Rao bound on the median position error, in px, given that scale, angle and
 /// tilt are known.
 double bound_px(const BoundFrames& frames, const DotImage& dot) {
     constexpr int kPhases = 4;  // number of sub-pixel phases per axis

@@ -1,4 +1,4 @@
-/// Functions that measure the errors of calibrations and print the tables of docs/calibration.md.
+/// Functions that measure the errors of calibrations and print the tables in docs/calibration.md.
 #pragma once
 
 #include <algorithm>
@@ -69,8 +69,8 @@ struct Numbers {
     double mean() const { return sum / count; }
 };
 
-/// Measures the errors of lens parameters, the residuals, and the position errors with the
-/// calibrated cameras. Prints tables in Markdown.
+/// Measures the errors of the lens parameters, the residuals, and the errors of positions located
+/// with the calibrated cameras. Prints tables in Markdown.
 void measure_lenses(std::uint64_t small_cameras, std::uint64_t large_cameras, const TableRun& run);
 
 /// Measures the errors of the reference point that is calibrated by turning a robot on the spot.
@@ -81,7 +81,7 @@ void measure_spins(std::uint64_t count, const TableRun& run);
 /// table.
 void measure_stitching(std::uint64_t count, const TableRun& run);
 
-/// Writes the frames of the example of docs/calibration.md to `folder`.
+/// Writes the frames for the example in docs/calibration.md to `folder`.
 void write_example(const std::string& folder, std::uint64_t seed);
 
 }  // namespace dotpose::tables

@@ -77,7 +77,7 @@ Vector2d on_paper_at(const Camera& camera, PixelPoint pixel) {
     return {point.x_mm, point.y_mm};
 }
 
-/// Returns the change of a dot's position on the paper per step of each parameter. The last column
+/// Returns the change in a dot's position on the paper per step of each parameter. The last column
 /// is the derivative with respect to the length of the dots' displacement, which is also unknown
 /// because it depends on ink and blur.
 MatrixXd jacobian(const Camera& camera, const TrueDot& dot,

@@ -1,5 +1,6 @@
 // Reference values for the errors of a calibration: the residuals of the dots for the true
-// parameters, and the Cramer-Rao bounds of the parameters for a given jitter of the printed dots.
+// parameters, and the Cramer-Rao bounds on the parameter errors for a given jitter of the printed
+// dots.
 #pragma once
 
 #include <map>

@@ -30,8 +30,8 @@ struct CameraKind {
     bool is_mounted = true;
 };
 
-/// Returns the camera of the paper. Its field of view is 54 degrees, or 8.6 x 5.5 mm on the paper
-/// after correction, and its distortion in the corners is 12 %.
+/// Returns the camera model from the paper. Its field of view is 54 degrees, or 8.6 x 5.5 mm on the
+/// sheet after the distortion is corrected. The distortion in the corners is 12 %.
 CameraModel small_camera() {
     CameraModel camera;
     camera.k = -8.7e-6;
@@ -51,7 +51,7 @@ struct LensTally {
     std::map<Unknown, ErrorTable> bounds_if;
     Numbers residual;     ///< residual divided by the residual with the true parameters
     Errors located;       ///< position errors with the calibrated camera, um per axis
-    Errors undistorted;   ///< position errors if the lens had no distortion, um per axis
+    Errors undistorted;   ///< position errors with a distortion-free lens, um per axis
     int not_located = 0;  ///< number of frames without a fix, with the calibrated camera
     int not_good = 0;
     int wrong_kind = 0;

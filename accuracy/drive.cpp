@@ -1,4 +1,4 @@
-// Measures how accurately a robot is tracked. Processes the simulated drive of the tests in the
+// Measures how accurately a robot is tracked. Processes the simulated drive from the tests in the
 // same way as `dotpose watch`, at several speeds and on paper with and without printing errors.
 //
 //   dotpose_tables drive [--speeds V...] [--width W] [--height H] [--draw FILE] [--threads N]
@@ -30,7 +30,7 @@ struct DriveOptions {
     std::string picture;
 };
 
-/// Printing errors and sensor noise of a drive.
+/// Printing errors and sensor noise in a drive.
 struct DriveKind {
     const char* name;
     bool has_printing_errors;

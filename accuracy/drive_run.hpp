@@ -1,4 +1,4 @@
-/// Tracks a robot on the simulated drive of the tests, as `dotpose watch` does.
+/// Tracks a robot in the simulated drive from the tests, in the same way as `dotpose watch`.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// Prints checksums that change if a single bit of a pose changes. Locates several sets of simulated
-// frames with every attempt. For each set and attempt, prints a checksum of the pixels, a checksum
-// of all integers in the fixes, and the number of located frames.
+// Prints checksums that change if even a single bit of a pose changes. Locates several sets of
+// simulated frames, each with one or more methods. For each set and method, prints a checksum of
+// the pixels, a checksum of all integers in the fixes, and the number of located frames.
 //
 //   dotpose_tables golden [--threads N]
 //
@@ -100,7 +100,7 @@ struct GoldenTally {
         std::uint64_t located = 0;
     };
     std::uint64_t pixels = 0;
-    std::array<Fixes, kMaxWays> fixes;  ///< indexed as `GoldenSet::ways`
+    std::array<Fixes, kMaxWays> fixes;  ///< same indices as `GoldenSet::ways`
 
     GoldenTally& operator+=(const GoldenTally& other) {
         pixels += other.pixels;

@@ -1,14 +1,15 @@
-// Compares p_wrong, the upper bound of the probability that a position is wrong, with the frequency
+// Compares p_wrong, the upper bound on the probability that a position is wrong, with the frequency
 // of wrong positions. Accepts readings with any p_wrong and groups them by p_wrong.
 //
 //   dotpose_tables integrity [--grids N] [--doubtful N] [--frames N] [--seed S] [--threads N]
 //
-// A grid consists of bits with random errors and is decoded without an image. As in the model of
-// p_wrong, the errors are independent, and bits of larger weight have fewer errors. Doubtful grids
-// have so many errors that p_wrong is between 1e-3 and 1e-5. In this range, wrong positions are
-// frequent enough to show whether p_wrong is too small. Frames are images of patterns with flipped
-// bits, which `locate` reads. The exit status is 1 if significantly more positions are wrong than
-// p_wrong predicts. Ctrl-C ends the run early and prints the results so far.
+// A grid consists of bits with random errors and is decoded without an image. As in the model from
+// which p_wrong is computed, the errors are independent, and bits of larger weight have fewer
+// errors. Doubtful grids have so many errors that p_wrong is between 1e-3 and 1e-5. In this range,
+// wrong positions are frequent enough to show whether p_wrong is too small. Frames are images of
+// patterns with flipped bits, which `locate` reads. The exit status is 1 if significantly more
+// positions are wrong than p_wrong predicts. Ctrl-C ends the run early and prints the results so
+// far.
 #include "integrity.hpp"
 
 #include <algorithm>
@@ -75,7 +76,7 @@ double poisson_at_least(std::uint64_t count, double mean) {
     return count == 0 || mean <= 0 ? 1 : 1 - poisson_at_most(count - 1, mean);
 }
 
-/// Returns the upper 95 % confidence limit of the mean of a Poisson variable whose observed value
+/// Returns the upper 95 % confidence limit for the mean of a Poisson variable whose observed value
 /// is `count`.
 double upper_limit(std::uint64_t count) {
     double low = static_cast<double>(count);
@@ -94,11 +95,11 @@ bool holds(const Bin& bin) {
            poisson_at_least(bin.wrong, bin.predicted) > 1e-3;
 }
 
-/// Prints the counts of all readings, grouped by p_wrong into classes that are a factor of 8 wide.
-/// Returns true if all classes are consistent with p_wrong.
+/// Prints the counts of all readings, grouped into ranges of p_wrong that are a factor of 8 wide.
+/// Returns true if the counts in all ranges are consistent with p_wrong.
 bool print(std::string_view title, const IntegrityTally& tally) {
     constexpr std::size_t kWidth_log2 = 3;
-    constexpr std::size_t kLast = 34;  // first bin of the last class, which has no lower limit
+    constexpr std::size_t kLast = 34;  // first bin of the last range, which has no lower limit
     bool all_hold = true;
     fmt::print("\n{} ({} not read{})\n{:>17} {:>9} {:>7} {:>10} {:>10}\n", title, tally.unread,
                tally.skipped > 0 ? fmt::format(", {} skipped", tally.skipped) : "", "p_wrong",
@@ -123,8 +124,8 @@ bool print(std::string_view title, const IntegrityTally& tally) {
 }
 
 /// Prints the counts of the readings with p_wrong near 1e-3, 1e-4 and 1e-5, with upper confidence
-/// limits of the true rates. Each of the three classes is a factor of 8 wide. Returns true if all
-/// classes are consistent with p_wrong.
+/// limits for the true rates. Each of the three ranges is a factor of 8 wide. Returns true if the
+/// counts in all ranges are consistent with p_wrong.
 bool print_doubtful(const IntegrityTally& tally) {
     bool all_hold = true;
     fmt::print("\n{:>15} {:>9} {:>7} {:>10} {:>16} {:>13}\n", "p_wrong", "read", "wrong", "rate",

@@ -13,7 +13,7 @@ namespace dotpose::tables {
 /// Options that accept readings with any p_wrong.
 inline constexpr IntegrityOptions kAcceptAll{0, 256};
 
-/// Counts of the readings in a class of p_wrong.
+/// Counts for the readings in one bin of p_wrong.
 struct Bin {
     std::uint64_t frames = 0;
     std::uint64_t wrong = 0;
@@ -62,7 +62,7 @@ enum class GridKind : std::uint8_t {
     doubtful,  ///< grids with so many errors that p_wrong is between 1e-3 and 1e-5
 };
 
-/// Decodes grid `index` of a run, which has random bit errors, and adds the result to `tally`.
+/// Draws grid `index` of a run, with random bit errors, decodes it, and adds the result to `tally`.
 /// Thread-safe.
 void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally);
 

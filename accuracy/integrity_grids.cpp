@@ -50,7 +50,7 @@ struct Noise {
         const bool is_wrong = rng.uniform() < chance_of_error(weight);
         return (bit == 1) != is_wrong ? weight : -weight;
     }
-    /// Returns the information in a bit of this weight: 1 - H(probability of an error), in bits,
+    /// Returns the information in a bit with this weight: 1 - H(probability of an error), in bits,
     /// where H is the binary entropy function.
     double information(int weight) const {
         const double q = chance_of_error(weight);
@@ -67,9 +67,9 @@ struct Noise {
 };
 
 /// Draws random odds of a correct bit at which a reading with this number of cells is doubtful.
-/// Along one axis, there are 2^36.6 combinations of position, section and turn, so the decoder
-/// needs 36.6 bits to distinguish them, and 30 more bits for a p_wrong of about 2^-30. The number
-/// of bits is drawn around this sum.
+/// Along one axis, there are 2^36.6 combinations of position, section and turn. The decoder needs
+/// 36.6 bits to distinguish them, and about 30 more bits to make a wrong position unlikely. The
+/// number of bits is drawn from a range around this sum.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;
@@ -142,8 +142,8 @@ bool is_right(const Reading& reading, const Decoding& decoding) {
     return true;
 }
 
-/// Returns a quick estimate of -log2(p_wrong): the information in the bits of one axis, based on
-/// the odds per bit that `verify` estimates.
+/// Returns the information in the bits of one axis, in bits, computed from the odds per bit that
+/// `verify` estimates. The more information, the smaller p_wrong.
 double apparent_information(const core::Grid& grid, const Decoding& decoding,
                             const core::Nominal& nominal) {
     core::Confidence confidence;
@@ -162,9 +162,9 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Returns true if p_wrong is probably near 1e-5. This class needs the most readings, and the
-/// selection includes enough readings with a p_wrong near 1e-4 and 1e-3. Other readings are
-/// skipped, because `verify` takes 20 times as long as all previous steps together.
+/// Returns true if p_wrong is probably near 1e-5. This range needs the most readings. The selection
+/// also includes enough readings with a p_wrong near 1e-4 and 1e-3. Other readings are skipped,
+/// because `verify` takes 20 times as long as all previous steps together.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);

@@ -1,4 +1,4 @@
-// Measures the fraction of degraded frames that is located. Prints the table of docs/limits.md in
+// Measures the fraction of degraded frames that is located. Prints the table for docs/limits.md in
 // Markdown.
 //
 //   dotpose_tables limits [--frames N] [--seed S] [--threads N]
@@ -24,8 +24,8 @@ namespace {
 /// Minimum number of frames per condition, unless --frames is smaller.
 constexpr std::uint64_t kMinFrames = 4;
 
-/// Returns the number of images whose total number of pixels equals that of `frames` images of 320
-/// x 240, clamped to [kMinFrames, `frames`].
+/// Returns the number of images that together have as many pixels as `frames` images of 320 x 240
+/// px, clamped to [kMinFrames, `frames`].
 int frames_of(const CameraModel& camera, std::uint64_t frames) {
     constexpr std::uint64_t kFull_px = 320 * 240;
     const std::uint64_t area_px =
@@ -67,7 +67,7 @@ int print_limit(const test::Limit& limit, std::uint64_t frames, const TableRun& 
 }
 
 /// Prints the number of mirror images that are refused with the status `mirrored`. Returns the
-/// number of fixes, because every fix of a mirror image is wrong.
+/// number of fixes, because every fix for a mirror image is wrong.
 int print_mirrored(std::uint64_t frames, const TableRun& run) {
     FrameRun frame_run;
     frame_run.frames = static_cast<int>(std::min(std::max(frames / 10, kMinFrames), frames));

@@ -99,7 +99,7 @@ struct InkTally {
     Errors smoothed;
     std::uint64_t strokes = 0;
     std::uint64_t found = 0;      ///< number of strokes in the recorded ink
-    std::uint64_t late_ends = 0;  ///< number of stroke starts and ends off by more than one frame
+    std::uint64_t late_ends = 0;  ///< number of starts and ends that are off by more than one frame
     int largest_delay = 0;        ///< largest error of a stroke start or end, in frames
 
     void operator+=(const InkTally& other) {

@@ -24,7 +24,7 @@ namespace {
 
 /// Standard deviation of the print jitter in the preset `nominal`, per axis.
 constexpr double kJitter_mm = 0.010;
-/// Errors of one method. The error of each coordinate is divided by the Cramer-Rao bound of its
+/// Errors of one method. The error of each coordinate is divided by the Cramer-Rao bound on its
 /// standard deviation.
 struct SpaceErrors {
     std::array<Errors, 6> coordinates;
@@ -43,7 +43,7 @@ struct SpaceTally {
     std::uint64_t located = 0;
     std::uint64_t wrong = 0;
     std::uint64_t ambiguous = 0;
-    std::uint64_t second = 0;  ///< number of frames with a second solution, excluded or not
+    std::uint64_t second = 0;  ///< number of frames with a second solution, even if excluded
     SpaceErrors ours;
     SpaceErrors opencv;
 

@@ -53,10 +53,10 @@ double side_in_view_mm(const Shot& shot) {
     return 2 * inside_mm;
 }
 
-/// Returns the pose of the camera relative to the centre of the tag, with the axes of the pattern.
+/// Returns the pose of the camera relative to the centre of the tag, in the axes of the pattern.
 TrueSpacePose pose_of(apriltag_detection_t& tag, const CameraModel& camera, double border_mm) {
     const double focal_px = camera.working_distance_mm / camera.mm_per_px;
-    // The origin of libapriltag is the corner of the first pixel.
+    // In libapriltag, the origin is the corner of the first pixel.
     apriltag_detection_info_t info = {
         &tag, border_mm, focal_px, focal_px, camera.width_px / 2.0, camera.height_px / 2.0};
     apriltag_pose_t found = {};

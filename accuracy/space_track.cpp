@@ -1,6 +1,6 @@
 // Measures the errors of tracking a camera in space (docs/pose-in-space.md), with rendered frames
-// of a camera that moves and tilts. Prints a table in Markdown, and --update also writes it to the
-// document.
+// from a camera that moves and tilts. Prints a table in Markdown, and --update also writes it to
+// the document.
 //
 //   dotpose_tables space_track [--frames N] [--seed S] [--threads N] [--update DOCUMENT]
 #include "dotpose/tools/space_track.hpp"

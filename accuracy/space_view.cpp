@@ -19,7 +19,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Returns true if a dot centred at this pixel is completely in the image.
+/// Returns true if a dot centred at this pixel is completely inside the image.
 bool is_in_view(const Shot& shot, const Vec2& pixel) {
     const CameraModel& camera = shot.camera;
     const double radius_px = shot.page.pattern.dot_mm / 2 / camera.mm_per_px + 1;
@@ -57,7 +57,7 @@ Eigen::Matrix<double, 2, 6> by_pose(const Matrix3d& rotation, const Vector3d& pl
     return result;
 }
 
-/// Returns the Cramer-Rao bound for the covariance of a dot's image centre, given that blur,
+/// Returns the Cramer-Rao bound on the covariance of a dot's image centre, given that blur,
 /// contrast and paper level are known. Treats the image of the dot as a Gaussian.
 Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
     const Imperfections& noise = shot.imperfections;

@@ -1,5 +1,5 @@
-// Views of a tilted camera: the frames, their true poses in space, and the Cramer-Rao bounds of the
-// poses.
+// Views of a tilted camera: the frames, their true poses in space, and the Cramer-Rao bounds on the
+// pose errors.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct SpaceLens {
 inline constexpr std::array kSpaceLenses = {SpaceLens{"52 degrees", 30, -0.7e-6},
                                             SpaceLens{"28 degrees", 60, -0.2e-6}};
 
-/// Returns frame `index` of a camera that is tilted by `tilt_deg` in a random direction.
+/// Returns frame `index` from a camera that is tilted by `tilt_deg` in a random direction.
 Shot space_shot(const SpaceLens& lens, double tilt_deg, std::uint64_t seed, std::uint64_t index);
 
 /// Position in the pattern frame, and rotation from the camera frame to the pattern frame.
@@ -32,7 +32,7 @@ struct TrueSpacePose {
     Eigen::Matrix3d rotation;
 };
 
-/// Returns the true pose of a shot, from the definitions in simulate.hpp.
+/// Returns the true pose of a shot, according to the definitions in simulate.hpp.
 TrueSpacePose true_space_pose(const Shot& shot);
 
 /// Returns the parameters of a simulated camera: its true lens distortion and focal length.
@@ -50,7 +50,7 @@ SpaceMatrix matrix_of(const SpaceCovariance& covariance);
 /// covariance^-1 error.
 double normalised_square(const SpaceVector& error, const SpaceMatrix& covariance);
 
-/// Upper limit of the normalised squared error of a correct pose, over all six coordinates. A
+/// Upper limit for the normalised squared error of a correct pose, over all six coordinates. A
 /// correct pose exceeds the limit with a probability of only 2.5e-19.
 inline constexpr double kMaxNormalisedSquare = 100;
 
@@ -79,7 +79,7 @@ class SpaceReading {
 /// spacing is measured in the direction in which it is shortest.
 inline constexpr double kResolvedSpacing_px = 4;
 
-/// Returns the Cramer-Rao bound of the covariance of a pose. Uses all dots that are completely in
+/// Returns the Cramer-Rao bound on the covariance of a pose. Uses all dots that are completely in
 /// view and whose images do not overlap. `jitter_mm` is the standard deviation of the printing
 /// errors along each axis. The bound includes image noise but not motion blur.
 SpaceMatrix space_bound(const Shot& shot, double jitter_mm);

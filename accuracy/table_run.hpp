@@ -1,5 +1,5 @@
-/// The run of a table of dotpose_tables: parses the command line, distributes the work over all
-/// cores, and prints the results.
+/// Runs one table of dotpose_tables: parses the command line, distributes the work over all cores,
+/// and prints the results.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +61,7 @@ class TableRun {
 
     /// Runs `work(i, tally)` for i from 0 to count - 1, with one Tally per thread, and adds up the
     /// tallies with +=. The result does not depend on the number of threads. `what` is the label of
-    /// the progress line. Ctrl-C ends the work early.
+    /// the progress line. Ctrl-C ends the run early.
     template <typename Tally, typename Work>
     Count<Tally> count(const std::string& what, std::uint64_t count, Work work) const {
         std::vector<Tally> tallies(threads);
@@ -76,7 +76,7 @@ class TableRun {
     /// progress line. Throws Error if interrupted.
     std::vector<std::vector<Outcome>> evaluate(const std::string& what, FrameRun frames) const;
 
-    /// Prints a generated block of the document, and stores it for `update_document`.
+    /// Prints a generated block for the document, and stores it for `update_document`.
     void print_block(const std::string& name, const std::string& text);
     const Blocks& blocks() const { return blocks_; }
     /// Replaces the generated blocks of the document with the printed blocks, if a document was
@@ -96,7 +96,7 @@ class TableRun {
     Blocks blocks_;
 };
 
-/// Returns a callback that shows the progress on `line` and stops the work after Ctrl-C.
+/// Returns a callback that shows the progress on `line` and stops the run after Ctrl-C.
 Progress shown_on(cli::ProgressLine& line);
 
 /// Returns the memory for the locators of the calling thread.

@@ -18,7 +18,7 @@ namespace {
 
 /// Number of frames in a series.
 constexpr std::size_t kLength = 8;
-/// A page of A4 size.
+/// An A4 page.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 1024}, 393, 564};
 constexpr std::uint32_t kMargin = 60;
 

@@ -1,4 +1,4 @@
-/// Functions that measure the tables of the command `tracked`, and counters for the results.
+/// Functions that perform the measurements of the command `tracked`, and counters for the results.
 #pragma once
 
 #include <algorithm>
@@ -119,18 +119,18 @@ struct TrackedTable {
     bool is_complete = true;  ///< false if the measurement was interrupted
 };
 
-/// Returns the table of drives with several speeds and frame rates.
+/// Returns the table for drives at several speeds and frame rates.
 TrackedTable drives_table(const TableRun& run);
 
-/// Returns the table of nominal frames with predictions of increasing error.
+/// Returns the table for nominal frames with predictions of increasing error.
 TrackedTable offsets_table(const TableRun& run, std::uint64_t frames);
 
-/// Returns the table of changes between two frames, such as different light, a lifted camera,
+/// Returns the table for changes between two frames, such as different light, a lifted camera,
 /// another sheet or covered dots. The fix of the frame before the change is the prediction for the
 /// frame after the change.
 TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
 
-/// Returns the table of predictions of wrong positions. All classes of predictions are tested
+/// Returns the table for predictions of wrong positions. All classes of predictions are tested
 /// equally often.
 TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
 

@@ -1,5 +1,5 @@
 // Compares the errors of fixes with the reported covariances on sheets that are not planar. Prints
-// tables of docs/integrity.md in Markdown, with N frames for each condition.
+// tables for docs/integrity.md in Markdown, with N frames for each condition.
 //
 //   dotpose_tables slips [--frames N] [--seed S] [--threads N]
 //   dotpose_tables seams [--frames N] [--seed S] [--threads N]

@@ -1,6 +1,6 @@
 // Counts how many views of sheets that were not printed by dotpose are located. The views are cut
 // from page images at random positions and angles. Each view is located with the given code and
-// with code detection. Prints the rows of a table of docs/integrity.md in Markdown.
+// with code detection. Prints the rows of a table in docs/integrity.md, in Markdown.
 //
 //   dotpose_tables views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
 //
@@ -32,8 +32,8 @@ namespace dotpose::tables {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
-/// Side of the part of the page from which the true pose of a view is determined, in spacings. The
-/// part contains about 1500 dots.
+/// Side length, in spacings, of the part of the page from which the true pose of a view is
+/// determined. This part contains about 1500 dots.
 constexpr double kSurroundings_grid = 40;
 /// Number of views whose combined evidence is expected to identify the code.
 constexpr int kFirstViews = 50;
@@ -96,8 +96,8 @@ struct View {
     Truth truth;
 };
 
-/// Returns the pose at a point of the page, or none if the surrounding part of the page cannot be
-/// read.
+/// Returns the pose at a point on the page, or nullopt if the surrounding part of the page cannot
+/// be read.
 std::optional<Fix> pose_on_page(const ScannedPage& page, double x_px, double y_px,
                                 Locator& locator) {
     const int side_px =
@@ -142,12 +142,12 @@ std::optional<View> draw_view(const ScannedPage& page, int width_px, int height_
     return view;
 }
 
-/// Counts of the views of one size.
+/// Counts for the views of one size.
 struct ViewCounts {
     int views = 0;
     int given = 0;  ///< number of views located with the given code
-    // The next counts include only the views counted in `given`, which are located again with code
-    // detection.
+    // The following counts include only the views counted in `given`. These views are located again
+    // with code detection.
     int alone = 0;        ///< number of views located without evidence from other views
     int ambiguous = 0;    ///< number of views refused as `ambiguous_code` when read alone
     int later_given = 0;  ///< number of views after the first kFirstViews

@@ -12,8 +12,8 @@
 namespace dotpose::tables {
 namespace {
 
-/// A place as seen from one axis: `position` and `section` along this axis, and `cross` and
-/// `cross_section` along the perpendicular axis.
+/// A place, described relative to one axis: `position` and `section` along this axis, and `cross`
+/// and `cross_section` along the perpendicular axis.
 struct Along {
     std::uint32_t position;
     std::uint8_t section;
@@ -23,9 +23,8 @@ struct Along {
 
 using Places = std::array<std::uint32_t, 4>;
 
-/// Returns the maximum number of lines in which the rolls at two places of a secondary sequence
-/// differ by the same amount. A constant difference between the rolls is equivalent to another
-/// section.
+/// Returns the maximum number of lines whose rolls at two places in a secondary sequence differ by
+/// the same amount. A constant difference between the rolls is equivalent to another section.
 int shared_lines(const code::Secondary& sequence, std::uint32_t place, std::uint32_t other,
                  int lines) {
     std::array<int, kSections> counts{};

@@ -17,8 +17,8 @@ struct TagFrame {
 };
 
 /// Renders frames with a tag at a random angle. The tag and its white border span two thirds of the
-/// shorter side of the frame. Illumination, blur and noise are those of nominal frames from the
-/// same camera.
+/// shorter side of the frame. Illumination, blur and noise are the same as in nominal frames from
+/// the same camera.
 std::vector<TagFrame> render_tags(const CameraModel& camera, int count);
 
 /// A single-threaded detector with the default options of libapriltag.
@@ -29,7 +29,7 @@ class TagDetector {
 
     const apriltag_family_t& family() const { return *family_; }
     int detect(GreyImage& image);
-    /// Returns true if the tag of the frame is the only detection, its position is correct and none
+    /// Returns true if the tag in the frame is the only detection, its position is correct and none
     /// of its bits are wrong.
     bool is_right(TagFrame& frame);
 

@@ -38,7 +38,7 @@ std::vector<FrameTimes> times_by_dots(const Results& results);
 std::string size_table(const std::vector<FrameTimes>& times);
 std::string dots_table(const std::vector<FrameTimes>& times);
 
-// ---- Figures of docs/speed.md: plots.cpp ----
+// ---- Figures in docs/speed.md: plots.cpp ----
 
 /// Plots the times against the number of pixels.
 void draw_pixels(std::ostream& out, const std::vector<FrameTimes>& times);
@@ -94,7 +94,7 @@ struct TiltTimes {
     int by_first_attempt = 0;  ///< number of frames located by the first attempt
     double median_us = 0;
 };
-/// Measures how long `locate` takes for frames of tilted cameras. Throws Error if a fix is wrong.
+/// Measures how long `locate` takes for frames from tilted cameras. Throws Error if a fix is wrong.
 std::vector<TiltTimes> time_tilted_frames(bool is_quick);
 std::string tilt_table(const std::vector<TiltTimes>& times);
 

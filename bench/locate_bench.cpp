@@ -15,7 +15,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the camera of the paper with the given image size.
+/// Returns the camera model from the paper, with the given image size.
 CameraModel camera_of(int width_px, int height_px) {
     CameraModel camera;
     camera.width_px = width_px;
@@ -30,7 +30,7 @@ CameraModel phone_camera() {
     return camera;
 }
 
-/// Maximum number of pixels of the frames for which libapriltag, the slowest method, is measured.
+/// Maximum number of pixels per frame for which libapriltag, the slowest method, is measured.
 constexpr int kMaxTagPixels = 1280 * 800;
 
 const std::vector<CameraModel>& sizes() {
@@ -59,7 +59,7 @@ std::string name_of(const char* what, const CameraModel& camera) {
                        kDefaultSpacing_mm / camera.mm_per_px);
 }
 
-/// Returns the locator with the smallest memory that suffices for the frames of the camera.
+/// Returns the locator with the smallest memory that is large enough for the camera's frames.
 Locator& locator_for(const CameraModel& camera, Effort effort) {
     static const auto small = std::make_unique<SmallMemory>();
     static const auto large = std::make_unique<LargeMemory>();

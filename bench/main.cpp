@@ -4,8 +4,8 @@
 //   dotpose_bench --benchmark_filter=stage [--benchmark_...]
 //
 // Writes tables.md, pixels.svg and dots.svg to FOLDER (default: bench-out). --update also replaces
-// the generated blocks of the document and its figures. --quick is a short run to test the program,
-// and its numbers are inaccurate. With options of Google Benchmark, runs and prints only the
+// the generated blocks in the document and its figures. --quick does a short run to test the
+// program, and its numbers are inaccurate. With Google Benchmark options, runs and prints only the
 // selected benchmarks.
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Draws the figures of docs/speed.md.
+// Draws the figures in docs/speed.md.
 #include <algorithm>
 #include <ostream>
 
@@ -21,7 +21,7 @@ constexpr const char* kFloor = draw::colour::kQuiet;
 
 using Value = double (*)(const FrameTimes&);
 
-/// Accessors for the times of FrameTimes, in µs. A time is 0 if it was not measured.
+/// Accessors for the times in FrameTimes, in µs. A time is 0 if it was not measured.
 constexpr Value kLocate_us = [](const FrameTimes& t) { return t.locate_us; };
 constexpr Value kOnce_us = [](const FrameTimes& t) { return t.once_us; };
 constexpr Value kDevice_us = [](const FrameTimes& t) { return t.device_us; };

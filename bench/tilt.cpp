@@ -15,7 +15,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns a frame of a tilted camera. The tilt axis is different for each frame.
+/// Returns a frame from a tilted camera. The tilt axis is different for each frame.
 KnownFrame tilted_frame(const Setup& setup, int tilt_deg, int index) {
     Shot shot = draw_shot(setup, static_cast<std::uint64_t>(index));
     const double axis_rad = index * std::numbers::phi * 2 * std::numbers::pi;

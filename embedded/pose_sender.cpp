@@ -5,7 +5,7 @@
 using namespace dotpose;
 
 /// Returns options for the tracker, with the errors measured in docs/firmware.md. The tracker needs
-/// standard deviations of the poses, but fixes of DeviceLocator have no covariance.
+/// standard deviations for the poses, but fixes from DeviceLocator have no covariance.
 TrackOptions PoseSender::device_tracking() {
     TrackOptions options;
     options.min_sigma_mm = 0.0012F;
@@ -13,8 +13,8 @@ TrackOptions PoseSender::device_tracking() {
     return options;
 }
 
-/// Begins a frame with the prediction of the tracker. After a frame without a pose, begins without
-/// a prediction. The rows of a frame are not stored, so a frame that does not confirm its
+/// Begins a frame with the prediction from the tracker. After a frame without a pose, begins
+/// without a prediction. The rows of a frame are not stored, so a frame that does not confirm its
 /// prediction cannot be located again without it.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);

@@ -1,6 +1,6 @@
-/// Processes the frames of a device on any board. For each frame, PoseSender reads the rows from
-/// the camera, locates the pattern with a prediction, sends the pose as a packet, updates the
-/// tracker, and determines the time of the next frame.
+/// Processes camera frames on any board. For each frame, PoseSender reads the rows from the camera,
+/// locates the pattern with a prediction, sends the pose as a packet, updates the tracker, and
+/// determines the time of the next frame.
 ///
 ///     static PoseSender sender;
 ///     for (;;) sender.send_next();

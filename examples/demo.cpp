@@ -37,14 +37,15 @@ Sheet print_sheet(const fs::path& folder) {
     return sheet;
 }
 
-/// A point of the page in mm from the top left corner, and the direction of the camera there.
+/// A point on the page, in mm from the top left corner, and the direction of the camera at this
+/// point.
 struct Waypoint {
     double x_mm = 0;
     double y_mm = 0;
     double heading_rad = 0;
 };
 
-/// Returns the waypoint of a frame. The path is a figure of eight that fills the page. The camera
+/// Returns the waypoint for a frame. The path is a figure of eight that fills the page. The camera
 /// is aligned with the direction of travel.
 Waypoint waypoint(const Sheet& sheet, int frame) {
     const double t = 2 * std::numbers::pi * frame / kFrames;
@@ -75,7 +76,7 @@ struct Drive {
     std::vector<double> errors_deg;
     std::vector<double> times_us;
     int lost = 0;         ///< number of frames without a fix
-    int wrong_fixes = 0;  ///< number of fixes in another section or with an error above half a cell
+    int wrong_fixes = 0;  ///< number of fixes in the wrong section or off by more than half a cell
 };
 
 void record(const Sheet& sheet, const Waypoint& truth, const Fix& fix, Drive& drive) {

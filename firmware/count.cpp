@@ -2,7 +2,7 @@
 //
 //   qemu-... -plugin ./libdotpose_count.so,stages=FILE,out=FILE
 //
-// The plugin counts the instructions between the markers `resume` and `pause` of markers.hpp,
+// The plugin counts the instructions between the markers `resume` and `pause` from markers.hpp,
 // excluding the markers themselves. The stage file consists of lines "ADDRESS NAME" with
 // hexadecimal addresses. The stage NAME begins at the instruction at ADDRESS and ends when the next
 // stage begins. Instructions between `resume` and the first stage belong to the stage "other". The

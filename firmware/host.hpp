@@ -1,4 +1,4 @@
-/// Functions of the host that a firmware program needs. Each target implements them.
+/// Host functions that a firmware program needs. Each target implements them.
 #pragma once
 
 #include <cstddef>

@@ -38,7 +38,7 @@ struct FrameHeader {
     Prediction prediction;
 };
 
-/// Reads the next number of a header and the character after it. Returns false if there is no
+/// Reads the next number in a header and the character after it. Returns false if there is no
 /// number, if its absolute value exceeds INT32_MAX, or if the character is neither a blank nor a
 /// newline.
 bool read_number(std::int32_t& number) {

@@ -13,13 +13,13 @@ inline Vec2 displacement_of(Symbol symbol) {
     return {static_cast<double>(dx(symbol)), static_cast<double>(dy(symbol))};
 }
 
-/// Returns the random number generator of a cell. Its sequence depends only on the seed and the
+/// Returns a random number generator for a cell. Its sequence depends only on the seed and the
 /// cell.
 inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }
 
-/// Returns the symbol of the code in a cell. Each of its two bits is flipped with probability
+/// Returns the code's symbol in a cell. Each of its two bits is flipped with the probability
 /// `probability`.
 inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::uint64_t seed,
                              Cell cell) {

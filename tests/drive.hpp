@@ -134,7 +134,7 @@ class DriveCamera {
         camera_.height_px = height_px;
     }
 
-    /// Sets the displacement of the dots of both sheets, as a function of the intersection
+    /// Sets the displacement of the dots on both sheets, as a function of the intersection
     /// (Page::shift_mm).
     void set_shift(std::function<Vec2(Vec2 place_grid)> shift_mm) {
         shift_mm_ = std::move(shift_mm);
@@ -150,8 +150,8 @@ class DriveCamera {
     GreyImage frame(const Drive& drive, int index) const {
         return frame(drive.at(index), static_cast<std::uint64_t>(index) + 1);
     }
-    /// Returns the frame that the camera takes in a given state of the robot. `seed` is the seed
-    /// of the noise.
+    /// Returns the frame that the camera takes in a given state of the robot. `seed` determines the
+    /// noise.
     GreyImage frame(const DriveState& state, std::uint64_t seed) const {
         if (state.is_lifted) return empty(seed);
         const double reach_mm = camera_.mm_per_px * camera_.width_px;
@@ -205,7 +205,8 @@ class DriveCamera {
         return render(page, camera_, pose_on(sheet_index, state), imperfections, seed);
     }
 
-    /// Returns a frame of a lifted robot. The frame is out of focus and shows no dots.
+    /// Returns a frame taken while the robot is lifted. The frame is out of focus and shows no
+    /// dots.
     GreyImage empty(std::uint64_t seed) const {
         GreyImage image{{}, camera_.width_px, camera_.height_px};
         Rng rng(seed);

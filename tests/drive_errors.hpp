@@ -27,7 +27,7 @@ struct DriveReading {
 };
 
 /// Errors of position (per axis), heading and velocities. The rms errors exclude the frame of each
-/// event `fix` and the next two frames, because a new filter does not yet know the velocity.
+/// event `fix` and the next two frames, because a new filter has not yet estimated the velocity.
 class DriveErrors {
   public:
     void add(const DriveState& truth, const DriveReading& reading) {

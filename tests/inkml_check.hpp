@@ -1,6 +1,6 @@
-/// A check of InkML files against the recommendation of the W3C (Ink Markup Language, 20 September
-/// 2011), for the elements that `dotpose ink` writes: their children, attributes and references,
-/// the channels, and the values of the traces. XmlCheck checks that the XML is well-formed.
+/// Checks InkML files against the W3C recommendation (Ink Markup Language, 20 September 2011).
+/// Covers the elements that `dotpose ink` writes: their children, attributes and references, the
+/// channels, and the values of the traces. XmlCheck checks that the XML is well-formed.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-/// The conditions of docs/limits.md. In each condition, one property of nominal frames has its
+/// The conditions in docs/limits.md. In each condition, one property of nominal frames has its
 /// worst permitted value. A frame is determined by its condition, seed and index.
 #pragma once
 
@@ -19,7 +19,7 @@ struct Limit {
     std::string condition;
     std::function<void(Shot&)> worsen;
     CameraModel camera = {};
-    /// True if limits_test.cpp requires that all its frames are located.
+    /// True if limits_test.cpp requires that all frames of this condition are located.
     bool is_held = true;
     FixedLens lens = {};  ///< lens passed to `locate`
     bool is_white_on_black = false;

@@ -15,7 +15,7 @@ using calibrate::MapGrid;
 using calibrate::MapSolution;
 using Eigen::Vector2d;
 
-constexpr double kDotNoise_mm = 0.00137;  ///< standard deviation of a measured dot, per axis
+constexpr double kDotNoise_mm = 0.00137;  ///< standard deviation of a measured position, per axis
 
 /// Adds a frame: the measured positions of the dots in its view, and an approximate pose.
 void add_frame(const MappedPrint::Pose& pose, Vector2d half_view_mm, Rng& rng, SolverInput& input) {

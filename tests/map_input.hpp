@@ -12,7 +12,7 @@
 
 namespace dotpose::test {
 
-/// A page with known offsets of its dots, and the dots measured in its frames.
+/// A page whose dots have known offsets, and the dots measured in frames of the page.
 struct SolverInput {
     calibrate::MapGrid grid;
     std::vector<Eigen::Vector2d> offsets_mm;  ///< true offsets

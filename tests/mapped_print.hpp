@@ -57,8 +57,8 @@ class MappedPrint {
     const SheetEntry& entry() const { return entry_; }
     const MappedPrintOptions& options() const { return options_; }
 
-    /// Returns the displacement of a dot by the wave. Dots are displaced along y, the direction of
-    /// paper feed, and along x with a tenth of the amplitude.
+    /// Returns the displacement of a dot due to the wave. Dots are displaced along y, the direction
+    /// of paper feed, and along x with a tenth of the amplitude.
     Vec2 wave(Vec2 at_mm) const {
         const double phase = 2 * std::numbers::pi * at_mm.y / options_.wavelength_mm;
         return {0.1 * options_.wave_mm * std::cos(phase), options_.wave_mm * std::sin(phase)};
@@ -104,7 +104,7 @@ class MappedPrint {
     CameraModel camera_;
 };
 
-/// Errors of positions on a page, in mm.
+/// Position errors on a page, in mm.
 class PlaceErrors {
   public:
     void add(Vec2 at_mm, Vec2 error_mm, Vec2 wave_mm, const Fix& fix) {
@@ -175,7 +175,7 @@ inline PrintMapResult map_of(const MappedPrint& print, int frames, std::uint64_t
     return mapping.solve();
 }
 
-/// Errors of the same frames with and without a map.
+/// Position errors in the same frames with and without a map.
 struct MapTest {
     PlaceErrors without;
     PlaceErrors with;

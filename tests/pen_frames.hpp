@@ -1,4 +1,4 @@
-/// Simulated frames of the camera in a pen.
+/// Simulated frames from the camera in a pen.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@ namespace dotpose::test {
 inline constexpr PenTip kTip{0.5, 5, 18, 0.1};
 inline constexpr double kPenSpacing_mm = 0.3;
 
-/// Returns a shot with the camera and the sheet of a pen: a spacing of 0.3 mm, and about 10 px per
-/// spacing.
+/// Returns a shot of a pen sheet, taken by a pen camera. The spacing is 0.3 mm, which is about 10
+/// px in the image.
 inline Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
     Setup setup;
     setup.pattern.spacing_mm = kPenSpacing_mm;

@@ -11,8 +11,8 @@
 namespace dotpose::test {
 namespace {
 
-/// Maps positions on the sheet to pixels of the scan. The page is rotated about its centre, which
-/// is at the centre of the scan.
+/// Maps positions on the sheet to pixel coordinates in the scan. The page is rotated about its
+/// centre, which is at the centre of the scan.
 class ScanGeometry {
   public:
     ScanGeometry(double width_mm, double height_mm, const ScanSettings& settings)

@@ -18,7 +18,7 @@ struct ScanSettings {
     double skew_rad = 0;      ///< deviation of the angle between the page's axes from a right angle
     double dot_growth = 1;    ///< factor by which the diameters of the dots are multiplied
     double missing = 0;       ///< fraction of missing dots
-    double jitter_mm = 0.004;  ///< standard deviation of the positions of dots, per axis
+    double jitter_mm = 0.004;  ///< standard deviation of the dot positions, per axis
     double wave_mm = 0;  ///< amplitude of uneven paper feed: a sine along y with a period of 100 mm
     double blur_sigma_px = 0.6;
     double noise_sigma = 2;

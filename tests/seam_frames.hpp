@@ -32,7 +32,7 @@ struct SeamShot {
 
     double seam_px = 0;        ///< distance from the image centre to the seam
     double direction_rad = 0;  ///< direction from the image centre to the seam, in the image
-    double along_px = 0;       ///< position along the seam of the far side's centre of rotation
+    double along_px = 0;       ///< position of the far side's centre of rotation, along the seam
     double turn_rad = 0;       ///< rotation of the far side
     double shift_x_px = 0;     ///< shift of the far side
     double shift_y_px = 0;
@@ -41,7 +41,7 @@ struct SeamShot {
     double fall = 0.1;  ///< relative decrease of the light from the left to the right side
     double blur_px = 0.6;
     double noise = 3;
-    double jitter_grid = 0.02;  ///< standard deviation of the positions of printed dots, per axis
+    double jitter_grid = 0.02;  ///< standard deviation of the printed dot positions, per axis
     std::uint64_t seed = 1;
 
     Truth truth() const {

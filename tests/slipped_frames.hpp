@@ -17,11 +17,11 @@ namespace dotpose::test {
 struct Slip {
     double distance_grid = 0;  ///< distance of the line from the image centre
     double direction_rad = 0;  ///< direction of the normal of the line, from +x towards +y
-    Vec2 shift_grid;  ///< displacement at the point of the line that is closest to the image centre
+    Vec2 shift_grid;  ///< displacement at the point on the line that is closest to the image centre
     double turn_rad = 0;
 };
 
-/// Returns half the length of the view along a direction of the pattern, in spacings.
+/// Returns half the length of the view along a direction in the pattern, in spacings.
 inline double half_extent_grid(const Shot& shot, double direction_rad) {
     const double from_u_axis = direction_rad - shot.pose.theta_rad;
     return (std::abs(std::cos(from_u_axis)) * shot.camera.width_px +

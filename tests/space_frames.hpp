@@ -1,5 +1,5 @@
-/// Frames of a tilted camera over a sheet whose pose in the world is known, and the true poses of
-/// the camera.
+/// Frames taken by a tilted camera over a sheet whose pose in the world is known, and the true
+/// camera poses.
 #pragma once
 
 #include <array>
@@ -115,7 +115,7 @@ inline void expect_true_camera_odometry(const std::vector<nlohmann::json>& odome
         EXPECT_GT(odometry[last]["twist"]["covariance"][7 * i], 0);
 }
 
-/// Expects that the messages of a run contain the true poses of all frames.
+/// Expects that the messages from a run contain the true poses of all frames.
 inline void expect_true_space_poses(const std::vector<nlohmann::json>& messages) {
     std::vector<nlohmann::json> poses;
     std::vector<nlohmann::json> transforms;

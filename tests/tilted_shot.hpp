@@ -1,4 +1,4 @@
-/// A frame of a tilted camera with a known pose in space.
+/// A frame taken by a tilted camera with a known pose in space.
 #pragma once
 
 #include <numbers>
@@ -12,7 +12,7 @@ inline constexpr double kTiltedDistance_mm = 25;
 inline constexpr double kTilt_deg = 20;
 inline constexpr double kTilt_rad = kTilt_deg * std::numbers::pi / 180;
 
-/// Returns a shot of 320 x 240 px of a camera that leans by kTilt_rad towards +x.
+/// Returns a shot of 320 x 240 px, taken by a camera that leans by kTilt_rad towards +x.
 inline Shot tilted_shot() {
     Setup setup;
     setup.camera.width_px = 320;

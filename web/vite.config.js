@@ -10,7 +10,7 @@ function filesBelow(folder) {
     });
 }
 
-/** Returns the code of the service worker, which contains the list of all files of the build and their hash. */
+/** Returns the code of the service worker, which contains the list of all files in the build and their hash. */
 async function serviceWorker(paths, folder) {
     const hash = createHash("sha256");
     for (const path of paths) hash.update(path).update(readFileSync(path));
@@ -49,7 +49,7 @@ function offline() {
 }
 
 export default defineConfig({
-    // Relative addresses let the page work in any folder of a server.
+    // Relative addresses let the page work in any folder on a server.
     base: "./",
     build: { target: "es2022", assetsInlineLimit: 0 },
     worker: { format: "es" },

@@ -33,7 +33,7 @@ class CalibrationDisplay {
     bool has_window_;
     bool on_terminal_;
     video::Screen screen_;
-    /// Number of terminal lines of the last status, which the next status overwrites.
+    /// Number of terminal lines that the last status occupies. The next status overwrites them.
     std::atomic<int> shown_lines_ = 0;
     std::chrono::steady_clock::time_point next_;
     std::string last_line_;

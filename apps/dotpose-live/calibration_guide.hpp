@@ -80,7 +80,7 @@ struct GuideState {
     std::vector<bool> directions;
     std::vector<PenLean> leans;      ///< tilts of the pen
     std::vector<std::string> needs;  ///< unmet requirements, for all steps except `lens`
-    std::string problem;             ///< reason why the step or the writing of the file failed
+    std::string problem;             ///< reason why the step failed or the file was not written
     std::optional<GuideResult> result;
     std::optional<Camera> camera;  ///< the given camera, or the camera that was saved last
 };
@@ -115,7 +115,7 @@ class CalibrationGuide {
 
     const std::string& file() const { return options_.file; }
     GuideState state() const;
-    /// Returns a number that increases with every change of the state.
+    /// Returns a number that increases with every change to the state.
     std::uint64_t version() const;
 
   private:

@@ -26,7 +26,7 @@ class ClockOffset {
     /// Discards all messages so far. Must be called after the robot's clock has been set back.
     void reset() { *this = {}; }
 
-    /// Returns the offset in us. At least one message must have been added.
+    /// Returns the offset in microseconds. At least one message must have been added.
     std::int64_t us() const { return std::min(earlier_us_, current_us_); }
 
   private:

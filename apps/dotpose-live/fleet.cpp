@@ -100,7 +100,7 @@ std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& 
     return store ? std::optional(store->status()) : std::nullopt;
 }
 
-/// Returns the options of the web page, or none if --web is not given. The caller must set `now`
+/// Returns the options for the web page, or none if --web is not given. The caller must set `now`
 /// and `services`.
 std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
                                            const publish::MqttOptions& mqtt) {

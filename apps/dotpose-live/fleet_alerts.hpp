@@ -1,4 +1,4 @@
-/// Detects changes of robot conditions, and returns an alert for each important change.
+/// Detects changes in robot conditions, and returns an alert for each important change.
 #pragma once
 
 #include <map>

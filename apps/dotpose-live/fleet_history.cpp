@@ -59,7 +59,7 @@ std::int64_t parse_time(const std::string& flag, std::string text) {
     return *time_us;
 }
 
-/// Returns the fields of a state, with the names and units of `dotpose fleet --log`.
+/// Returns the fields for a state, with the names and units used by `dotpose fleet --log`.
 std::vector<Field> fields(const store::State& state) {
     const bool is_localized = state.motion != store::Motion::lost;
     const auto shown = [is_localized](double value, double factor, int decimals) {

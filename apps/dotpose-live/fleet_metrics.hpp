@@ -10,15 +10,15 @@
 
 namespace dotpose::cli {
 
-/// States of the connections of `dotpose fleet` to the broker and the database.
+/// State of the connections from `dotpose fleet` to the broker and the database.
 struct FleetServices {
     std::optional<bool> is_broker_connected;  ///< none if there is no broker
     Delivery delivery = Delivery::all;
     std::optional<store::QueueStatus> store;  ///< none if there is no database
 };
 
-/// Returns the metrics as text. `robots` is the result of `fleet.robots`. Characters that the
-/// format reserves are escaped in robot names.
+/// Returns the metrics as text. `robots` is the result of `fleet.robots`. In robot names,
+/// characters that the format reserves are escaped.
 std::string metrics_text(const FleetState& fleet, const FleetRobots& robots, const FleetMap& map,
                          const FleetServices& services);
 

@@ -18,7 +18,7 @@ namespace dotpose::cli {
 /// are not reported.
 enum class Delivery { all, shared };
 
-/// The contents of the sheet file of a fleet.
+/// Contents of a fleet's sheet file.
 struct FleetMap {
     std::string id;                        ///< name of the map, or empty if there is no sheet file
     std::set<std::string> names;           ///< names of all sheets

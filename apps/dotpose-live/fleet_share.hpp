@@ -1,4 +1,4 @@
-/// Distributes the robots of a broker over several instances of `dotpose fleet`.
+/// Distributes the robots that are connected to a broker over several instances of `dotpose fleet`.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class ShareArguments {
     /// Adds --share and --shard.
     void add_to(Command& command);
 
-    /// Returns the topics to subscribe to: the topics of the states and of the connections. If the
+    /// Returns the topics to subscribe to: the topics for states and for connections. If the
     /// instances form a group, the broker sends each state to only one of them.
     std::vector<std::string> topics() const;
     bool is_shared() const { return !group_.empty(); }

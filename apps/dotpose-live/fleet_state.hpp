@@ -54,13 +54,13 @@ struct FleetRobot {
     std::string reason;           ///< short reason for the condition, or empty
 };
 
-/// Latency statistics of the messages, based on the clocks of the sender and the receiver.
+/// Message latency statistics, based on the clocks of the sender and the receiver.
 struct Latency {
     double median_ms = 0;
     double p99_ms = 0;
 };
 
-/// Histogram of the latencies of messages.
+/// Histogram of message latencies.
 struct LatencyHistogram {
     /// Upper limits of the buckets in seconds. The last bucket has no upper limit.
     static constexpr std::array kLimits_s = {0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,
@@ -74,7 +74,7 @@ struct LatencyHistogram {
     void add(double latency_s);
 };
 
-/// Number of camera frames of all robots since this program was started.
+/// Camera frame counts since this program was started, summed over all robots.
 struct CameraTotals {
     std::uint64_t frames = 0;
     RefusedFrames refused{};
@@ -107,10 +107,10 @@ class FleetState {
     /// Returns every `step`-th of the newest `points` points of a path, oldest first.
     std::vector<draw::Point> trail_mm(std::string_view robot, std::size_t points,
                                       std::size_t step) const;
-    /// Returns the total counts of all robots, including removed robots.
+    /// Returns the message counts, summed over all robots, including removed robots.
     StateCounts counts() const;
     std::int64_t bad() const;
-    /// Returns the statistics of the newest 131,072 messages, or of all messages if there are
+    /// Returns the statistics for the newest 131,072 messages, or for all messages if there are
     /// fewer.
     Latency latency() const;
     LatencyHistogram latency_histogram() const;

@@ -15,7 +15,7 @@
 namespace dotpose::cli {
 
 struct StoreArguments {
-    std::string where;  ///< URL of PostgreSQL or path of an SQLite file, or empty for none
+    std::string where;  ///< URL of PostgreSQL or path of a SQLite file, or empty for none
     std::int64_t max_states = 1'000'000;
     int keep_days = 0;  ///< number of days to keep states, or 0 to keep all
 
@@ -27,11 +27,12 @@ struct StoreArguments {
 /// printable characters, which makes it safe to display in any program.
 std::string stored_name(std::string_view name);
 
-/// Converts received states to states of the database. Equal names share memory.
+/// Converts received states to the form in which the database stores them. Equal names share
+/// memory.
 class StoredStates {
   public:
-    /// Converts a state. The result contains the time stamp of the robot or, if that differs from
-    /// the arrival time by more than half an hour, the arrival time.
+    /// Converts a state. The result contains the robot's time stamp or, if that differs from the
+    /// arrival time by more than half an hour, the arrival time.
     store::State of(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
   private:

@@ -26,7 +26,7 @@ inline constexpr std::size_t kMaxTableRows = 200;
 /// Maximum number of alerts that a client receives.
 inline constexpr std::size_t kMaxAlerts = 200;
 
-/// Returns the map, the sheets of the sheet file, and the time limits for `silent` and `gone`.
+/// Returns the map, the sheets in the sheet file, and the time limits for `silent` and `gone`.
 /// `device` is the name of the robot for `dotpose listen`, and is empty for a fleet. `has_history`
 /// is true if the page can read stored states.
 std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
@@ -46,8 +46,8 @@ std::string summary_value(const FleetSnapshot& snapshot, const FleetState& fleet
 std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Delivery delivery,
                         const serve::Command& request);
 
-/// Returns the newest state, the path and the alerts of the robot whose number is the argument
-/// `robot` of the request. Returns null if there is no such robot.
+/// Returns the newest state, the path and the alerts of a robot. The argument `robot` of the
+/// request is the number of the robot. Returns null if there is no such robot.
 std::string robot_value(const FleetSnapshot& snapshot, const FleetState& fleet, const FleetMap& map,
                         Delivery delivery, const std::deque<RobotAlert>& alerts,
                         const serve::Command& request);

@@ -22,7 +22,7 @@ namespace dotpose::cli {
 struct FleetWebOptions {
     serve::ServerOptions server;
     ConditionLimits limits = {};
-    std::string store = {};   ///< database of --store to read states from, or empty
+    std::string store = {};   ///< database given to --store, for reading states, or empty
     std::string device = {};  ///< name of the robot for `dotpose listen`, or empty for a fleet
     // The following functions may be called from any thread.
     std::function<Now()> now;

@@ -30,8 +30,9 @@ namespace dotpose::cli {
 /// Measures the speed at which the image moves between located frames.
 class ImageMotion {
   public:
-    /// Returns an upper bound of the image speed within `reach_px` of the image centre, in px/s
-    /// since the previous located frame. Returns infinity if the speed is unknown.
+    /// Returns an upper bound on the speed at which the image has moved since the previous located
+    /// frame, in px/s, for points within `reach_px` of the image centre. Returns infinity if the
+    /// speed is unknown.
     double speed_px_s(const Fix& fix, std::int64_t time_us, double reach_px);
     void forget() { newest_.reset(); }
 

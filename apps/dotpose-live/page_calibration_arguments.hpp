@@ -1,5 +1,5 @@
-/// The option --calibrate-to, which names the camera file that the page of `dotpose watch --web`
-/// may calibrate.
+/// The option --calibrate-to, which names the camera file to which the page of `dotpose watch
+/// --web` may save a calibration.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@ class PageCalibrationArguments {
     /// Adds --calibrate-to. `command` must outlive this object.
     void add_to(Command& command);
 
-    /// Uses the file of --calibrate-to as the camera file of the run if it exists and --camera is
-    /// not given. Throws Error if it is not a camera file.
+    /// Uses the file given to --calibrate-to as the camera file of the run if it exists and
+    /// --camera is not given. Throws Error if it is not a camera file.
     void use_replaced_camera(FollowerArguments& follower) const;
 
     /// Throws BadArgument if --calibrate-to is given without --web.
@@ -29,11 +29,11 @@ class PageCalibrationArguments {
     /// Throws Error if the file cannot be written.
     void require_writable_file() const;
 
-    /// Registers the sheet file and the camera file as inputs, and the file of --calibrate-to as an
-    /// output. --calibrate-to may name the same file as --camera.
+    /// Registers the sheet file and the camera file as inputs, and the file given to --calibrate-to
+    /// as an output. --calibrate-to may name the same file as --camera.
     void add_files(const FollowerArguments& follower, RunFiles& files) const;
 
-    /// Returns the options of the calibration, or none if --calibrate-to is not given.
+    /// Returns the options for the calibration, or none if --calibrate-to is not given.
     std::optional<GuideOptions> options(const FollowerArguments& arguments,
                                         const SourceArguments& sources,
                                         const Follower& follower) const;

@@ -9,7 +9,7 @@
 namespace dotpose::cli {
 
 /// Returns the state message for a reading. `world_map` is the name of the map for poses in the
-/// world of the sheet file.
+/// world frame of the sheet file.
 RobotState state_of(const Reading& reading, const std::string& robot, const std::string& world_map);
 
 }  // namespace dotpose::cli

@@ -32,11 +32,11 @@ class SheetEdits {
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
     /// Returns the reason why the file could not be read, or an empty string.
     const std::string& problem() const { return problem_; }
-    /// Returns the revision of a sheet, which increases with every change of its place, print
+    /// Returns the revision of a sheet, which increases with every change to its place, print
     /// scale, offset or region. Returns 0 if there is no such sheet.
     std::int64_t revision(const std::string& name) const;
 
-    /// Returns a number that increases with every change of any sheet.
+    /// Returns a number that increases with every change to any sheet.
     std::int64_t version() const { return version_; }
 
     /// A sheet to edit, with the revision that the user saw.
@@ -59,7 +59,7 @@ class SheetEdits {
     void change_all(const std::vector<Target>& targets, const std::vector<SheetEntry>& measured,
                     const std::string& what);
 
-    /// Clears the reserved mark of a sheet, because its page now exists. This change cannot be
+    /// Marks a sheet as no longer reserved, because its page now exists. This change cannot be
     /// undone.
     void confirm(const std::string& name);
 
@@ -69,8 +69,8 @@ class SheetEdits {
     std::string redo_text() const { return redo_.empty() ? "" : redo_.back().text; }
 
     /// Undoes or redoes the last edit and returns its description. Throws Error if there is none.
-    /// If another program has meanwhile changed a sheet of the edit, discards the edit and throws
-    /// Error.
+    /// If another program has meanwhile changed a sheet that the edit affects, discards the edit
+    /// and throws Error.
     std::string undo();
     std::string redo();
 

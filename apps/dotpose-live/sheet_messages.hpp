@@ -20,7 +20,7 @@ struct SheetAnswer {
     std::string url = {};   ///< path of a file to download, or empty
 };
 
-/// Returns the sheets of the file, and descriptions of the edits that can be undone or redone.
+/// Returns the sheets in the file, and descriptions of the edits that can be undone or redone.
 nlohmann::json sheets_message(const SheetEdits& edits, bool may_edit);
 nlohmann::json answers_message(const std::deque<SheetAnswer>& answers);
 /// Returns the state of a measurement. `progress` is null if no measurement is running.

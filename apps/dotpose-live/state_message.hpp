@@ -1,4 +1,4 @@
-/// JSON messages of robots according to VDA 5050, version 2.0.0: poses on the topic
+/// JSON messages from robots according to VDA 5050, version 2.0.0: poses on the topic
 /// `visualization`, and the connection state on the topic `connection` (docs/live.md). Also defines
 /// the alerts that `dotpose fleet` publishes (docs/fleet.md).
 #pragma once
@@ -17,10 +17,10 @@
 
 namespace dotpose::cli {
 
-/// Prefix of the topics of all robots. A topic has the form kTopicRoot/ROBOT/SUBJECT.
+/// Prefix of all robot topics. A topic has the form kTopicRoot/ROBOT/SUBJECT.
 inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 
-/// Prefix of the topics of alerts. A topic has the form kAlertRoot/ROBOT. It is separate from
+/// Prefix of all alert topics. A topic has the form kAlertRoot/ROBOT. It is separate from
 /// kTopicRoot, because a broker may allow each robot to publish below kTopicRoot/ROBOT.
 inline constexpr const char* kAlertRoot = "dotpose/alerts";
 
@@ -56,15 +56,14 @@ inline constexpr std::string_view kNoPlace = "no_place";
 /// Numbers of refused frames, indexed by Status. The last element is for Status::other.
 using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
 
-/// Camera frame counts of a robot since the start of its program.
+/// Camera frame counts of a robot since its program was started.
 struct CameraReport {
     double rate_hz = 0;  ///< mean frame rate since the previous report
     std::uint64_t frames = 0;
     RefusedFrames refused{};  ///< frames without a fix; the element for Status::ok is 0
 };
 
-/// Conversion factor from metres, the unit of the messages, to millimetres, the unit of the
-/// reports.
+/// Conversion factor from metres (used in messages) to millimetres (used in reports).
 inline constexpr double kMm_per_m = 1000;
 
 struct RobotState {
@@ -103,8 +102,8 @@ std::optional<RobotState> parse_state(std::string_view json);
 struct RobotConnection {
     std::string robot;            ///< name of the sender, or empty in a parsed message
     std::uint64_t header_id = 0;  ///< sequence number of the connection message
-    /// Time of sending, in microseconds since 1970 on the system clock of the sender. In the last
-    /// will of a robot, this is the time at which the robot connected.
+    /// Time at which the message was sent, in microseconds since 1970 on the system clock of the
+    /// sender. In the last will of a robot, this is the time at which the robot connected.
     std::int64_t sent_us = 0;
     publish::Presence presence = publish::Presence::online;
 };

@@ -32,8 +32,9 @@ class CameraCounter {
 class StateSource {
   public:
     /// `sheets` is the path of the sheet file. Its file name without extension is the name of the
-    /// map of world poses. `max_rate_hz` is the maximum number of states per second, except that
-    /// each event creates a state immediately. If it is 0, a state is created for every reading.
+    /// map in which world poses are given. `max_rate_hz` is the maximum number of states per
+    /// second, except that each event creates a state immediately. If it is 0, a state is created
+    /// for every reading.
     StateSource(std::string robot, const std::string& sheets, double max_rate_hz);
 
     /// Counts a reading. Returns its state, or none if no state is due.

@@ -1,4 +1,4 @@
-/// Measures the relative positions of sheets in a separate thread, using the frames of a running
+/// Measures the relative positions of sheets in a separate thread, using frames from a running
 /// camera.
 #pragma once
 
@@ -32,7 +32,7 @@ class StitchJob {
         std::optional<Stitching> result;
     };
 
-    /// `changed` is called in the thread of the job after each frame.
+    /// `changed` is called in the job's thread after each frame.
     StitchJob(std::vector<SheetEntry> sheets, std::optional<Camera> camera,
               std::function<void(const Progress&)> changed);
     /// Stops the measurement after the current frame.
@@ -65,7 +65,7 @@ class StitchJob {
     NewPlaces places_;
     Clock::time_point unlocated_at_{};
 
-    // Used only by the thread of the job.
+    // Used only by the job's thread.
     std::vector<GreyImage> frames_;
     std::size_t bytes_ = 0;
     int tried_ = 0;

@@ -156,7 +156,8 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
     return images > 0 ? images : source.length();
 }
 
-/// Applies changes to the sheets, made on the page or by another program, to the following frames.
+/// Uses the current sheets for the following frames if the page or another program has changed the
+/// sheets.
 void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     std::optional<std::vector<SheetEntry>> sheets = outputs.take_changed_sheets();
     if (!sheets) return;
@@ -213,7 +214,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     return 0;
 }
 
-/// Returns the options of the web page, or none if --web is not given.
+/// Returns the options for the web page, or none if --web is not given.
 std::optional<WebOptions> web_options(const WatchArguments& arguments, const Follower& follower) {
     const auto server = arguments.web.options();
     if (!server) return std::nullopt;

@@ -69,8 +69,8 @@ class WatchOutputs {
     /// Returns the sheets if they were changed, on the page or by another program, since the
     /// previous call. Returns none otherwise, or if there is no page.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
-    /// Displays the new sheets of the follower. `was_in_world` is true if the earlier poses are in
-    /// world coordinates. If the plane of the poses changes, a new path is started.
+    /// Displays the follower's new sheets. `was_in_world` is true if the earlier poses are in world
+    /// coordinates. If the plane of the poses changes, a new path is started.
     void use_sheets(bool was_in_world);
 
     const WatchTally& tally() const { return tally_; }

@@ -20,7 +20,7 @@ class WebArguments {
     /// Returns true if --web is given.
     bool is_wanted() const { return !page_.address.empty(); }
 
-    /// Returns the options of the server, or none if --web is not given. The caller must add the
+    /// Returns the options for the server, or none if --web is not given. The caller must add the
     /// pages. Creates a token if the server is reachable from other computers and no token file is
     /// given. Throws BadArgument or Error if the options are invalid.
     std::optional<serve::ServerOptions> options() const;

@@ -62,7 +62,7 @@ json json_of(const CalibrationStatus& status) {
             {"is_taken", status.is_taken}};
 }
 
-/// Returns the mean residuals of the image blocks before and after the calibration. Each list
+/// Returns the mean residuals in the image blocks before and after the calibration. Each list
 /// contains alternating u and v components.
 json json_of(const ResidualField& field) {
     json before = json::array();

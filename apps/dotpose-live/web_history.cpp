@@ -43,7 +43,7 @@ constexpr std::size_t kMaxRobotName = 400;
 constexpr double kMaxSpan_s = 31 * 86'400.0;
 /// Maximum time in a request, in seconds since 1970 (the end of 2099).
 constexpr double kMaxTime_s = 4.1e9;
-/// Maximum number of states that a query reads, equal to 23 days of one robot at 10 Hz.
+/// Maximum number of states that a query reads, equal to 23 days of states from one robot at 10 Hz.
 constexpr std::int64_t kMaxReadStates = 20'000'000;
 
 double seconds_of(const serve::Command& request, std::string_view key, double max) {

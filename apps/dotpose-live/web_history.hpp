@@ -14,7 +14,7 @@ namespace dotpose::cli {
 
 class WebHistory {
   public:
-    /// `where` is the database of `--store`. The server must already be running.
+    /// `where` is the database given to --store. The server must already be running.
     WebHistory(const std::string& where, serve::Server& server, serve::Topic& topic);
     /// Stops a running query.
     ~WebHistory();

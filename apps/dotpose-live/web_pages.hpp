@@ -1,5 +1,5 @@
-/// The files of the pages of `dotpose watch --web` and `dotpose fleet --web`, which CMake builds
-/// from web/ and embeds.
+/// Files of the web pages that `dotpose watch --web` and `dotpose fleet --web` serve. CMake builds
+/// the files from web/ and embeds them.
 #pragma once
 
 #include <span>

@@ -20,7 +20,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum time to wait for another program to release the lock of the sheet file.
+/// Maximum time to wait for another program to release the lock on the sheet file.
 constexpr double kMaxWait_s = 3;
 constexpr std::chrono::milliseconds kRefreshPeriod(300);
 constexpr std::size_t kMaxWaiting = 16;

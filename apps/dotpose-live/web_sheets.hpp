@@ -1,7 +1,7 @@
 /// The sheets on the page of `dotpose watch --web`. docs/web.md describes the topics and commands.
 ///
 /// A separate thread reads and changes the sheet file and creates PDFs. These tasks may take
-/// seconds, because another program may hold the lock of the file and pages may be large.
+/// seconds, because another program may hold the lock on the file and pages may be large.
 #pragma once
 
 #include <atomic>
@@ -45,7 +45,7 @@ class WebSheets {
     /// Reads the sheet file. `server` must outlive this object. Throws Error if the file cannot be
     /// read.
     WebSheets(WebSheetsOptions options, serve::Server& server, const SheetTopics& topics);
-    /// Aborts running work, but completes a change to the sheet file that has already begun.
+    /// Aborts running tasks, but completes a change to the sheet file that has already begun.
     ~WebSheets();
     WebSheets(const WebSheets&) = delete;
     WebSheets& operator=(const WebSheets&) = delete;

@@ -31,7 +31,7 @@ struct WebOptions {
     std::string log;                   ///< path of the log to offer for download, or empty
     RobotOutputOptions messages;       ///< description of the robot for recordings
     WebSheetsOptions sheets;           ///< the path is empty if there is no sheet file
-    /// Options of the calibration on the page, or none if the page must not calibrate.
+    /// Options for the calibration on the page, or none if the page must not calibrate.
     std::optional<GuideOptions> calibration;
 };
 
@@ -47,13 +47,13 @@ class WebView {
     /// BadArgument or Error on failure.
     WebView(WebOptions options, const Follower& follower);
 
-    /// Sends a frame to the clients that are ready, and executes the commands of the clients.
+    /// Sends a frame to the clients that are ready, and executes the clients' commands.
     void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
               const PathMemory& path, const SourceState& source);
 
     /// Returns the sheets if they have changed since the previous call, and none otherwise.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
-    /// Displays the new sheets of the follower.
+    /// Displays the follower's new sheets.
     void use_sheets();
     /// Returns the camera that was calibrated on the page since the previous call, or none.
     std::optional<Camera> take_camera();

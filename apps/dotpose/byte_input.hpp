@@ -1,4 +1,4 @@
-/// Opens the input of `dotpose listen`.
+/// Opens the input for `dotpose listen`.
 #pragma once
 
 #include <string>

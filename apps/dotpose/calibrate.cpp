@@ -50,7 +50,7 @@ constexpr const char* kCalibrateExamples =
     "taken until they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not determine\n"
     "the requested values.\n";
 
-/// Frame sources of each part of the calibration. A part without sources is skipped.
+/// Frame sources for each part of the calibration. A part without sources is skipped.
 struct Series {
     std::optional<Sources> lens;
     std::optional<Sources> spin;
@@ -60,7 +60,7 @@ struct Series {
     std::optional<Sources> flat;
 };
 
-/// Returns a copy of the arguments in which `names` replaces the sources and the list file.
+/// Returns a copy of the arguments with `names` as the sources and without a list file.
 SourceArguments with_names(SourceArguments arguments, const std::vector<std::string>& names) {
     arguments.names = names;
     arguments.list.clear();
@@ -89,8 +89,9 @@ Series series_of(const CalibrateArguments& arguments) {
     return series;
 }
 
-/// Returns the result of `work(frame_count, frame_at, options)` for the frames of the sources, and
-/// shows a progress line. If the camera has a flat field, `frame_at` corrects the frames with it.
+/// Calls `work(frame_count, frame_at, options)` for the frames from the sources and returns its
+/// result. Meanwhile, shows a progress line. If the camera has a flat field, `frame_at` corrects
+/// the frames with it.
 template <typename Work>
 auto with_progress(const CalibrateArguments& arguments, Sources& sources,
                    const std::optional<Camera>& camera, const std::string& what, Work work) {
@@ -117,7 +118,7 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources,
     }
 }
 
-/// Returns the path of the spin calibration picture. It is the path of --draw, with "-spin" before
+/// Returns the path of the spin calibration picture: the path given to --draw, with "-spin" before
 /// the extension if the lens picture is also drawn.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
@@ -127,8 +128,8 @@ std::string spin_picture_of(const CalibrateArguments& arguments) {
     return (lens.parent_path() / system::path_of(name)).string();
 }
 
-/// Writes the camera file to the path of -o, where "-" is standard output. Writes nothing if `out`
-/// is empty.
+/// Writes the camera file to `out`, the path given to -o, where "-" means standard output. Writes
+/// nothing if `out` is empty.
 void write_result(const std::string& out, const Camera& camera) {
     if (out.empty()) return;
     const DocumentOutput output(out, ".yaml");

@@ -30,7 +30,7 @@ void require_apart(const PrintMapArguments& arguments, const Sources& sources) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns the existing map at the path of -o, or an empty map if there is none.
+/// Returns the existing map at `out`, the path given to -o, or an empty map if there is none.
 PrintMap earlier_map(const std::string& out) {
     std::error_code failed;
     if (!std::filesystem::exists(system::path_of(out), failed)) return {};
@@ -44,7 +44,7 @@ PrintMap earlier_map(const std::string& out) {
     }
 }
 
-/// Adds all frames of the sources to the map.
+/// Adds all frames from the sources to the map.
 void add_frames(const PrintMapArguments& arguments, Sources& sources, PrintMapping& mapping) {
     capture::SourceOptions options = arguments.sources.options;
     options.tell = tell;

@@ -16,11 +16,11 @@ struct PrintMapArguments {
     std::string camera_path;
     std::optional<Camera> camera;
     std::string out;      ///< path of the map, which is updated if the file exists
-    std::string picture;  ///< path of the picture of the map (SVG), or empty for no picture
+    std::string picture;  ///< path of an SVG picture of the map, or empty for no picture
 };
 
-/// Reads all frames, creates or updates the map, and prints a report. Ctrl-C stops the reading, and
-/// the map is then made from the frames read so far.
+/// Reads all frames, creates or updates the map, and prints a report. After Ctrl-C, stops reading
+/// and makes the map from the frames read so far.
 void make_print_map(const PrintMapArguments& arguments);
 
 }  // namespace dotpose::cli

@@ -183,7 +183,7 @@ std::string print_scale_text(double scale, double sigma) {
                        is_scale_known(sigma) ? "" : " (UNKNOWN)");
 }
 
-/// Appends the print scales of the sheets and the reference of these scales, which is a sheet or
+/// Appends the print scales of the sheets and the reference for these scales, which is a sheet or
 /// the camera.
 void add_print_scales(std::string& text, const Stitching& stitching) {
     bool are_all_scales_known = true;

@@ -1,4 +1,4 @@
-/// Selects the frames of a calibration for `dotpose calibrate`.
+/// Selects the calibration frames for `dotpose calibrate`.
 #pragma once
 
 #include <string>
@@ -13,8 +13,9 @@ namespace dotpose::cli {
 inline constexpr const char* kMirrored =
     "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
-/// The frames of a calibration: all given images, and up to 50 frames of different places from each
-/// video, camera or raw stream. Images are read on demand, and all other frames are kept in memory.
+/// The frames for a calibration: all given images, and up to 50 frames of different places from
+/// each video, camera or raw stream. Images are read on demand, and all other frames are kept in
+/// memory.
 class CalibrationFrames {
   public:
     /// Reads videos and raw streams to the end, and cameras until 50 places have been shown. Ctrl-C

@@ -64,7 +64,7 @@ void require_svg(const std::string& path) {
 }
 
 /// Returns true if the scales along x and y are both within 25 % of 1. Printer drivers may cause
-/// such deviations. Larger ones are probably due to an incorrect scan resolution or spacing.
+/// such deviations. Larger deviations are probably due to an incorrect scan resolution or spacing.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
@@ -117,7 +117,7 @@ std::string offset_remark(const SheetEntry& entry) {
         shift_mm(entry.print_scale_y, sheet.origin_y_mm, sheet.height_mm));
 }
 
-/// Writes the measured print scale of each sheet on the scan to its entry in the sheet file, and
+/// Writes the measured print scale of each sheet in the scan to its entry in the sheet file, and
 /// returns a report. `PrintField::sheet` is an index into `sheets`.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {

@@ -45,8 +45,8 @@ std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
     return names;
 }
 
-/// Formats the help in two columns: the option with its value, and the description. The default and
-/// the required or excluded options follow the description in parentheses.
+/// Formats the help in two columns: the option with its value, and the description. The description
+/// ends with the default value and the required or excluded options, in parentheses.
 class HelpFormatter : public CLI::Formatter {
   public:
     HelpFormatter() {
@@ -132,8 +132,8 @@ std::string message_of(const CLI::ParseError& error) {
     return text;
 }
 
-/// Calls `parse` and translates the exceptions of CLI11. Returns false if the help or the version
-/// was printed. Throws UsageError if the command line is invalid.
+/// Calls `parse` and translates the exceptions thrown by CLI11. Returns false if the help or the
+/// version was printed. Throws UsageError if the command line is invalid.
 bool parsed(CLI::App& app, const std::function<void()>& parse) {
     try {
         parse();

@@ -26,7 +26,7 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// An invalid value of an option.
+/// An invalid option value.
 class ValidationError : public UsageError {
   public:
     ValidationError(const std::string& option, const std::string& why)
@@ -53,7 +53,7 @@ class Validator {
     std::vector<std::string> choices_;
 };
 
-/// Accepts the numbers of a range, including its limits.
+/// Accepts numbers in the closed range [min, max].
 class Range : public Validator {
   public:
     Range(int min, int max);
@@ -80,7 +80,7 @@ class Option {
     Option* check(const Check& check);
     Option* check(const Validator& validator);
 
-    std::size_t count() const;  ///< number of times the option is on the command line
+    std::size_t count() const;  ///< number of times the option occurs on the command line
 
     std::string get_name() const;  ///< longest name, with hyphens
     std::string get_type_name() const;

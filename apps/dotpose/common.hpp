@@ -1,4 +1,4 @@
-/// Options that several subcommands have in common, and helpers for them.
+/// Options shared by several subcommands, and helpers for them.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +60,7 @@ void add_attempt_options(Command& command, DeviceOptions& options);
 /// Adds --size WxH, the size of a simulated frame.
 void add_size_option(Command& command, CameraModel& camera);
 
-/// Adds an option whose value is the name of one of `values`, which must outlive the command.
+/// Adds an option that selects one of `values` by name. `values` must outlive the command.
 template <typename Values, typename Store>
 Option* add_named(Command& command, const std::string& flag, const Values& values,
                   const std::string& default_name, const std::string& help, Store store) {
@@ -103,7 +103,7 @@ class PatternArguments {
     std::optional<double> dot_mm_;
 };
 
-/// Convert between DotDrawing and its names in --dots. `drawing_by_name` returns none for an
+/// Convert between DotDrawing and the names used by --dots. `drawing_by_name` returns none for an
 /// unknown name.
 std::string drawing_name(DotDrawing drawing);
 std::optional<DotDrawing> drawing_by_name(const std::string& name);

@@ -30,8 +30,9 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
 }
 
 /// Returns true if the true places are in the world, and false if they are on sheets. Throws Error
-/// for places in the pattern, on unknown or unspecified sheets, or on several sheets that would
-/// have to be aligned. Also throws if the places are in the world and no sheet has a world pose.
+/// if a place is given only in the pattern frame, if its sheet is unknown or not specified, or if
+/// places on several sheets would have to be aligned. Also throws Error if the places are in the
+/// world and no sheet has a world pose.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;

@@ -11,7 +11,7 @@ namespace dotpose::cli {
 /// Format of output lines. Only `locate` supports text.
 enum class RecordFormat { json, csv, text };
 
-/// Version of the format of JSON lines, which is also the value of their first field.
+/// Version of the JSON line format, written as the first field of each line.
 /// docs/schema/lines-VERSION.json describes the format. Within a version, keys may be added, but
 /// existing keys are never removed and keep their meaning.
 inline constexpr const char* kSchemaVersion = "1";
@@ -38,7 +38,7 @@ std::string significant(double value);
 /// Formats an angle in degrees. The result is in (-180, 180], even after rounding.
 std::string degrees(double angle_rad);
 
-/// Formats an upper bound of a probability with three significant digits. The bound is rounded up,
+/// Formats an upper bound on a probability with three significant digits. The bound is rounded up,
 /// and is at least 1e-30.
 std::string p_wrong_text(double p_wrong);
 

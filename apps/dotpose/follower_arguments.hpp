@@ -1,4 +1,4 @@
-/// Options of all commands that locate images: code, spacing, sheets, camera, effort.
+/// Options shared by all commands that locate images: code, spacing, sheets, camera, effort.
 #pragma once
 
 #include <string>
@@ -18,12 +18,12 @@ struct FollowerArguments {
     bool is_inverted = false;
     FollowerOptions options;  ///< options that do not depend on the contents of the files
 
-    /// Adapts the camera file to the frames of `sources` (SourceArguments::fit_to). With a camera
-    /// file, --reference is a pixel of the full frame, so it is also converted if --roi selects a
-    /// region.
+    /// Adapts the camera file to the frames from `sources` (SourceArguments::fit_to). With a camera
+    /// file, --reference is a pixel position in the full frame, so it is also converted if --roi
+    /// selects a region.
     void fit_to(SourceArguments& sources);
 
-    /// Registers the input files of these options.
+    /// Registers the input files that these options name.
     void add_files(RunFiles& files) const;
 
     /// Reads the sheet file and the print map. Throws Error if a file cannot be read, if the sheet

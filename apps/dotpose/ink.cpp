@@ -70,7 +70,7 @@ InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
     return sample;
 }
 
-/// Reads all samples that have a tip. Throws Error if there are none.
+/// Reads the pen tip from every row that contains one. Throws Error if there is no such row.
 std::vector<InkSample> read_samples(const InkArguments& arguments) {
     // No column is required, because the output of `locate` has no time column.
     LogReader log(system::path_of(arguments.log), {});
@@ -105,7 +105,7 @@ void set_sizes(const std::string& sheets, std::vector<InkPage>& pages) {
     }
 }
 
-/// Returns the output path of a page. It is the path of -o, with the page name inserted before the
+/// Returns the output path of a page: the path given to -o, with the page name inserted before the
 /// extension if there are several pages.
 std::string path_of_page(const std::string& out, const std::string& page, bool is_only) {
     if (is_only) return out;

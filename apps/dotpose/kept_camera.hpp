@@ -1,4 +1,4 @@
-/// Keeps values of a camera file when a calibration replaces the file.
+/// Keeps values from an existing camera file when a calibration replaces the file.
 #pragma once
 
 #include <optional>

@@ -103,9 +103,10 @@ KnownFrames known_images(const std::vector<std::string>& names,
     return known;
 }
 
-/// Frames of sources that can only be read sequentially. Several threads may request frames at the
-/// same time, but each frame can be requested only once. A request reads all frames up to its index
-/// and buffers the earlier frames until they are requested, so requests should be roughly in order.
+/// Frames from sources that can only be read sequentially. Several threads may request frames at
+/// the same time, but each frame can be requested only once. A request reads all frames up to its
+/// index and buffers the earlier frames until they are requested, so requests should be roughly in
+/// order.
 class FramesInOrder {
   public:
     /// Opens the first source. Throws Error or BadArgument if the source cannot be opened.
@@ -171,7 +172,7 @@ class FramesInOrder {
     std::size_t next_name_ = 0;
     std::mutex mutex_;
     capture::SourceList list_;
-    /// Frames that were read but not requested yet, by index.
+    /// Frames that have been read but not yet requested, by index.
     std::map<std::int64_t, GreyImage> waiting_;
     std::int64_t read_ = 0;  ///< number of frames read so far
     bool is_over_ = false;

@@ -12,7 +12,8 @@ namespace dotpose::cli {
 /// Value of -o that means standard output.
 inline constexpr const char* kStandardOutput = "-";
 
-/// Returns true if `out` means standard output. `out` is the value of -o, or empty without -o.
+/// Returns true if `out` means standard output. `out` is the value of -o, or empty if -o is not
+/// given.
 inline bool is_standard_output(const std::string& out) {
     return out.empty() || out == kStandardOutput;
 }

@@ -92,8 +92,8 @@ class ImageLocator {
         return record;
     }
 
-    /// Returns the record of an image whose header specifies too large a size. The pixels of such
-    /// an image are not read.
+    /// Returns the record for an image that, according to its header, is too large. The pixels of
+    /// such an image are not read.
     Record too_large(const std::string& name, const ImageTooLarge& image) const {
         Record record = empty_record(follower_);
         record.file = name;
@@ -139,7 +139,7 @@ class ImageLocator {
 
     const LocateArguments& arguments_;
     Follower follower_;
-    std::unique_ptr<LargeMemory> scratch_;  ///< memory for `advice_on`, for images without a fix
+    std::unique_ptr<LargeMemory> scratch_;  ///< used by `advice_on` if an image has no fix
     std::optional<PictureFolder> pictures_;
 };
 
@@ -176,7 +176,7 @@ class LocateRun {
         if (!sources.has_pipe()) catch_interrupts();
     }
 
-    /// Runs and returns the exit status. Throws Error if a line cannot be written.
+    /// Locates all frames and returns the exit status. Throws Error if a line cannot be written.
     int operator()() {
         if (format_ == RecordFormat::csv) {
             lines_.write(csv_header(locator_.follower(), units_, columns_));
@@ -198,7 +198,7 @@ class LocateRun {
     }
 
   private:
-    /// The record of an image, or the error that prevented it.
+    /// The record for an image, or the error that occurred instead.
     using Outcome = std::variant<Record, Error>;
 
     capture::SourceOptions options_of(const LocateArguments& arguments) {

@@ -23,7 +23,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Columns of the pose in the pattern frame. `Columns::brief` omits them if a sheet file is given.
+/// Columns for the pose in the pattern frame. `Columns::brief` omits them if a sheet file is given.
 constexpr std::array<std::string_view, 6> kPatternPose = {
     "x_mm", "y_mm", "theta_deg", "x_pattern_m", "y_pattern_m", "yaw_pattern_rad"};
 constexpr std::array<std::string_view, 18> kBriefColumns = {
@@ -79,7 +79,8 @@ std::string in_one_line(const std::array<std::string, kWarnings>& warnings) {
     return line;
 }
 
-/// Returns the fields of the code, including the positions in both codes if two codes are possible.
+/// Returns the fields for the code, including the positions in both codes if two codes are
+/// possible.
 std::vector<Field> code_fields(const Record& record, Units units) {
     const CodeReading& reading = record.reading;
     const Fix& fix = reading.fix;
@@ -131,7 +132,7 @@ Field evidence(bool is_known, const char* key, Value value) {
     return {key, is_known ? text : "", kIsName};
 }
 
-/// Returns the fields of the position in the code and of the evidence for it.
+/// Returns the fields for the position in the code and for the evidence that supports it.
 std::vector<Field> evidence_fields(const Fix& fix) {
     const bool ok = fix.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
@@ -146,7 +147,7 @@ std::vector<Field> evidence_fields(const Fix& fix) {
     };
 }
 
-/// Returns the fields of the standard deviations, in mm and degrees.
+/// Returns the fields for the standard deviations, in mm and degrees.
 std::vector<Field> deviation_fields(const Record& record) {
     const Fix& fix = record.fix;
     const auto text = [&fix](double value) { return if_judged(fix, decimal(value, 6)); };
@@ -157,7 +158,7 @@ std::vector<Field> deviation_fields(const Record& record) {
     };
 }
 
-/// Returns the fields of the camera's velocity and turn rate during the readout of a rolling
+/// Returns the fields for the camera's velocity and turn rate during the readout of a rolling
 /// shutter.
 std::vector<Field> velocity_fields(const Record& record, Units units) {
     const auto text = [&](bool is_known, double per_s) {

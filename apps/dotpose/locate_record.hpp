@@ -1,4 +1,4 @@
-/// Result for one image: one line of the output of `dotpose locate`.
+/// The result of `dotpose locate` for one image, and its output line.
 #pragma once
 
 #include <array>
@@ -18,18 +18,18 @@ struct Record {
     Fix fix;
     CodeReading reading;         ///< code variant and the alternative to it, see Located
     bool code_is_given = false;  ///< true if the user or the sheet file specifies the code
-    double spacing_mm = 0;       ///< NaN if unknown; fields in mm are then empty
+    double spacing_mm = 0;       ///< NaN if unknown, in which case fields in mm are empty
     /// Spacing computed from the fix and the camera file, see Located.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     /// Velocity of the camera during the readout of a rolling shutter, see Located.
     std::optional<ReadoutVelocity> velocity;
-    bool has_space = false;          ///< true if the record has the fields of a pose in space
+    bool has_space = false;          ///< true if the record has fields for a pose in space
     std::optional<SpacePose> space;  ///< pose of the camera in space, see Located
-    bool has_tip = false;            ///< true if the record has the fields of a pen tip
+    bool has_tip = false;            ///< true if the record has fields for a pen tip
     std::optional<TipPose> tip;      ///< pen tip, see Located
     bool is_pen_down = false;
     MapUse map_use = MapUse::no_map;  ///< how the print map was used, see Located
-    bool has_sheets = false;          ///< true if the record has the fields of a sheet file
+    bool has_sheets = false;          ///< true if the record has fields for the place on a sheet
     std::optional<SheetPlace> place;  ///< place of the fix on its sheet, if it is on one
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
     double elapsed_us = 0;  ///< time to locate the image in µs, or NaN if not measured
@@ -40,8 +40,8 @@ struct Record {
     int max_p_wrong_log2 = 0;  ///< log2 of the maximum p_wrong for which a position is accepted
 };
 
-/// Returns the record of the image located last. File name, time and advice are left for the caller
-/// to set.
+/// Returns the record for the image located last. The caller must set the file name, the time and
+/// the advice.
 Record record_of(const Located& located, const Follower& follower);
 
 /// Length of the array that `warnings` returns.
@@ -61,23 +61,24 @@ std::string reason(const Record& record);
 /// Returns all fields in output order.
 std::vector<Field> fields(const Record& record, Units units);
 
-/// Returns the fields that a record has only with --sheets. The field `sheet` is null if the fix is
+/// Returns the fields that are output only with --sheets. The field `sheet` is null if the fix is
 /// not on any sheet.
 std::vector<Field> sheet_fields(const Record& record, Units units);
 
 /// Selection of CSV columns.
 enum class Columns {
-    brief,  ///< pose, standard deviations and p_wrong; with a sheet file, the poses on the sheet
-            ///< and in the world instead of the pose in the pattern frame
+    /// Pose, standard deviations and p_wrong. With a sheet file, the poses on the sheet and in the
+    /// world replace the pose in the pattern frame.
+    brief,
     all,
 };
 
-/// Returns the fields that are columns of the CSV output, in their original order.
+/// Returns the fields that the CSV output contains, in their original order.
 std::vector<Field> columns_of(std::vector<Field> fields, Columns columns);
 
 /// Returns the CSV header, including the line break, for a run with the options of `follower`.
 std::string csv_header(const Follower& follower, Units units, Columns columns);
-/// Returns an empty record with the fields of a run with the options of `follower`.
+/// Returns a record without a result. The options of `follower` determine which fields it has.
 Record empty_record(const Follower& follower);
 
 /// Returns one line of text: file, sheet, x, y and angle with their standard deviations, and the

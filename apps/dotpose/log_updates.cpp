@@ -173,8 +173,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // A row without a plane is from a robot that is lost. If such a row has a value for x_m, its
-    // fix is on a sheet with a world pose.
+    // In a row without a plane, the robot is lost. If such a row has a value for x_m, its fix is on
+    // a sheet with a world pose.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

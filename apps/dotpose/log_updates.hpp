@@ -6,7 +6,7 @@
 
 namespace dotpose::cli {
 
-/// Returns the robot state of a row. Throws Error if the row is invalid.
+/// Returns the robot state in a row. Throws Error if the row is invalid.
 ros::RobotUpdate update_of(const LogCells& row);
 
 }  // namespace dotpose::cli

@@ -16,12 +16,12 @@ struct MqttArguments {
     void add_to(Command& command);
 };
 
-/// Options of commands that publish the state of a robot.
+/// Options for commands that publish the state of a robot.
 struct PublishArguments {
     MqttArguments mqtt;
     std::string robot = "robot";  ///< name of the robot in MQTT topics and in ROS
-    /// Maximum number of messages per second, not counting messages about events. 0 to send a
-    /// message for every frame.
+    /// Maximum number of messages per second, not counting messages about events. If 0, a message
+    /// is sent for every frame.
     double max_rate_hz = 0;
 
     /// Adds the options of MqttArguments, --robot and --mqtt-rate. `robot_help` describes --robot.

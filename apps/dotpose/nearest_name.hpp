@@ -7,7 +7,7 @@
 
 namespace dotpose::cli {
 
-/// Returns the minimum number of edits that convert one word into the other (optimal string
+/// Returns the minimum number of edits needed to convert one word into the other (optimal string
 /// alignment). An edit inserts, removes or replaces a character, or swaps two adjacent characters.
 /// No character is edited twice, so the distance from "ca" to "abc" is 3.
 int edit_distance(std::string_view a, std::string_view b);

@@ -18,7 +18,7 @@ class NewPlaces {
     /// - the direction, by 15 degrees, or
     /// - the distance from the paper, by 10 %.
     ///
-    /// Each call of `thin_out` doubles these differences. Returns false for a frame without a fix.
+    /// Each call to `thin_out` doubles these differences. Returns false for a frame without a fix.
     bool take(const Fix& fix, ImageView image);
 
     std::size_t count() const { return places_.size(); }
@@ -36,7 +36,7 @@ class NewPlaces {
     };
 
     std::vector<Place> places_;
-    /// Factor by which the minimum differences have grown. Each call of `thin_out` doubles it.
+    /// Factor by which the minimum differences have grown. Each call to `thin_out` doubles it.
     double factor_ = 1;
 };
 

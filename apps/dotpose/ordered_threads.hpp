@@ -21,7 +21,7 @@ namespace dotpose::cli {
 template <typename Result>
 class OrderedThreads {
   public:
-    /// Function that a thread calls to deliver a result. Blocks while kMaxResults results of the
+    /// Function that a thread calls to deliver a result. Blocks while kMaxResults results from the
     /// thread are queued. Returns false if no more results are needed, in which case the thread
     /// must return.
     using Emit = std::function<bool(Result)>;
@@ -43,8 +43,8 @@ class OrderedThreads {
         }
     }
 
-    /// Returns the next result, or none after the last result. Rethrows the exception of a thread
-    /// that failed.
+    /// Returns the next result, or none after the last result. If the thread that should deliver
+    /// the result has failed, rethrows its exception.
     std::optional<Result> next() {
         Lane& lane = *lanes_[next_lane_++ % lanes_.size()];
         std::optional<Result> result = lane.take();

@@ -13,7 +13,7 @@
 
 namespace dotpose::cli {
 
-/// Options of commands that write one line per frame or packet.
+/// Options for commands that write one line per frame or packet.
 struct LineArguments {
     std::string out;  ///< path of the output file, or empty or "-" for standard output
     RecordFormat format = RecordFormat::json;
@@ -27,7 +27,7 @@ void add_format_options(Command& command, LineArguments& arguments, bool has_tex
 /// Adds the options of `add_format_options`, and --units mm|ros.
 void add_line_options(Command& command, LineArguments& arguments, bool has_text = false);
 
-/// Options of commands that write a single report.
+/// Options for commands that write a single report.
 struct ReportArguments {
     std::string out;  ///< path of the output file, or empty or "-" for standard output
     bool as_json = false;
@@ -38,8 +38,8 @@ struct ReportArguments {
 void add_report_options(Command& command, ReportArguments& arguments,
                         const std::string& out_help = "File to write instead of standard output");
 
-/// Writes the report to the file of -o or to standard output. Text is coloured if it goes to a
-/// terminal. Throws Error on failure.
+/// Writes the report to the file given to -o or to standard output. Text written to a terminal is
+/// coloured. Throws Error on failure.
 void write_report(const ReportArguments& arguments, const std::string& report);
 
 /// Adds --draw FILE, the path of an additional picture.

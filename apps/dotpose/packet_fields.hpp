@@ -1,4 +1,4 @@
-/// Output fields of pose packets.
+/// Output fields for pose packets.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// Returns the fields of a packet. `spacing_mm` is the spacing of the pattern. The pose fields are
+/// Returns the fields for a packet. `spacing_mm` is the spacing of the pattern. The pose fields are
 /// empty if the packet has no fix.
 std::vector<Field> fields(const PosePacket& packet, double spacing_mm, Units units);
 

@@ -34,7 +34,7 @@ class PacketFollower {
 
     bool has_sheets() const { return !sheets_.empty(); }
 
-    /// Returns the record of a packet, including the place of the fix on the sheets.
+    /// Returns the record for a packet, including the place of the fix on the sheets.
     Record record_of(const PosePacket& packet) const;
 
     /// Updates the track. Returns none if the packet is a repetition or is older than the newest

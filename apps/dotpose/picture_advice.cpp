@@ -204,7 +204,7 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Reduces the image until its dots form a grid. Returns the spacing of these dots in px of the
+/// Reduces the image until its dots form a grid. Returns the spacing of these dots in pixels of the
 /// original image if it exceeds kMaxSpacing_px, and none if no reduced image contains such a grid.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {

@@ -12,8 +12,8 @@ namespace dotpose::cli {
 
 /// Units and axes of poses in the output. World poses are always in metres and radians.
 enum class Units {
-    mm,   ///< mm and degrees, y down, clockwise, as seen on the paper
-    ros,  ///< metres and radians, y up, z out of the paper, counter-clockwise (ROS REP 103)
+    mm,   ///< mm and degrees, y down, angles clockwise, as seen on the paper
+    ros,  ///< metres and radians, y up, z out of the paper, angles counter-clockwise (ROS REP 103)
 };
 
 /// A pose in a plane, in mm and rad.
@@ -47,7 +47,8 @@ PoseNames track_names(Units units);
 
 /// Return the three fields of a pose, or the nine fields of its covariance in row-major order. All
 /// fields are empty if there is no pose, and the covariance fields are also empty if the covariance
-/// is unknown. The values are converted to the units, but not to the axes, of `units`.
+/// is unknown. The values are converted to the units selected by `units`, but the axes are not
+/// changed.
 std::vector<Field> pose_fields(const PoseNames& names, Units units,
                                const std::optional<PlanePose>& pose);
 std::vector<Field> covariance_fields(const PoseNames& names, Units units,

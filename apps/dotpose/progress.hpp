@@ -25,11 +25,11 @@ bool take_ctrl_c();
 std::string duration_text(double seconds);
 
 /// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". It appears
-/// only on a terminal, after one second of work, and is removed at the end. A message from `tell`
+/// only on a terminal and only after one second, and is removed at the end. A message from `tell`
 /// hides the line until the next update. Only one progress line may exist at a time.
 class ProgressLine {
   public:
-    /// `out` is the file to which the work writes its output lines, where empty or "-" means
+    /// `out` is the file to which the command writes its output lines, where empty or "-" means
     /// standard output. If these lines appear on a terminal, they already indicate the progress,
     /// and the progress line is not shown.
     ProgressLine(std::string what, const std::string& out);

@@ -16,8 +16,8 @@ Plane plane_of(const Follower& follower);
 struct Reading {
     std::int64_t index = 0;
     std::int64_t time_us = 0;
-    /// Result of the frame. If the fix was accepted only with the prior of the tracker
-    /// (`with_prior` in dotpose/track.hpp), `p_wrong` is the bound that includes this prior.
+    /// Result for the frame. If the fix was accepted only with the tracker's prior (`with_prior` in
+    /// dotpose/track.hpp), `p_wrong` is the bound that includes this prior.
     Record record;
     Track track;
     std::optional<SpaceTrack> space_track;  ///< see Followed

@@ -28,7 +28,7 @@ PlanePose plane_pose(const TrackedPose& pose) {
     return result;
 }
 
-/// Returns the fields of the velocities and their standard deviations. With `Units::mm`, also
+/// Returns the fields for the velocities and their standard deviations. With `Units::mm`, also
 /// returns the standard deviations of the pose. `is_flipped` is true if y points down in the track
 /// and up in the output. The y velocity and the turn rate are then negated.
 std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_flipped) {
@@ -60,7 +60,7 @@ std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_f
     };
 }
 
-/// Returns the fields of a track. The pose fields are empty while the robot is lost.
+/// Returns the fields for a track. The pose fields are empty while the robot is lost.
 std::vector<Field> track_fields(const Track& track, Plane plane, Units units) {
     const bool is_flipped = units == Units::ros && plane == Plane::pattern;
     std::optional<PlanePose> pose;

@@ -1,5 +1,5 @@
-/// Fields of an output line of `dotpose watch`: the fields of `dotpose locate`, and the fields of
-/// the tracker.
+/// Fields of an output line of `dotpose watch`: the fields that `dotpose locate` also writes, and
+/// the fields for the track.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace dotpose::cli {
 
 std::vector<Field> fields(const Reading& reading, Units units);
 
-/// Returns the CSV header of a run. `empty` is a record without a fix. Its flags, such as
-/// `has_sheets`, select the fields of the run.
+/// Returns the CSV header for a run. `empty` is a record without a fix. Its flags, such as
+/// `has_sheets`, select the fields.
 std::string csv_header_of_readings(const Record& empty, Units units);
 
 }  // namespace dotpose::cli

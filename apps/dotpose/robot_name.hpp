@@ -1,5 +1,5 @@
-/// Options for the name of a robot and the prefix of its frames, which appear in MQTT topics and in
-/// ROS names.
+/// Options for the name of a robot and for the prefix of its coordinate frames, which appear in
+/// MQTT topics and in ROS names.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// Records the messages of a robot to an MCAP file, using the topic names of ROS.
+/// Records a robot's messages to an MCAP file, with the topic names used in ROS.
 #pragma once
 
 #include <optional>

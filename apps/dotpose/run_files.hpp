@@ -24,7 +24,7 @@ enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 Content content_of(RecordFormat format);
 Content content_of(const ReportArguments& report);
 
-/// Identity of a file. Paths of the same file have equal identities, even through links or
+/// Identity of a file. All paths to a file have the same identity, even if they contain links or
 /// different folders. New files whose names differ only in case also have equal identities, because
 /// some file systems ignore case.
 struct FileIdentity {
@@ -52,7 +52,8 @@ class RunFiles {
     /// "-" means standard output for `-o`, and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
-    /// Registers the output of lines: the file of `-o`, or standard output if `-o` is not given.
+    /// Registers the output of lines: the file given to `-o`, or standard output if `-o` is not
+    /// given.
     void writes_lines(const std::string& path, Content content);
 
     /// Registers a file that is read, changed and rewritten, or created if it does not exist.
@@ -71,8 +72,8 @@ class RunFiles {
     void add_output(const std::string& label, const std::optional<FileIdentity>& identity);
     void require_free(const std::string& label, const FileIdentity& identity) const;
 
-    std::map<FileIdentity, std::string> inputs_;  ///< option and path of each input, for error
-                                                  ///< messages
+    /// Option and path of each input, for error messages.
+    std::map<FileIdentity, std::string> inputs_;
     std::map<FileIdentity, std::string> outputs_;
 };
 

@@ -1,5 +1,5 @@
-/// Reads logs of `dotpose watch`, in the CSV format of `--log` or as JSON lines. A log contains one
-/// row for each frame, including frames without a fix.
+/// Reads logs written by `dotpose watch`, in the CSV format of `--log` or as JSON lines. A log
+/// contains one row for each frame, including frames without a fix.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ class LogCells {
 /// valid log. An incomplete last line, which a power failure may cause, is ignored.
 class LogReader {
   public:
-    /// Columns that `read_log` needs. The logs of `watch --log` contain all of them.
+    /// Columns that `read_log` needs. Logs written by `watch --log` contain all of them.
     static constexpr std::array<const char*, 13> kWatchColumns = {
         "frame",   "t_s",   "status",     "dots_seen",  "p_wrong", "state",  "events",
         "verdict", "plane", "track_x_mm", "track_y_mm", "vx_mm_s", "vy_mm_s"};
@@ -116,7 +116,7 @@ struct RunStatistics {
     double mean_speed_mm_s = 0;  ///< mean speed while the robot is moving
     double largest_speed_mm_s = 0;
     double largest_p_wrong = 0;
-    std::set<std::string> planes;  ///< frames of reference of the poses: pattern, world, or both
+    std::set<std::string> planes;  ///< frames of reference used for poses: pattern, world, or both
 };
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);

@@ -38,8 +38,8 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
 
 /// Returns the offset to subtract from the coordinates along an axis. If the axis is short and far
 /// from the origin, as in the pattern frame, its labels would differ only in their last digits. The
-/// offset is therefore the centre of the axis, in whole mm, if the centre exceeds 1000 times half
-/// the axis length (`reach_mm`). Otherwise, the offset is 0.
+/// offset is therefore the coordinate of the axis centre, rounded to whole mm, if its magnitude
+/// exceeds 1000 times half the axis length (`reach_mm`). Otherwise, the offset is 0.
 double offset_mm(double middle_mm, double reach_mm) {
     constexpr double kMaxReaches = 1000;
     return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;

@@ -43,7 +43,7 @@ class SheetEntryArguments {
     /// Returns `command` with --origin appended. The result reprints the page with this origin.
     static std::string with_origin(const std::string& command, Cell origin);
 
-    /// Returns the options to omit from a command that reprints a page: the options of the sheet
+    /// Returns the options to omit from a command that reprints a page: the options for the sheet
     /// file, which would add the page again under a name that is already in use, and the options
     /// --pages and --origin, which are set for each page separately.
     static std::set<std::string> options_of_entering();

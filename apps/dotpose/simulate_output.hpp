@@ -1,4 +1,4 @@
-/// Destination of the frames of `dotpose simulate`: images in a folder, or a video.
+/// Writes the frames rendered by `dotpose simulate` to a folder of images or to a video.
 #pragma once
 
 #include <filesystem>

@@ -108,7 +108,7 @@ void Sources::add_files(RunFiles& files) const {
         try {
             its_files = capture::files_of(name);
         } catch (const Error&) {
-            continue;  // opening the source reports the error
+            continue;  // the error is reported when the source is opened
         }
         files.reads("", its_files);
     }
@@ -123,7 +123,7 @@ std::int64_t Sources::number_of_images() const {
         try {
             images += static_cast<std::int64_t>(capture::files_of(name).size());
         } catch (const Error&) {
-            return 0;  // opening the source reports the error
+            return 0;  // the error is reported when the source is opened
         }
     }
     return images;

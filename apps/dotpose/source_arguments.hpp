@@ -15,7 +15,7 @@
 
 namespace dotpose::cli {
 
-/// Help text of the positional argument for the sources.
+/// Help text for the positional argument that names the sources.
 inline constexpr const char* kSourcesHelp =
     "Images, folders, globs ('*.png'), videos, cameras (0, /dev/video0, URL), or - for raw frames";
 
@@ -67,8 +67,8 @@ class Sources {
     /// Error if a folder or glob cannot be read, and BadArgument if a source is not an image.
     std::vector<std::string> all_images();
 
-    /// Returns the number of images. Returns 0 if the number is unknown: if names come from a pipe,
-    /// or if a source cannot be read or does not consist of images.
+    /// Returns the number of images. Returns 0 if the number is unknown because names come from a
+    /// pipe, or because a source cannot be read or does not consist of images.
     std::int64_t number_of_images() const;
 
     /// Opens all sources as one sequence of frames. `*this` must outlive the result.

@@ -1,4 +1,4 @@
-/// Names of the frame sources of a command.
+/// Names of the frame sources given to a command.
 #pragma once
 
 #include <fstream>

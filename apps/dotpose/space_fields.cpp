@@ -78,7 +78,7 @@ std::vector<Field> if_known(bool is_known, std::vector<Field> fields) {
     return fields;
 }
 
-/// Returns the fields of position, rotation and covariance in the pattern frame. The field names
+/// Returns the fields for position, rotation and covariance in the pattern frame. The field names
 /// begin with `prefix`.
 std::vector<Field> pattern_fields(const std::string& prefix, const CameraInSpace& camera,
                                   const SpaceCovariance& covariance, Units units) {

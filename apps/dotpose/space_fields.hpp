@@ -1,4 +1,4 @@
-/// Fields of the pose of a camera in space.
+/// Output fields for the pose of a camera in space.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace dotpose::cli {
 
-/// Returns the fields of a pose in space and of its second solution. All field names begin with
-/// `camera_`. If `has_sheets` is true, also returns the fields of the pose on the sheet and in the
+/// Returns the fields for a pose in space and its second solution. All field names begin with
+/// `camera_`. If `has_sheets` is true, also returns the fields for the pose on the sheet and in the
 /// world. If there is no pose, the values are empty.
 std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 const std::optional<SheetPlace>& place, bool has_sheets,
                                 Units units);
 
-/// Returns the fields of the track of a camera in space: the verdict, the pose in the pattern
+/// Returns the fields for the track of a camera in space: the verdict, the pose in the pattern
 /// frame, the pose in the world (only if `has_sheets` is true), and the velocities. The pose in the
 /// pattern frame is empty if `is_in_world` is true, and the pose in the world is empty otherwise.
 /// While the camera is lost, only the verdict has a value.

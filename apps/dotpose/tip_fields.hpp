@@ -1,4 +1,4 @@
-/// Fields of a pen tip.
+/// Output fields for a pen tip.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct TipRecord {
     bool is_down = false;
 };
 
-/// Returns the fields of the tip: its position, its height, their standard deviations, and
+/// Returns the fields for the tip: its position, its height, their standard deviations, and
 /// `pen_down`. If `has_sheets` is true, also returns the position on the sheet and in the world. If
 /// there is no tip, the values are empty.
 std::vector<Field> tip_fields(const TipRecord& record, const std::optional<SheetPlace>& place,

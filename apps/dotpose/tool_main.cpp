@@ -30,7 +30,7 @@ constexpr const char* kFirstSteps =
     "  dotpose locate photo.jpg     the position of a photo on the sheet\n"
     "  dotpose watch 0              the position of a camera on the sheet, live\n";
 
-/// Returns a help text with the locations of the documents and the examples.
+/// Returns help text with the locations of the documents and the examples.
 std::string places_of_documents() {
     std::error_code failed;
     const auto folder = (system::program_folder() / DOTPOSE_DOCUMENTS_FROM_TOOL).lexically_normal();

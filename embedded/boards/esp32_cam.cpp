@@ -52,7 +52,7 @@ camera_config_t wiring() {
     return config;
 }
 
-/// Returns the driver's time stamp of a frame: the start of the frame, on the clock of esp_timer.
+/// Returns the driver's time stamp for a frame: the start of the frame, on the esp_timer clock.
 std::int64_t stamp_us(const camera_fb_t& of) {
     return of.timestamp.tv_sec * std::int64_t{1'000'000} + of.timestamp.tv_usec;
 }

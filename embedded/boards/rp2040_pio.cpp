@@ -1,7 +1,7 @@
 // Port for a Raspberry Pi Pico (RP2040) with the Pico SDK and an OV7670 camera module without FIFO.
 // The port was reviewed, but neither compiled nor run.
 //
-// A PIO state machine samples the bytes of the camera. Every second byte is a grey value (YUYV).
+// A PIO state machine samples the bytes from the camera. Every second byte is a grey value (YUYV).
 // Two DMA channels write the grey values to two row buffers in turn. Link with pico_stdlib
 // hardware_pio hardware_dma hardware_i2c. Focus the lens at a distance of about 27 mm
 // (docs/hardware.md).
@@ -37,7 +37,7 @@ constexpr int kTop = (kCameraHeight_px - kHeight_px) / 2;
 
 alignas(4) std::uint8_t rows[2][kCameraWidth_px];
 int channels[2];
-int newest = 0;  // index of the row buffer that the next call of next_row() returns
+int newest = 0;  // index of the row buffer that the next call to next_row() returns
 uint machine = 0;
 uint program = 0;
 

@@ -73,7 +73,7 @@ class Predictor {
     dotpose::DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory_;
 };
 
-/// Writes the located frames of a file to standard output, each preceded by a prediction.
+/// Writes the located frames from a file to standard output, each preceded by a prediction.
 int predict(const char* path, std::uint64_t seed) {
     if (!host::open(path)) return 1;
     Predictor predictor(seed);

@@ -1,4 +1,4 @@
-/// Semihosting calls of a debugger or emulator, as defined in Arm's "Semihosting for AArch32 and
+/// Semihosting calls to a debugger or emulator, as defined in Arm's "Semihosting for AArch32 and
 /// AArch64" and adopted by the "RISC-V Semihosting" specification.
 #pragma once
 

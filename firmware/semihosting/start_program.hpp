@@ -28,8 +28,8 @@ inline void clear(volatile std::uint32_t* from, const std::uint32_t* end) {
         *from++ = 0;
 }
 
-/// Returns the last word of the command line, which is the path of the file of frames. Returns an
-/// empty string if the command line is too long.
+/// Returns the last word of the command line, which is the path of the file with the frames.
+/// Returns an empty string if the command line is too long.
 inline const char* path_of_frames() {
     static std::array<char, 256> line;
     if (!semihosting::command_line(line.data(), line.size())) return "";

@@ -96,8 +96,8 @@ int roll(CodeVariant code, std::uint32_t p) noexcept;
 /// Returns one bit of the cyclic main sequence. The index wraps around.
 int main_bit(std::uint32_t index) noexcept;
 
-/// Returns the symbol at one intersection, in O(1). To encode a whole page, calling `roll` once per
-/// column and once per row is faster.
+/// Returns the symbol at one intersection, in O(1). When encoding a whole page, it is faster to
+/// call `roll` once per column and once per row.
 Symbol symbol_at(CodeVariant code, Cell cell, Section section) noexcept;
 
 /// Rectangle of symbols, stored row by row. Must have 6 to 32 columns and 6 to 32 rows.

@@ -1,4 +1,4 @@
-/// Code evidence: the probability of each code variant, given the frames of a sheet.
+/// Code evidence: the probability of each code variant, given frames that show one sheet.
 ///
 /// On most of the plane, the code variants print the same dots. Many frames can therefore be
 /// decoded in several variants, usually to the same place. If the places differ, further frames of
@@ -39,12 +39,12 @@ class CodeEvidence {
     /// log2 of the likelihood or odds of each code variant, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// Upper limit, as log2, of the odds of the likeliest code variant relative to any other
+    /// Upper limit, as log2, on the odds of the likeliest code variant relative to any other
     /// variant. It applies to each frame and to the accumulated evidence. Without this limit, the
     /// first frames of a new sheet in another variant could not outweigh the evidence accumulated
     /// on the previous sheet.
     static constexpr std::int32_t kMax_log2 = 40;
-    /// Upper limit, as log2, of the mean likelihood ratio of the consecutive frames at one place.
+    /// Upper limit, as log2, on the mean likelihood ratio of the consecutive frames at one place.
     static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
     /// Starts with equal odds for all code variants.
@@ -87,8 +87,8 @@ struct CodeReading {
     /// `Fix::p_wrong_log2` does not include the probability that the other place is correct.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
-    Cell other_cell{};  ///< `Fix::cell` of the other place; the fractions and the angle are the
-                        ///< same as in `fix`
+    /// `Fix::cell` of the other place. The fractions and the angle are the same as in `fix`.
+    Cell other_cell{};
     Section other_section{};
 };
 

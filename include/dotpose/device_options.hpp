@@ -91,8 +91,9 @@ struct IntegrityOptions {
 enum class Effort : std::uint8_t {
     device,  ///< one attempt in integer arithmetic, like that of a DeviceLocator
     once,    ///< the tracked attempt if there is a prediction, then the first attempt if necessary
-    twice,   ///< the attempts of `once`, and then a second attempt on the filtered image if the
-             ///< first attempt fails or its fix has large residuals
+    /// The attempts of `once`, and then a second attempt on the filtered image if the first attempt
+    /// fails or its fix has large residuals.
+    twice,
 };
 
 /// Selects the dots from which the position is decoded.
@@ -127,8 +128,8 @@ struct DeviceOptions {
     /// capacity of the memory]
     int max_dots = 4096;
 
-    /// Spacing of the printed grid, in nm. Used to convert a fix to millimetres. Default: 0.508 mm,
-    /// as in the paper. Use 0 if the spacing is unknown. [any]
+    /// Spacing of the printed grid, in nm. Used to convert positions to millimetres. Default: 0.508
+    /// mm, as in the paper. Use 0 if the spacing is unknown. [any]
     std::int32_t spacing_nm = 508'000;
 
     /// True to store dots, grid and bits in the trace during the first and the tracked attempt.

@@ -59,22 +59,23 @@ struct Fix {
     Surface surface = Surface::even;  ///< always `even` from a DeviceLocator
     Prior prior = Prior::plane;       ///< see Locator::set_known
 
-    Cell cell;                         ///< nearest intersection above and to the left of the
-                                       ///< reference point
+    /// Nearest intersection above and to the left of the reference point.
+    Cell cell;
     std::uint16_t fraction_x_q16 = 0;  ///< distance from `cell` to the right, in 1/65536 spacing
     std::uint16_t fraction_y_q16 = 0;  ///< distance from `cell` downwards, in 1/65536 spacing
-    std::int32_t theta_bam = 0;        ///< angle `theta` as a binary angle in [-2^31, 2^31), where
-                                       ///< 2^31 is half a turn
-    Section section;                   ///< section in which the position was read
-    std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image, in 2^-16 px
+    /// Angle `theta` as a binary angle in [-2^31, 2^31), where 2^31 is half a turn.
+    std::int32_t theta_bam = 0;
+    Section section;                  ///< section in which the position was read
+    std::int32_t spacing_px_q16 = 0;  ///< grid spacing in the image, in 2^-16 px
     /// Spacing of the printed grid, from the options. 0 if unknown.
     std::int32_t spacing_nm = 508'000;
 
     /// Number of frames whose bits were combined to find the position. Greater than 1 only if the
     /// caller provided the camera motion between the frames.
     int frames = 1;
-    int dots_seen = 0;  ///< number of dots found in the image, either as dot-sized blobs or at the
-                        ///< positions predicted by the code
+    /// Number of dots found in the image, either as dot-sized blobs or at the positions predicted
+    /// by the code.
+    int dots_seen = 0;
     int dots_used = 0;  ///< number of dots in the pose fit
     /// Number of bits that disagree with the code at the position. Each cell contributes two bits.
     int bit_errors = 0;
@@ -88,9 +89,9 @@ struct Fix {
     /// point, and the direction of the image x axis at that point, gives the pose. `Prediction`
     /// contains the same map.
     PlaneFromImage pattern_from_image;
-    Place place;                        ///< origin of `pattern_from_image`
-    std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
-                                        ///< 2^-16 spacing
+    Place place;  ///< origin of `pattern_from_image`
+    /// Typical distance of a dot from its intersection, in 2^-16 spacing.
+    std::int32_t displacement_q16 = 0;
     /// Change of theta during the readout of a rolling shutter, from the first to the last row. 0
     /// if the frame shows no significant rotation. The pose and `pattern_from_image` refer to the
     /// time at which the middle row was read.

@@ -20,7 +20,8 @@ struct FixedVec {
     friend constexpr bool operator==(const FixedVec&, const FixedVec&) = default;
 };
 
-/// Maps image points to the paper plane, in spacings. With (x, y) in px from `centre`:
+/// Map from image points to points on the paper plane. Plane points are in spacings. With (x, y) in
+/// px from `centre`:
 ///
 ///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)).
 ///
@@ -28,7 +29,7 @@ struct FixedVec {
 /// `centre` is the distortion centre. The core clamps the divisor to at least 1/4, because the map
 /// is singular where the divisor is 0.
 struct PlaneFromImage {
-    FixedVec centre_q8;      ///< image point of (x, y) = (0, 0), in 2^-8 px
+    FixedVec centre_q8;      ///< image point at which (x, y) = (0, 0), in 2^-8 px
     FixedVec at_centre_q16;  ///< plane point at `centre`, in 2^-16 spacings
     FixedVec du_q24;  ///< displacement in the plane per pixel to the right, in 2^-24 spacings
     FixedVec dv_q24;  ///< displacement in the plane per pixel down, in 2^-24 spacings

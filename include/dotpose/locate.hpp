@@ -64,8 +64,8 @@ class RowLocator {
     Status note_begin(Status status, int height_px);
     /// Counts a pushed row. Returns false if all rows of the frame have already been pushed.
     bool takes_row();
-    /// Returns true if a frame was begun. Otherwise, sets the status of the fix to the status of
-    /// `begin`, or to bad_argument if `begin` was not called.
+    /// Returns true if a frame was begun. Otherwise, sets the status of the fix to the status that
+    /// `begin` returned, or to bad_argument if `begin` was not called.
     bool has_rows();
     /// Ends the frame. Sets the spacing of its fix from the options, and returns the fix.
     Fix finished();
@@ -136,8 +136,8 @@ class Locator : public RowLocator {
     /// The prediction must have been made in `options().code`.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
-    /// Locates an image of a camera that has moved by `since_last` since the previous image. If the
-    /// previous image was located, first searches near the place that the motion predicts.
+    /// Locates an image from a camera that has moved by `since_last` since the previous image. If
+    /// the previous image was located, first searches near the place that the motion predicts.
     ///
     /// Successive images that are located with a motion form a series, which may include images
     /// without a pattern. If this image alone does not make the position certain, combines its bits
@@ -183,8 +183,8 @@ class Locator : public RowLocator {
     /// ignores all rows if `begin` was not called.
     void push_row(const std::uint8_t* pixels);
     /// Locates the image whose rows were pushed, in the same way as `locate`. Missing rows are
-    /// treated as white paper. If `begin` failed, the fix has the status of `begin`. If `begin` was
-    /// not called, the status is bad_argument.
+    /// treated as white paper. If `begin` failed, the fix has the status that `begin` returned. If
+    /// `begin` was not called, the status is bad_argument.
     Fix finish();
 
   private:
@@ -252,8 +252,8 @@ class DeviceLocator : public RowLocator {
     /// called.
     void push_row(const std::uint8_t* pixels);
 
-    /// Locates the frame whose rows were pushed. If `begin` failed, the fix has the status of
-    /// `begin`. If `begin` was not called, the status is bad_argument.
+    /// Locates the frame whose rows were pushed. If `begin` failed, the fix has the status that
+    /// `begin` returned. If `begin` was not called, the status is bad_argument.
     Fix finish();
 
   private:

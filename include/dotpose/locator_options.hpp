@@ -21,8 +21,8 @@ struct LocatorOptions {
     /// Code variant of the sheet. By default, it is detected from all frames so far. If two code
     /// variants explain a frame about equally well, the status is ambiguous_code.
     std::optional<CodeVariant> code;
-    /// Spacing of the printed grid. Used to convert a fix to millimetres. Default: 0.508 mm, as in
-    /// the paper. Use 0 if the spacing is unknown. [0 to 1000 mm]
+    /// Spacing of the printed grid. Used to convert positions to millimetres. Default: 0.508 mm, as
+    /// in the paper. Use 0 if the spacing is unknown. [0 to 1000 mm]
     double spacing_mm = 0.508;
 
     /// Radial distortion k, per px^2: p_u = m + r_d / (1 + k |r_d|^2) (paper, equations 1 and 2).

@@ -16,7 +16,7 @@ namespace dotpose {
 struct MeasuredMotion {
     float right_mm = 0;  ///< displacement along the image x axis
     float down_mm = 0;   ///< displacement along the image y axis
-    float turn_rad = 0;  ///< change of `Fix::theta_rad`, clockwise as seen on the paper
+    float turn_rad = 0;  ///< change of `Fix::theta_rad`, clockwise on the paper
     /// Standard deviations of the displacement along each axis, and of the rotation. The errors are
     /// assumed to be independent and normally distributed. If the values are too small, fixes may
     /// be wrong.

@@ -44,7 +44,7 @@ class AnyDeviceMemory {
     friend class DeviceLocator;
 };
 
-/// Memory of a DeviceLocator for a sensor of Width x Height px. The end of this header lists the
+/// Memory for a DeviceLocator whose sensor has Width x Height px. The end of this header lists the
 /// supported sizes. Frames may be smaller. The memory for 36 x 36 px is intended for the sensors of
 /// optical mice, whose frames can be located only on known sheets (DeviceLocator::set_known).
 /// Memory for a width of 160 or 188 px also supports frames with more rows than Height.
@@ -60,8 +60,8 @@ class DeviceMemoryFor : public AnyDeviceMemory {
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 188 px wide, the width of the paper's sensor. Its size is
-/// about 330 KB.
+/// Memory for a Locator whose images are up to 188 px wide, the width of the paper's sensor. Its
+/// size is about 330 KB.
 class SmallMemory {
   public:
     SmallMemory();
@@ -75,7 +75,7 @@ class SmallMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 4096 x 4096 px. Its size is about 4.4 MB.
+/// Memory for a Locator whose images have up to 4096 x 4096 px. Its size is about 4.4 MB.
 class LargeMemory {
   public:
     LargeMemory();

@@ -12,8 +12,8 @@ namespace dotpose {
 
 /// An option whose value is outside its range.
 struct OptionFault {
-    const char* name = nullptr;  ///< name of the option, such as "lattice.min_dots"; null if all
-                                 ///< options are in range
+    /// Name of the option, such as "lattice.min_dots". Null if all options are in range.
+    const char* name = nullptr;
     std::int32_t value = 0;
     std::int32_t low = 0;
     std::int32_t high = 0;

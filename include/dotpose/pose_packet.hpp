@@ -40,8 +40,8 @@ struct PosePacket {
     Cell cell;  ///< as in Fix
     std::uint16_t fraction_x_q16 = 0;
     std::uint16_t fraction_y_q16 = 0;
-    std::int16_t theta_bam16 = 0;  ///< binary angle: 2^15 is half a turn, and one step is 0.0055
-                                   ///< degrees
+    /// Binary angle: 2^15 is half a turn, and one step is 0.0055 degrees.
+    std::int16_t theta_bam16 = 0;
     Section section;
     /// -log2 of the upper bound on the probability that the position is wrong. 255 means 255 or
     /// more.

@@ -19,7 +19,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Expected map from the image to the pattern in a frame, with its uncertainty.
+/// Expected map from the next image to the pattern, with its uncertainty.
 struct Prediction {
     /// Map from the image to the pattern, in spacings relative to `place`.
     PlaneFromImage pattern_from_image;

@@ -47,8 +47,8 @@ struct Sighting {
     std::int32_t theta_bam = 0;
     /// ID of the plane that contains the pose. Poses in different planes are unrelated.
     std::uint32_t plane = 0;
-    std::array<std::array<float, 3>, 3> covariance{};  ///< covariance of x, y and theta, in mm and
-                                                       ///< rad
+    /// Covariance of x, y and theta, in mm and rad.
+    std::array<std::array<float, 3>, 3> covariance{};
     /// Upper bound on the probability that the position is wrong, as log2 (see Fix). The sighting
     /// is *weak* if this value exceeds TrackOptions::max_p_wrong_log2.
     int p_wrong_log2 = 0;
@@ -99,8 +99,8 @@ struct TrackOptions {
     std::int64_t stationary_after_us = 500'000;
 
     /// Standard deviations of printing errors. Their squares are added to the covariance of each
-    /// sighting. Printing errors do not average out, because all frames of one part of the paper
-    /// have the same printing errors.
+    /// sighting. Printing errors do not average out, because they are the same in all frames that
+    /// show the same part of the paper.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
@@ -135,7 +135,7 @@ struct TrackedPose {
     double theta_rad() const { return theta_bam * (std::numbers::pi / 2147483648.0); }
 };
 
-/// The tracker's verdict on the sighting of a frame.
+/// The tracker's verdict on the sighting in a frame.
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
     /// The sighting is certain enough without the prior, and its pose is possible or confirmed. A
@@ -196,9 +196,9 @@ using Covariance9 = std::array<Vector9, 9>;
 /// State of the filter.
 struct MotionEstimate {
     TrackedPose pose;
-    Vector3 acceleration{};    ///< mm/s^2, rad/s^2
-    Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and their
-                               ///< accelerations
+    Vector3 acceleration{};  ///< mm/s^2, rad/s^2
+    /// Covariance of (x, y, theta), their velocities and their accelerations.
+    Covariance9 covariance{};
     /// Agility of each axis: a factor of at most 1, by which the filter multiplies the variance of
     /// the acceleration along this axis. TrackOptions contains the standard deviation for a factor
     /// of 1.

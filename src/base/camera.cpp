@@ -16,14 +16,14 @@ namespace dotpose {
 namespace {
 
 constexpr double kMaxCentre_px = 1000;
-/// Maximum distance of the reference point from the image centre. It is larger than any image, but
-/// small enough for the range of the fixed-point pose.
+/// Maximum distance of the reference point from the image centre. It is larger than any image side,
+/// but small enough for the fixed-point pose not to overflow.
 constexpr double kMaxReference_px = 10'000;
 constexpr double kMaxFocal_px = 1e6;
 constexpr double kMinStretch = 0.5;
 constexpr double kMaxStretch = 2;
 
-/// Position on an axis of equidistant sample points, for linear interpolation between the two
+/// Position along an axis with equidistant sample points, for linear interpolation between the two
 /// adjacent points.
 struct Between {
     std::size_t first;  ///< index of the point at or before the position, in [0, `count` - 2]

@@ -13,8 +13,8 @@ namespace dotpose::base {
 
 /// Replaces unsafe bytes and characters with U+FFFD. Bytes are unsafe if they are not valid UTF-8.
 /// Characters are unsafe if they move the cursor, start a terminal command, break the line or
-/// change the writing direction. The result can neither control a terminal nor imitate another line
-/// of output.
+/// change the text direction. The result can neither control a terminal nor imitate another line of
+/// output.
 std::string printable(std::string_view text);
 
 /// Replaces the control characters U+007F to U+009F in JSON text with \u escapes, because a

@@ -1,4 +1,4 @@
-/// The individual checks of `validate(sheet)`, for code that creates sheets.
+/// The individual checks that `validate(sheet)` performs, for code that creates sheets.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@
 namespace dotpose::base {
 
 /// Throws Error with the text "cannot ACTION PATH: REASON". The reason is the system's message for
-/// an error code or a value of errno.
+/// an error code or an errno value.
 [[noreturn]] inline void throw_system(const std::string& action, const std::filesystem::path& path,
                                       std::error_code error) {
     throw Error("cannot " + action + " " + path.string() + ": " + error.message());

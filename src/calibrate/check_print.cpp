@@ -23,8 +23,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Maximum ratio of the measured spacing to the spacing at the stated resolution. The resolution is
-/// ignored if the ratio is greater than this value or less than its reciprocal.
+/// Maximum ratio of the measured spacing to the spacing expected at the stated resolution. The
+/// resolution is ignored if the ratio is greater than this value or less than its reciprocal.
 constexpr double kMaxSpacingRatio = 2;
 constexpr std::size_t kMinFieldDots = 30;
 
@@ -180,7 +180,7 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If more than a fraction kSuspicious of the bits of a field disagrees with the code, checks
+/// If more than a fraction kSuspicious of the bits in a field disagrees with the code, checks
 /// whether the page uses a different code variant. If it does, reports only the wrong variant,
 /// because it causes all other findings.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {

@@ -1,4 +1,4 @@
-// Least-squares fit to the dots of one frame, with rejection of outliers.
+// Least-squares fit to the dots in one frame, with rejection of outliers.
 #pragma once
 
 #include <array>

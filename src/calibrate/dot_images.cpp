@@ -27,8 +27,8 @@ constexpr double kFitRadius = 0.36;
 /// Maximum distance of a dot from its expected position, in spacings.
 constexpr double kMaxOffset = 0.25;
 constexpr int kPasses = 4;
-/// Initial value of the variance that blur and the area of a pixel add to the image of a dot, in
-/// px^2. The next two constants are the limits of the fitted value.
+/// Initial value of the variance that blur and the pixel area add to the image of a dot, in px^2.
+/// The next two constants are the limits for the fitted value.
 constexpr double kUsualBlur_px2 = 0.5;
 constexpr double kMinBlur_px2 = 0.1;
 constexpr double kMaxBlur_px2 = 4;
@@ -210,7 +210,7 @@ std::vector<std::optional<DotCentre>> measured_centres(const ImageView& image,
             dot.is_valid = sums.pixels >= kMinPixels && step.allFinite() && dot.contrast > 0 &&
                            offset.norm() < kMaxOffset;
             if (!dot.is_valid) continue;
-            // Eliminates the parameters of the dot from the equation of the blur variance.
+            // Eliminates the parameters of the dot from the equation for the blur variance.
             normal += sums.blur_normal - sums.with_blur.dot(factors.solve(sums.with_blur));
             right += sums.blur_right - sums.with_blur.dot(step);
         }

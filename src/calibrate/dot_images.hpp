@@ -15,7 +15,7 @@ namespace dotpose::calibrate {
 /// A dot that the code predicts in an image.
 struct ExpectedDot {
     Eigen::Vector2d pixel;
-    /// Derivative of the pixel with respect to the position on the paper, in px per spacing.
+    /// Derivative of `pixel` with respect to the position on the paper, in px per spacing.
     Eigen::Matrix2d px_per_spacing;
 };
 

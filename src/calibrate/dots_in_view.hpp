@@ -1,4 +1,4 @@
-// Measures all dots of a frame, given an approximate pose of the camera in space.
+// Measures all dots in a frame, given an approximate pose of the camera in space.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct PatternView {
     const Camera& camera;
     Pinhole pinhole;
     AxisScale spacing_mm;
-    /// Map of the page, or null. With a map, only dots with at least one view in the map are used.
+    /// Map of the page, or null. With a map, only dots that were measured for the map are used.
     const MapPage* map = nullptr;
 };
 
@@ -29,8 +29,8 @@ struct CodeDot {
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< offset in the print map, in spacings
 };
 
-/// Returns the dot of the code at a step from `trace.decoding.place`. Returns nullopt if the view
-/// has a map in which the dot has no views.
+/// Returns the dot of the code at a step from `trace.decoding.place`. Returns nullopt if there is a
+/// map, but the dot was not measured for it.
 std::optional<CodeDot> code_dot(const PatternView& view, const Trace& trace, FixedVec step);
 
 /// Returns the position of a dot on the paper, together with the undistorted pixel at which it was

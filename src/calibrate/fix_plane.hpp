@@ -1,4 +1,4 @@
-// The map of a fix from pixels to the code plane or to the paper, using Eigen types.
+// A fix's map from pixels to the code plane or to the paper, using Eigen types.
 #pragma once
 
 #include <Eigen/Core>

@@ -16,11 +16,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr int kMinFrames = 20;
-/// Number of intervals between the values of a flat field along the longer side of the image. For
-/// vignetting that darkens the corners by half, the interpolation error is then about 1 %.
+/// Number of intervals between flat-field values along the longer side of the image. For vignetting
+/// that darkens the corners by half, the interpolation error is then about 1 %.
 constexpr double kIntervals = 10;
 
-/// Returns the mean of the frames, relative to white: one row of the matrix per row of the image.
+/// Returns the mean of the frames, relative to white, as a matrix with one row per image row.
 MatrixXd mean_of(int frames, const FrameAt& frame_at, const std::optional<Camera>& camera,
                  const CalibrateOptions& options) {
     using Levels = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

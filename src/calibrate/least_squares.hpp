@@ -1,6 +1,5 @@
-// Normal equations for linear least squares, and operations on covariances. All matrix
-// decompositions and products of this layer are in least_squares.cpp, because they are slow to
-// compile.
+// Normal equations for linear least squares, and operations on covariances. Matrix decompositions
+// and products that several files use are in least_squares.cpp, because they are slow to compile.
 #pragma once
 
 #include <span>
@@ -23,7 +22,8 @@ class NormalEquations {
 
     /// Returns the parameters with the smallest sum of squared residuals.
     std::vector<double> solution() const;
-    /// Returns the sum of squared residuals with all parameters 0, minus the sum at the solution.
+    /// Returns the sum of squared residuals with all parameters set to 0, minus the sum at the
+    /// solution.
     double explained_squares() const;
     /// Returns the covariance of the solution if the wanted values have variance 1.
     Eigen::MatrixXd unit_covariance() const;

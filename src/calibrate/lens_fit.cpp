@@ -16,11 +16,11 @@ constexpr int kLensRounds = 3;
 constexpr double kOutlier_sigmas = 4;
 /// Assumed standard deviation of the residuals before the first fit.
 constexpr double kFirstSigma_px = 0.3;
-/// Priors of the camera: the distortion centre is near the image centre (standard deviation 5 % of
-/// the image diagonal), the field of view is about 55 degrees, and pixels are square to within 2 %.
-/// The priors only matter for parameters that the frames do not determine: the distortion centre if
-/// there is no distortion, the focal length if the camera is not tilted, and the shape of the
-/// pixels if the tilt never changes.
+/// Priors on the camera parameters: the distortion centre is near the image centre (standard
+/// deviation 5 % of the image diagonal), the field of view is about 55 degrees, and pixels are
+/// square to within 2 %. The priors only matter for parameters that the frames do not determine:
+/// the distortion centre if there is no distortion, the focal length if the camera is not tilted,
+/// and the shape of the pixels if the tilt never changes.
 constexpr double kCentrePrior = 0.1;  // in units of half the image diagonal
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
@@ -58,7 +58,7 @@ struct Seen {
     }
 };
 
-/// Residual of a mounted camera: the difference between the measured and the printed position of a
+/// Residual for a mounted camera: the difference between the measured and the printed position of a
 /// dot, in px.
 struct MountedResidual {
     Seen seen;
@@ -82,7 +82,7 @@ struct MountedResidual {
     }
 };
 
-/// Residual of a hand-held camera: the difference between the measured and the printed position of
+/// Residual for a hand-held camera: the difference between the measured and the printed position of
 /// a dot, in px. The camera model is that of simulate.hpp, extended to non-square pixels.
 struct HandheldResidual {
     Seen seen;
@@ -99,7 +99,7 @@ struct HandheldResidual {
         const T sx = sin(pose[4]);
         const T cy = cos(pose[5]);
         const T sy = sin(pose[5]);
-        // The point (s, t) of the paper is s (cy, sx sy, -cx sy) + t (0, cx, sx) + (0, 0, distance)
+        // The point (s, t) on the paper is s (cy, sx sy, -cx sy) + t (0, cx, sx) + (0, 0, distance)
         // in the camera frame. Solves for the point on the ray (a, b, focal).
         const T m00 = cy + a * per_focal * cx * sy;
         const T m01 = -a * per_focal * sx;

@@ -1,4 +1,4 @@
-// Least-squares fit to the dots of all frames, with one camera and one pose per frame.
+// Least-squares fit to the dots in all frames, with one camera and one pose per frame.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct LensFit {
     /// Pose of each frame: x and y in mm from `LocatedFrame::place`, and the rotation in radians.
     /// For a hand-held camera, also mm per px and the two tilts in radians.
     std::vector<std::array<double, 6>> poses;
-    /// Residual of each dot of each frame.
+    /// Residual of each dot in each frame.
     std::vector<std::vector<std::array<double, 2>>> residuals_px;
     std::vector<std::vector<char>> is_outlier;
     double squares_px2 = 0;  ///< sum of the squared residuals of the dots used
@@ -59,7 +59,7 @@ struct FitSetting {
 LensFit fit_lens(const std::vector<LocatedFrame>& frames, const FitSetting& setting, Stand stand,
                  const LensFit* start = nullptr);
 
-/// Returns the position on the paper that the fit assigns to a pixel of a frame, in mm from
+/// Returns the position on the paper that the fit assigns to a pixel in a frame, in mm from
 /// `LocatedFrame::place`.
 std::array<double, 2> place_on_paper(const LensFit& fit, std::size_t frame, PixelPoint pixel,
                                      const FitSetting& setting);

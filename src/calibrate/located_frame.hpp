@@ -1,4 +1,4 @@
-// The dots of each located frame, with their pixels and their places in the code.
+// The dots in each located frame, with their pixel coordinates and their places in the code.
 #pragma once
 
 #include <cmath>
@@ -27,11 +27,11 @@ struct LocatedDot {
     Symbol symbol = Symbol::up;
 };
 
-/// Returns the dots that `locate` read. Pixels are undistorted. Steps are relative to
+/// Returns the dots that `locate` read. Pixel coordinates are undistorted. Steps are relative to
 /// `trace.decoding.place`.
 std::vector<LocatedDot> dots_read(const Trace& trace);
 
-/// Dots of one frame. Pixel positions are not corrected for distortion.
+/// Dots in one frame. Pixel coordinates are not corrected for distortion.
 struct LocatedFrame {
     int index = 0;                  ///< index of the frame in the series
     Place place;                    ///< place of step (0, 0)

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 /// Maximum number of coarse nodes. With this number, the factorisation takes 5 Gflop, and the
 /// matrix takes 46 MB.
 constexpr std::size_t kMaxNodes = 800;
-/// Unknowns of a node: shift along x, shift along y, and change of the displacement.
+/// Unknowns of a node: shift along x, shift along y, and change in the displacement.
 constexpr int kNodeTerms = 3;
 using NodeBlock = Eigen::Matrix<double, kNodeTerms, kNodeTerms>;
 
@@ -142,7 +142,7 @@ void MapDeformation::add_dots(const MapGrid& grid, const EarlierOffsets& earlier
         if (!earlier.views.empty())
             square = weight * static_cast<double>(earlier.views[dot]) * offset.transpose() * offset;
         // The prior applies to the difference between the offset and the field. A shift changes the
-        // offset and the field equally, so only a change of the displacement contributes.
+        // offset and the field equally, so only a change in the displacement contributes.
         square(2, 2) += prior_weight;
         const MapField::Around near = around_dot(nodes_, grid, dot);
         for (std::size_t i = 0; i < 4; ++i) {

@@ -17,11 +17,11 @@
 
 namespace dotpose::calibrate {
 
-/// The equations for slow deformations. A deformation consists of shifts along x and y, and of a
-/// change of the displacement of the dots. These three values are interpolated bilinearly between
-/// coarse nodes. They determine all unknowns of the map: the field is equal to the shifts, the
-/// offset of a dot is the shift plus the change of its displacement, and the terms of a frame are a
-/// least-squares fit to the offsets of its dots.
+/// The equations for slow deformations. A deformation consists of a shift along x, a shift along y,
+/// and a change in the displacement of the dots. These three values are interpolated bilinearly
+/// between coarse nodes. They determine all unknowns of the map: the field is equal to the shifts,
+/// the offset of a dot is the shift plus the change in its displacement, and the terms of a frame
+/// are a least-squares fit to the offsets of its dots.
 class MapDeformation {
   public:
     MapDeformation(const MapGrid& grid, const EarlierOffsets& earlier,
@@ -36,16 +36,16 @@ class MapDeformation {
     Eigen::Matrix3d covariance_of(const Eigen::Matrix<double, 3, Eigen::Dynamic>& functions) const;
     /// Returns the coarse nodes.
     const MapField& nodes() const { return nodes_; }
-    /// Returns the number of unknowns: shift along x, shift along y, and change of the displacement
-    /// of each coarse node.
+    /// Returns the number of unknowns: the shift along x, the shift along y, and the change in the
+    /// displacement for each coarse node.
     Eigen::Index unknowns() const { return first_term(nodes_.nodes()); }
     static Eigen::Index first_term(std::size_t node);
 
   private:
     using Following = Eigen::Matrix<float, kFrameTerms, Eigen::Dynamic>;
 
-    /// Response of a frame to a deformation: the terms of the frame for a unit value of each
-    /// unknown of the coarse nodes around its dots.
+    /// Response of a frame to a deformation: for each unknown of the coarse nodes around its dots,
+    /// the terms of the frame if this unknown is 1 and all others are 0.
     struct Follower {
         std::vector<std::uint32_t> nodes;
         Following terms;  ///< columns: shift x, shift y and displacement of each node
@@ -62,7 +62,7 @@ class MapDeformation {
                                 const MapSolution& solution, const MapFrame& frame) const;
     void add_frames(const MapGrid& grid, const std::vector<MapObservation>& observations,
                     const MapSolution& solution, Eigen::MatrixXd& matrix);
-    /// Adds the equations for the offsets in the earlier map and for the prior of the offsets.
+    /// Adds the equations for the offsets in the earlier map and for the prior on the offsets.
     void add_dots(const MapGrid& grid, const EarlierOffsets& earlier, const MapSolution& solution,
                   Eigen::MatrixXd& matrix) const;
     void add_smoothness(const MapField& field, Eigen::MatrixXd& matrix) const;

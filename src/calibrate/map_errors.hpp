@@ -1,5 +1,5 @@
-// Covariances of the map errors that are common to all dots of a view. Map errors vary slowly over
-// the page, so they are nearly the same for all dots of a view.
+// Covariances of the map errors that are common to all dots in a view. Map errors vary slowly over
+// the page, so they are nearly the same for all dots in a view.
 #pragma once
 
 #include "calibrate/map_deformation.hpp"
@@ -11,9 +11,9 @@ namespace dotpose::calibrate {
 /// `fix_gauge`, which sets them to 0.
 enum class Gauge : bool { earlier, fixed };
 
-/// Returns the covariances of the shift and turn of views centred on the nodes of a grid over the
-/// page, computed from the equations for slow deformations. The diagonal of a view is twice the
-/// reach of the solution.
+/// Returns the covariance of the map error (shift and turn) in a view, for views centred on the
+/// nodes of a grid over the page. The covariances are computed from the equations for slow
+/// deformations. The diagonal of a view is twice the reach of the solution.
 MapErrorGrid map_errors(const MapGrid& grid, const MapSolution& solution,
                         const MapDeformation& deformation, Gauge gauge);
 

@@ -28,11 +28,11 @@ class MapField {
     std::vector<Eigen::Vector2d>& values() { return values_; }
     std::size_t nodes() const { return values_.size(); }
 
-    /// Adds the product of `values` and the matrix of the smoothness prior to `product`. The prior
-    /// is a sum of squared second differences, each divided by its variance.
+    /// Multiplies the matrix of the smoothness prior by `values`, and adds the result to `product`.
+    /// The prior is a sum of squared second differences, each divided by its variance.
     void add_prior(const std::vector<Eigen::Vector2d>& values,
                    std::vector<Eigen::Vector2d>& product) const;
-    /// Adds the diagonal of the matrix of the smoothness prior to `diagonal`.
+    /// Adds the diagonal of the matrix of the smoothness prior to the vector `diagonal`.
     void add_prior_diagonal(std::vector<double>& diagonal) const;
 
     /// Returns a field with the value 0 and at most `max_nodes` nodes that covers all nodes of this

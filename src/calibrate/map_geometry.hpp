@@ -33,9 +33,9 @@ class MapView {
         double y;
         Eigen::Vector2d direction;
 
-        /// Returns the change of the residual for changes of the parameters. `frame` contains the
-        /// changes of position, angle and displacement. `shared` is the sum of the view terms of
-        /// the frame and the terms of the camera.
+        /// Returns the change in the residual for given changes in the parameters. `frame` contains
+        /// the changes in position, angle and displacement. `shared` is the sum of the view terms
+        /// of the frame and the terms of the camera.
         Eigen::Vector2d change(const FrameVector& frame, const CameraVector& shared) const {
             const double scale =
                 shared[0] + shared[3] * x + shared[4] * y + shared[5] * (x * x + y * y);
@@ -80,7 +80,7 @@ class MapView {
     Eigen::Matrix2d rotation_;
 };
 
-/// Adds the prior of the view terms to the normal equations of a frame, which are in units of 1 /
+/// Adds the prior on the view terms to the normal equations of a frame, which are in units of 1 /
 /// `variance`. The block is then invertible even if the dots of the frame do not determine all
 /// terms.
 inline void add_view_prior(const MapSolution& solution, double variance, FrameBlock& block) {

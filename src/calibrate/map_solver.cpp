@@ -22,10 +22,10 @@ using Eigen::Vector2d;
 /// Number of linearisations. After each linearisation, the variances are estimated and the outliers
 /// are marked again.
 constexpr int kRounds = 3;
-/// Conjugate gradients stop when the mean square of the preconditioned residual is at most this
-/// value, in units of the variance of an unknown. Smaller values do not change the errors of the
-/// map. All rounds but the last use kFirstConverged, because they only estimate variances and find
-/// outliers.
+/// The conjugate gradient iterations stop when the mean square of the preconditioned residual is at
+/// most this value, in units of the variance of an unknown. Smaller values do not change the errors
+/// of the map. All rounds but the last use kFirstConverged, because they only estimate variances
+/// and find outliers.
 constexpr double kConverged = 1e-6;
 constexpr double kFirstConverged = 1e-4;
 /// Maximum squared residual of an observation in the first round, in units of the variance per
@@ -60,8 +60,8 @@ FreeView free_view(const FrameBlock& block, const FrameVector& right, const MapF
             variance * inverse.diagonal().tail<kViewTerms>()};
 }
 
-/// Returns the standard deviations of the view terms between frames. If the terms do not differ by
-/// more than their errors, the camera is considered rigid and the result is nearly 0.
+/// Returns the standard deviations with which the view terms vary between frames. If the terms do
+/// not differ by more than their errors, the camera is considered rigid and the result is nearly 0.
 std::array<double, kViewTerms> view_sigma_of(const std::vector<FreeView>& views) {
     std::array<double, kViewTerms> result{};
     for (int k = 0; k < kViewTerms; ++k) {
@@ -175,11 +175,11 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
         std::sqrt(jitter / static_cast<double>(std::max<std::size_t>(seen, 1))), kMinJitter_mm);
 }
 
-/// Removes the mean offset, scale and turn of the seen dots from the offsets, because views of the
-/// page do not determine them. Applies the inverse similarity to the complete positions of the
-/// dots, not only to their intersections, because offsets and displacements turn with the page. For
-/// example, a turn by 0.003 rad changes the 40 µm offsets of a feed wave by 0.13 µm, and moves a
-/// dot that is displaced by 85 µm by 0.26 µm.
+/// Removes from all offsets the mean offset, scale and turn of the dots that were seen, because
+/// views of the page do not determine them. Applies the inverse similarity to the complete
+/// positions of the dots, not only to their intersections, because offsets and displacements turn
+/// with the page. For example, a turn by 0.003 rad changes the 40 µm offsets of a feed wave by 0.13
+/// µm, and moves a dot that is displaced by 85 µm by 0.26 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;

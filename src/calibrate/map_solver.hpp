@@ -1,4 +1,4 @@
-// Computes the offsets of the dots of a page and the poses of all frames together, by sparse least
+// Computes the offsets of the dots on a page and the poses of all frames together, by sparse least
 // squares.
 #pragma once
 
@@ -44,7 +44,7 @@ using CameraVector = Eigen::Matrix<double, kCameraTerms, 1>;
 /// Pose and view of a frame. The point P in the camera frame corresponds to the point place +
 /// R(angle) (P + view terms) on the page.
 struct MapFrame {
-    std::size_t first = 0;  ///< index of its first observation
+    std::size_t first = 0;  ///< index of the first observation
     std::size_t count = 0;  ///< number of observations
     Eigen::Vector2d place_mm = Eigen::Vector2d::Zero();
     double angle_rad = 0;
@@ -83,7 +83,7 @@ struct EarlierOffsets {
     std::vector<float> views;
 };
 
-/// Covariances of the error of a map in a view (see `MapErrors`), in mm and rad.
+/// Covariances of the map error at the nodes of a grid (see `MapErrors`), in mm and rad.
 struct MapErrorGrid {
     int columns = 0;
     int rows = 0;
@@ -100,14 +100,14 @@ struct MapSolution {
     std::vector<std::uint32_t> views;            ///< number of views of each dot
     double noise_mm = 0;                         ///< see MapPage::noise
     double jitter_mm = 0;                        ///< see MapPage::jitter
-    /// Standard deviations of the view terms between frames, estimated by `solve_map`.
+    /// Standard deviations with which the view terms vary between frames, estimated by `solve_map`.
     std::array<double, kViewTerms> view_sigma{};
     MapErrorGrid errors;
     std::size_t outliers = 0;
-    int iterations = 0;  ///< conjugate gradient iterations of all rounds
+    int iterations = 0;  ///< number of conjugate gradient iterations in all rounds
 };
 
-/// Called after each step with the completed fraction of the work. May throw to cancel the work.
+/// Called after each step with the completed fraction of the computation. May throw to cancel it.
 using MapProgress = std::function<void(double share)>;
 
 /// Computes the offsets of the dots, refines the poses of the frames, and marks outliers.

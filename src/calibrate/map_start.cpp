@@ -56,7 +56,7 @@ FixPlane median_view(const std::vector<FixPlane>& views) {
     return view;
 }
 
-/// Returns true if `linear` of at least half of the views differs from that of `typical` by more
+/// Returns true if, for at least half of the views, `linear` differs from that of `typical` by more
 /// than kMaxMedianChange, relative to its norm. This means that the camera was hand-held.
 bool differ(const std::vector<FixPlane>& views, const FixPlane& typical) {
     constexpr double kMaxMedianChange = 0.01;

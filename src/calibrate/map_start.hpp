@@ -1,4 +1,4 @@
-// Collects the dots of a page and of its frames, and computes approximate poses of the frames.
+// Collects the dots on a page and in its frames, and computes approximate poses of the frames.
 #pragma once
 
 #include <optional>
@@ -16,21 +16,21 @@ namespace dotpose::calibrate {
 /// Returns the dots of a page at their nominal positions, scaled by the print scales of the sheet.
 MapGrid grid_of(const SheetEntry& entry);
 
-/// A frame of a page, and its view computed from the fix.
+/// A frame that shows the page, with the view computed from its fix.
 struct MapSighting {
-    std::size_t first = 0;  ///< index of its first observation
+    std::size_t first = 0;  ///< index of the first observation
     std::size_t count = 0;
     PlaneFromImage plane;
 };
 
-/// Adds the dots of a fix that are on the page. Their coordinates are undistorted pixels, until
+/// Adds the dots of a fix that are on the page. Their coordinates are in undistorted px until
 /// `start_map` converts them to mm. Returns false and adds nothing if fewer than `min_dots` dots
 /// are on the page.
 bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::size_t min_dots,
                   std::vector<MapSighting>& frames, std::vector<MapObservation>& observations);
 
 /// Converts the observations to positions on the paper in the camera frame, and sets the
-/// approximate poses of the frames of `solution`. All frames use the view in the camera file. If
+/// approximate poses of the frames in `solution`. All frames use the view in the camera file. If
 /// the file has no view, all frames use their median view or, if the camera was hand-held, each
 /// frame uses its own view. Scales all positions so that the median scale between the frames and
 /// the page is 1, with the dots of the page at their offsets in the earlier map. Returns the
@@ -42,7 +42,7 @@ double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
 /// Returns a ratio that shows how well the earlier map explains the residuals. The numerator is the
 /// sum over all frames of the median squared residual with the offsets of the map. The denominator
 /// is the same sum without these offsets. The ratio is below 1 if the offsets reduce the residuals.
-/// `solution` must contain the poses of `start_map`.
+/// `solution` must contain the poses computed by `start_map`.
 double misfit(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
               const std::vector<MapObservation>& observations, const MapSolution& solution);
 

@@ -21,8 +21,8 @@ class MapSystem {
 
     /// Solves the equations by preconditioned conjugate gradients. Stops when the mean square of
     /// the preconditioned residual is at most `converged` times the variance of an unknown, or
-    /// after kMaxIterations. Updates frames, camera, field and offsets of `solution`, which must be
-    /// the solution passed to the constructor.
+    /// after kMaxIterations. Updates the frames, camera, field and offsets in `solution`, which
+    /// must be the solution passed to the constructor.
     void solve(MapSolution& solution, double converged, const MapProgress& progress);
     const MapDeformation& deformation() const { return deformation_; }
 
@@ -51,10 +51,11 @@ class MapSystem {
     const std::vector<MapObservation>& observations_;
     const MapSolution& solution_;
     double weight_;        ///< weight of an observation: 1 / noise^2
-    double prior_weight_;  ///< weight of the prior of an offset given the field: 1 / jitter^2
+    double prior_weight_;  ///< weight of the prior on an offset, given the field: 1 / jitter^2
     std::vector<double> information_;  ///< for each offset, sum of the weights of its equations
     std::vector<Eigen::Vector2d> offsets_;
-    /// Sums of the observed offsets of each dot: one vector of sums for each part of the work.
+    /// sums_[part][dot] is the sum of the observed offsets of a dot. Each of the kMapParts parallel
+    /// parts accumulates its own sums.
     std::vector<std::vector<Eigen::Vector2d>> sums_;
     std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;
     Eigen::LLT<Eigen::Matrix<double, kCameraTerms, kCameraTerms>> camera_block_;

@@ -1,4 +1,4 @@
-// Fits the pose of a frame to dots at the positions in a print map.
+// Fits the pose of a frame to the dot positions in a print map.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -113,7 +113,7 @@ Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, dou
     return result;
 }
 
-/// Prior of the two terms of the shear or of the perspective: a mixture of Gaussians with mean 0.
+/// Prior on the two shear terms or the two perspective terms: a mixture of Gaussians with mean 0.
 /// The terms are 0 if the optical axis is perpendicular to the paper.
 struct ViewPrior {
     struct Kind {
@@ -123,8 +123,8 @@ struct ViewPrior {
     int first;  ///< index of the first term
     std::array<Kind, 3> kinds;
 };
-/// The priors are those of `locate` (core/fit/solve_plane.cpp). The unit of the perspective is the
-/// relative change of the scale from the centre to the outermost dot.
+/// The priors are the same as in `locate` (core/fit/solve_plane.cpp). The unit of the perspective
+/// is the relative change in scale from the centre to the outermost dot.
 constexpr ViewPrior kPerspectivePrior{kPerspective, {{{0.1, 0}, {0.8, 0.01}, {0.1, 0.1}}}};
 constexpr ViewPrior kShearPrior{kShear, {{{0.5, 0}, {0.4, 0.002}, {0.1, 0.03}}}};
 

@@ -136,8 +136,8 @@ double arc_of(const std::vector<Station>& stations) {
     return 2 * std::numbers::pi - widest;
 }
 
-/// Returns the undistorted pixel of a point. `offset_mm` is relative to the point under the image
-/// centre, along the image axes at that point.
+/// Returns the undistorted pixel that shows a point. `offset_mm` is relative to the point under the
+/// image centre, along the image axes at that point.
 PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     if (!stations.camera.paper) {
         const PixelPoint centre = image_centre(stations.camera);
@@ -182,7 +182,7 @@ double time_of(std::size_t frame, const std::vector<Station>& stations) {
     return 2.0 * double(frame) / double(stations.size() - 1) - 1;
 }
 
-/// Returns the position of a frame predicted by the turn, minus the measured position.
+/// Returns the position that the turn predicts for a frame, minus the measured position.
 Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
                      const std::vector<Station>& stations) {
     const Station& station = stations[frame];

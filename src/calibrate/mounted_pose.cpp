@@ -23,7 +23,7 @@ using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinPoseDots = 12;
 
-/// Numbers of parameters in the equation of a dot:
+/// Numbers of parameters in the equation for a dot:
 ///
 ///   printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v
 ///

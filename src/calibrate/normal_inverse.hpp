@@ -13,9 +13,9 @@ namespace dotpose::calibrate {
 /// ceres::Covariance is not used because it takes about a minute for these problems.
 Eigen::MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& shared);
 
-/// Returns the derivative of the solution for the shared blocks with respect to the residuals, in
-/// the order in which the residuals were added. The product of this matrix and its transpose is
-/// `normal_inverse`.
+/// Returns the derivative of the solution for the shared blocks with respect to the residuals. The
+/// columns are in the order in which the residuals were added. The product of this matrix and its
+/// transpose is `normal_inverse`.
 Eigen::MatrixXd normal_gain(ceres::Problem& problem, const std::vector<double*>& shared);
 
 }  // namespace dotpose::calibrate

@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr double kRadPerS_per_rpm = 2 * std::numbers::pi / 60;
-/// Limits of the spacing in the image for `locate`: minimum, recommended minimum, and maximum.
+/// Limits on the spacing in the image for `locate`: minimum, recommended minimum, and maximum.
 constexpr double kMinSpacing_px = 6;
 constexpr double kGoodSpacing_px = 8;
 constexpr double kMaxSpacing_px = 60;
@@ -60,9 +60,10 @@ void set_block(const Optics& o, OpticsReport& r) {
     r.block_fits_anywhere = shorter_mm >= r.block_anywhere_mm;
 }
 
-/// Computes the limits of motion (paper, section III-A.2). Blur is measured along the image axes.
-/// If the camera turns about the image centre, the middle of the farthest edge of the image has the
-/// highest velocity along an image axis.
+/// Computes the motion limits (paper, section III-A.2). Blur is measured along the image axes. If
+/// the camera turns about the image centre, the largest velocity along an image axis occurs at the
+/// edges farthest from the centre. The effective radius is therefore half the longer side of the
+/// image.
 void set_motion(const Optics& o, OpticsReport& r) {
     const double blur_mm = o.largest_blur_px * r.mm_per_px;
     const double radius_mm = std::max(r.field_width_mm, r.field_height_mm) / 2;

@@ -33,7 +33,7 @@ struct TiltResidual {
         const T sx = sin(tilt[1]);
         const T cy = cos(tilt[2]);
         const T sy = sin(tilt[2]);
-        // The axes of the paper are the axes of simulate.hpp: s = (cy, sx sy, -cx sy) and t = (0,
+        // The axes of the paper are defined as in simulate.hpp: s = (cy, sx sy, -cx sy) and t = (0,
         // cx, sx). At the centre, one px to the right is (s, t) = mm per px * (1, -sx sy / cx) /
         // cy, and one px down is mm per px * (0, 1 / cx). The x axis of the paper is then rotated
         // onto the first vector.

@@ -36,8 +36,8 @@ struct PivotViews {
     double spacing_mm = 0;  ///< spacing of the sheet in the last of these frames
 };
 
-/// Returns the printed spacing of the sheet of a fix, or an empty optional if the fix is not on any
-/// of the sheets.
+/// Returns the printed spacing of the sheet that contains a fix, or an empty optional if no sheet
+/// contains it. If no sheets are given, returns the spacing in the options.
 std::optional<AxisScale> spacing_of(const CalibrateOptions& options, CodeVariant code,
                                     const Fix& fix) {
     const double mm = options.pattern.spacing_mm;

@@ -70,8 +70,8 @@ Points points_of(const NormalEquations& equations) {
     return {{solved[0], solved[1], solved[2]}, {solved[3], solved[4], solved[5]}};
 }
 
-/// Fits many small subsets of the views. Returns the fit with the smallest median of the residuals
-/// of all views (Rousseeuw 1984). This method succeeds even if almost half of the views are wrong.
+/// Fits many small subsets of the views. Returns the fit with the smallest median residual over all
+/// views (Rousseeuw 1984). This method succeeds even if almost half of the views are wrong.
 Points robust_start(const std::vector<PivotView>& views) {
     Points best;
     double best_mm = std::numeric_limits<double>::infinity();
@@ -100,7 +100,7 @@ Points robust_start(const std::vector<PivotView>& views) {
 /// Result of one improvement: a weighted fit to the views that agree with `start`.
 struct Step {
     Points points;
-    Matrix6d covariance;  ///< of `points`, if the errors of the poses are independent
+    Matrix6d covariance;  ///< covariance of `points`, if the errors of the poses are independent
     std::vector<bool> is_used;
     double squares = 0;  ///< sum of the normalised squared residuals of `start`
 };

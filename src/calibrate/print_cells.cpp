@@ -10,13 +10,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Minimum fraction of correct dots among the measured cells of an outer line of a field.
+/// Minimum fraction of correct dots among the measured cells in an outer line of a field.
 constexpr double kMinLineShare = 0.5;
 /// Minimum number of correct dots in an outer column or row, relative to the column or row with the
 /// most correct dots.
 constexpr double kMinLength = 0.15;
 
-/// Minimum fraction of correct dots among the dots of an outer line. By chance, a quarter of the
+/// Minimum fraction of correct dots among the dots in an outer line. By chance, a quarter of the
 /// dots are correct. In a different region of the code, half of the dots are correct if the columns
 /// happen to agree.
 constexpr double kMinRightShare = 0.7;
@@ -203,7 +203,7 @@ CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field&
                 const std::int64_t j = std::int64_t{cell.y} - grid.origin.y;
                 if (i < 0 || j < 0 || i >= grid.columns || j >= grid.rows) continue;
                 const auto index = static_cast<std::size_t>(j * grid.columns + i);
-                // Cells along the border of two tiles are measured in both tiles. A correct
+                // Cells along the border between two tiles are measured in both tiles. A correct
                 // measurement takes precedence.
                 if (!grid.cells[index].is_right()) grid.cells[index] = cell;
                 seen[index] = true;

@@ -105,7 +105,7 @@ CellRange cells_in(const PixelRect& rect, const TileMap& map) {
     return {first(low.x()), end(high.x()), first(low.y()), end(high.y())};
 }
 
-/// Measures the dots in one tile. Darkness is relative to the paper of the tile.
+/// Measures the dots in one tile. Darkness is relative to the paper in the tile.
 class Meter {
   public:
     Meter(const ImageView& scan, const TileMap& map, double displacement, double paper)

@@ -1,4 +1,4 @@
-// Measures the dots of a scan at the positions that a map predicts.
+// Measures the dots in a scan at the positions that a map predicts.
 #pragma once
 
 #include <cstdint>

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// Limits of the deviation of the mean scale from 1. Deviations above kNotableScale are reported. A
-/// deviation above kDriverScale is attributed to the printer driver, because printers and paper
+/// Limits for the deviation of the mean scale from 1. Deviations above kNotableScale are reported.
+/// A deviation above kDriverScale is attributed to the printer driver, because printers and paper
 /// cause smaller deviations. If the scales along the two axes differ by more than kUnevenScale, the
 /// difference is reported.
 constexpr double kDriverScale = 0.015;
@@ -27,7 +27,7 @@ constexpr double kImplausibleScale = 0.25;
 constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
 constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;
 constexpr double kNotableDistortion_mm = 0.1;
-/// Limits of the relative growth of the dot diameter. Growth outside these limits is a fault. Most
+/// Limits for the relative growth of the dot diameter. Growth outside these limits is a fault. Most
 /// printers stay within the limits.
 constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
@@ -346,9 +346,9 @@ double dot_error(const PrintField& field) {
     return std::abs(std::log(std::max(field.dot_mm, 1e-6) / wanted_mm));
 }
 
-/// For each spacing, chooses the readable patch whose printed dots are closest to a sixth of the
-/// spacing. The best patch overall is the chosen patch with the finest spacing, because it has the
-/// most dots in view.
+/// For each spacing, chooses the readable patch whose printed dot diameter is closest to a sixth of
+/// the spacing. The best patch overall is the chosen patch with the finest spacing, because it has
+/// the most dots in view.
 void choose_best(PrintCheck& check) {
     std::map<double, std::size_t> best;
     for (std::size_t i = 0; i < check.fields.size(); ++i) {

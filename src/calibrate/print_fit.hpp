@@ -1,4 +1,4 @@
-// Fits one map to all dots of a field.
+// Fits one map to all dots in a field.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace dotpose::calibrate {
 /// Nominal and measured position of a dot.
 struct Match {
     Eigen::Vector2d nominal_mm;
-    Eigen::Vector2d seen;  ///< px of a photo, or mm of a scan with known resolution
+    Eigen::Vector2d seen;  ///< in px for a photo, or in mm for a scan with known resolution
 };
 
 /// Models of the projection from the page to the image.

@@ -1,4 +1,4 @@
-// Maps between the pixels of a scan and the cells of the code.
+// Maps between pixels in a scan and cells of the code.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace dotpose::calibrate {
 ///
 ///   cell = centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2)
 ///
-/// where q = pixel - centre_px. The map is that of a fix (PlaneFromImage), converted to pixels of
-/// the scan.
+/// where q = pixel - centre_px. The map is that of a fix (PlaneFromImage), converted to the pixel
+/// coordinates of the scan.
 struct TileMap {
     Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();
@@ -27,8 +27,8 @@ struct TileMap {
     Eigen::Vector2d perspective_per_px = Eigen::Vector2d::Zero();
     double lens_per_px2 = 0;
 
-    /// Returns the map of a fix in a crop of the scan. The crop begins at `first_px` and is
-    /// magnified by `zoom`.
+    /// Returns the map computed from a fix in a crop of the scan. The crop begins at `first_px` and
+    /// is magnified by `zoom`.
     static TileMap of(const Fix& fix, const Eigen::Vector2d& first_px, int zoom);
 
     Eigen::Vector2d cell(const Eigen::Vector2d& pixel) const {
@@ -44,8 +44,8 @@ struct TileMap {
     double spacing_px() const { return std::sqrt(std::abs(px_per_cell.determinant())); }
 };
 
-/// Returns the position in the scan of a pixel of a crop. The crop begins at `first_px` and is
-/// magnified by `zoom`.
+/// Converts a pixel position in a crop to a position in the scan. The crop begins at `first_px` and
+/// is magnified by `zoom`.
 inline Eigen::Vector2d in_scan(const FixedVec& pixel_q8, const Eigen::Vector2d& first_px,
                                int zoom) {
     const Eigen::Vector2d from_edge(pixel_q8.x / 256.0 + 0.5, pixel_q8.y / 256.0 + 0.5);

@@ -1,4 +1,4 @@
-// Collects the dots of each page from its frames, and converts the solution to a print map.
+// Collects the dots on each page from its frames, and converts the solution to a print map.
 #include "dotpose/tools/print_mapping.hpp"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace {
 using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinDots = 20;
-/// Maximum ratio of the squared residuals with an earlier map to those without it. If the ratio is
-/// greater, the map belongs to a different print.
+/// Maximum ratio of the squared residuals with an earlier map to the squared residuals without it.
+/// If the ratio is greater, the map belongs to a different print.
 constexpr double kSamePrint = 0.8;
 
 MapPage empty_page(const SheetEntry& entry) {
@@ -98,8 +98,8 @@ void write_page(const MapGrid& grid, const EarlierOffsets& earlier, const MapSol
     }
 }
 
-/// Returns the standard deviation of the error of a map per axis, in spacings: the rms value over
-/// the dots that were seen.
+/// Returns the standard deviation of the map error, per axis, in spacings: the rms value over the
+/// dots that were seen.
 double typical_error(const MapPage& map) {
     double sum = 0;
     double seen = 0;
@@ -135,7 +135,7 @@ MappedPage statistics_of(const MapPage& map, const MapGrid& grid, const MapSolut
     }
     const double all = squares / static_cast<double>(std::max<std::size_t>(page.seen, 1));
     page.slow_mm = std::sqrt(std::max(all - solution.jitter_mm * solution.jitter_mm, 0.0));
-    // Maximum relative standard deviation of the scale between frames for a rigid mount.
+    // Maximum relative standard deviation of the scale across frames for a rigid mount.
     constexpr double kRigid = 2e-4;
     page.is_rigid = solution.view_sigma[0] < kRigid * solution.reach_mm;
     return page;

@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 constexpr double kInch_mm = 25.4;
 /// Minimum darkness between two merged dots, relative to the darkness of the dots.
 constexpr double kMergedShare = 0.6;
-/// Minimum number of dots in a part of the page for which distortion is reported.
+/// Minimum number of dots in a bin for which distortion is reported.
 constexpr int kMinBinDots = 60;
 /// Quantile of the dots' darkness that is used as the darkness of ink if it exceeds the expected
 /// darkness of ink.
@@ -31,7 +31,7 @@ double quantile(std::vector<double>& values, double share) {
     return values[index];
 }
 
-/// Conversion between pixels and the units of the fit: mm of a scan, or px of a photo.
+/// Converts between px and the units of the fit, which are mm for a scan and px for a photo.
 struct Units {
     Vector2d per_px = Vector2d::Ones();
 
@@ -43,7 +43,7 @@ struct Units {
     Vector2d to_px(const Vector2d& value) const { return value.cwiseQuotient(per_px); }
 };
 
-/// Returns the nominal position of the dot of a cell, in mm from the first cell of the region.
+/// Returns the nominal position of the dot in a cell, in mm from the first cell of the region.
 /// Positions relative to this cell are small numbers, which preserves precision.
 Vector2d nominal_mm(const CellGrid& grid, const Field& field, const Pattern& pattern,
                     const SeenCell& cell) {

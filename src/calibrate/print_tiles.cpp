@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kTileCells = 24;
 constexpr int kMaxTile_px = 2048;
-/// Minimum spacing of tiles that are not magnified. At smaller spacings, tiles are magnified
+/// Minimum spacing at which tiles are not magnified. At smaller spacings, tiles are magnified
 /// because `locate` needs a spacing of at least 6 px.
 constexpr double kSmallSpacing_px = 9;
 /// Number of crops that is sufficient to determine the spacing or the code.
 constexpr std::size_t kEnoughProbes = 40;
-/// Total number of pixels, after magnification, in the sample of crops of one size. The sample is
-/// spread over the page.
+/// Total number of pixels, after magnification, in a sample of crops of the same size. The crops
+/// are spread over the page.
 constexpr int kSample_px = 8'000'000;
 
 /// Side and magnification of a crop. A crop must contain at least 8 x 8 cells.

@@ -26,13 +26,13 @@ struct LocatedTiles {
     std::vector<LocatedTile> located;
 };
 
-/// Called after each call of `locate`.
+/// Called after each call to `locate`.
 using TileDone = std::function<void()>;
 
 /// Runs `locate` on the whole scan and on its tiles.
 class TileLocator {
   public:
-    /// If `code` is empty, the variant is detected from all located images.
+    /// If `code` is empty, the code variant is detected from all located images.
     TileLocator(const ImageView& scan, std::optional<CodeVariant> code, TileDone done);
 
     /// Locates all tiles. A tile has about 24 x 24 cells and is located together with a margin.

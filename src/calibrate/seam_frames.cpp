@@ -15,7 +15,7 @@ namespace {
 
 /// Maximum distance of the image centre, in mm, from the page whose dots are in the frame.
 constexpr double kBeyondPage_mm = 400;
-/// Minimum number of dots of a view. With fewer dots, the scales along the axes of the view are not
+/// Minimum number of dots in a view. With fewer dots, the scales along the axes of the view are not
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
@@ -52,8 +52,8 @@ FixedVec mean_step(const std::vector<LocatedDot>& dots) {
             static_cast<std::int32_t>(std::lround(sum.y()))};
 }
 
-/// Returns the fields of the image (`SheetView::fields`) that contain the given dots. Pixels of the
-/// dots are relative to `part`.
+/// Returns the fields of the image (`SheetView::fields`) that contain the given dots. The pixel
+/// coordinates of the dots are relative to the top left corner of `part`.
 std::uint64_t fields_of(const GreyImage& image, const SeamLocator::Part& part,
                         const std::vector<LocatedDot>& dots) {
     const auto field = [](double pixel, int side_px) {
@@ -155,8 +155,9 @@ SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optio
     }
 }
 
-/// Returns the parts in the order in which to locate them: first the whole image, then halves,
-/// corners, and overlapping parts of two thirds of a side.
+/// Returns the parts in the order in which they are located: first the whole image, then halves and
+/// quarters, and finally overlapping parts with at least one side that is about two thirds as long
+/// as the image side.
 std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
     std::vector<Part> parts;
     const auto cut = [](const Stretch& stretch, int side, int& begin, int& length) {

@@ -48,7 +48,7 @@ class SeamLocator {
     /// the image size in the camera file.
     std::vector<SheetView> views(const GreyImage& image);
 
-    /// Rectangle of the image, in px.
+    /// Rectangle in the image, in px.
     struct Part {
         int u = 0;
         int v = 0;

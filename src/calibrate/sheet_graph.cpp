@@ -23,7 +23,7 @@ constexpr double kPinned = 1e-7;
 /// Prior relative standard deviation of the scale of a camera.
 constexpr double kCameraPrior = 0.03;
 /// Prior standard deviation of the aspect and the skew of a camera whose file contains no standard
-/// deviations for them. It is small because the pixels of sensors are square.
+/// deviations for them. It is small because sensor pixels are square.
 constexpr double kSquarePrior = 0.002;
 
 /// Vector in the plane. T is double or an automatic differentiation type.
@@ -113,8 +113,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Converts a pose from the camera frame to the page of the sheet in a view. The pose is at the
-/// point `in_camera` and points along the x axis of the camera frame.
+/// Converts a pose from the camera frame of a view to the page frame of its sheet. The pose is at
+/// the point `in_camera` and points along the x axis of the camera frame.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -293,8 +293,8 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
                 pin_one(problem, node, k, 0, kPinned);
         }
         if (i == fixed_ && !has_scale()) {
-            // The aspect is fixed to its value in the sheet file. Views from parts of frames would
-            // determine the aspect, but with the same error in all of them.
+            // Fixes the aspect to its value in the sheet file. Views from parts of frames would
+            // determine the aspect, but all of them with the same error.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {

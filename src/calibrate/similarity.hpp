@@ -11,7 +11,7 @@ namespace dotpose::calibrate {
 struct SimilarPoint {
     Eigen::Vector2d seen;
     Eigen::Vector2d intersection;
-    Eigen::Vector2d direction;  ///< direction of the displacement of the dot, with length 1
+    Eigen::Vector2d direction;  ///< unit vector in the direction of the dot's displacement
 };
 
 struct Similarity {

@@ -117,7 +117,7 @@ Minimum minimum_from(const SpaceState& start, const std::vector<WeightedDot>& do
                      const Vector2d& focal_px) {
     constexpr int kMaxSteps = 60;
     constexpr double kMaxDamping = 1e9;
-    constexpr double kMinGain = 1e-12;  // relative decrease of the sum of squares
+    constexpr double kMinGain = 1e-12;  // relative decrease in the sum of squares
     Minimum now{start, sums_at(start, dots, focal_px)};
     double damping = 1e-4;
     for (int i = 0; i < kMaxSteps && damping < kMaxDamping; ++i) {
@@ -154,8 +154,8 @@ std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<Weig
     return kept;
 }
 
-/// Error model of the dots. The covariance of a dot is the sum of two parts: the print error, which
-/// is isotropic on the paper, and the error of the measured centre. The model estimates the
+/// Error model for the dots. The covariance of a dot is the sum of two parts: the print error,
+/// which is isotropic on the paper, and the error of the measured centre. The model estimates the
 /// fraction that is due to print errors.
 class NoiseModel {
   public:

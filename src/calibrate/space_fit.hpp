@@ -33,8 +33,9 @@ struct SpaceFit {
     /// rotation * exp(vector).
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     std::vector<SpaceDot> used;  ///< dots that are not outliers
-    /// Shift of the pose caused by the residual of each dot in `used`, in the coordinates of the
-    /// covariance. They determine how the errors of frames that show the same dots are correlated.
+    /// Shift of the pose caused by the residual of each dot in `used`, in the same coordinates as
+    /// `covariance`. These shifts determine how the errors of frames that show the same dots are
+    /// correlated.
     std::vector<Eigen::Matrix<double, 6, 1>> influences;
     double residual_px = 0;  ///< rms residual of the dots in `used`, per axis
     std::optional<SpaceState> second;

@@ -1,4 +1,4 @@
-// Fits a pose in space to the trace of a frame, and converts poses between coordinate frames.
+// Fits a pose in space to the dots in a frame, and converts poses between coordinate frames.
 #include "dotpose/tools/space_pose.hpp"
 
 #include <cmath>
@@ -123,8 +123,8 @@ CameraInSpace on_sheet(const CameraInSpace& camera, const SheetEntry& entry) {
 
 CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
                        const WorldPose& page) {
-    // The z axis of `camera` points into the paper, and that of the world out of the paper. A half
-    // turn about x converts between them.
+    // In the frame of `camera`, z points into the paper. In the world frame, z points out of the
+    // paper. A half turn about x converts between the two frames.
     const Quaterniond turn =
         Eigen::AngleAxisd(page.yaw_rad, Vector3d::UnitZ()) * Quaterniond(0, 1, 0, 0);
     const Vector3d position = turn * Vector3d(camera.x_mm, camera.y_mm, camera.z_mm) / 1000 +

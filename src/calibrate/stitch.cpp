@@ -16,8 +16,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Converts a pose in the coordinate frame of the fixed sheet (y down, angles clockwise) to the
-/// world (y up, angles counter-clockwise).
+/// Converts a pose from the coordinate frame of the fixed sheet (y down, angles clockwise) to the
+/// world frame (y up, angles counter-clockwise).
 WorldPose world_of(const PlanePose& pose, const WorldPose& fixed) {
     const double c = std::cos(fixed.yaw_rad);
     const double s = std::sin(fixed.yaw_rad);

@@ -36,7 +36,7 @@ class FrameSource {
   public:
     virtual ~FrameSource() = default;
 
-    /// Gets the next frame, or the newest frame of a camera. Returns false at the end or when
+    /// Gets the next frame, or the newest frame from a camera. Returns false at the end or when
     /// `SourceOptions::stop` returns true. If the source fails, returns all frames captured before
     /// the failure, then throws Error.
     virtual bool next(Frame& frame) = 0;
@@ -62,15 +62,15 @@ struct SourceOptions {
     /// Frame rate requested from a camera. For other sources, frame timestamps are computed from
     /// this rate, even if a video file contains timestamps.
     std::optional<double> fps;
-    std::optional<double> exposure;  ///< in the unit of the driver
-    std::optional<double> gain;      ///< in the unit of the driver
+    std::optional<double> exposure;  ///< in the driver's unit
+    std::optional<double> gain;      ///< in the driver's unit
     /// True to flip frames left to right. Frames are flipped before they are cropped to `region`.
     bool flip = false;
     std::optional<Region> region;  ///< part of each frame to keep, or empty for the whole frame
     /// Required size of frames before cropping. Set if a camera file defines the pixel coordinates
     /// of `region`.
     std::optional<std::pair<int, int>> whole_size_px;
-    /// Maximum number of pixels of an image. Larger images are rejected with ImageTooLarge before
+    /// Maximum number of pixels in an image. Larger images are rejected with ImageTooLarge before
     /// they are decoded.
     int max_pixels = kMaxFrameSide_px * kMaxFrameSide_px;
     /// Called periodically. If the function returns true, the source ends.

@@ -32,11 +32,11 @@ class SourceList : public FrameSource {
     double rate() const override { return source_ ? source_->rate() : 0; }
     double bits_per_px() const override { return bits_per_px_; }
 
-    /// Returns the number of frames of the open source, or 0 if unknown.
+    /// Returns the number of frames in the open source, or 0 if unknown.
     std::int64_t length() const override { return source_ ? source_->length() : 0; }
 
-    /// Returns the name of the newest frame: the path of an image, or SOURCE#N for frame N of
-    /// another source, counted from 0.
+    /// Returns the name of the newest frame: the path of an image, or SOURCE#N for frame N from any
+    /// other source, counted from 0.
     std::string name_of_frame() const;
 
   private:

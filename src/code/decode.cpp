@@ -15,8 +15,8 @@ constexpr int kMinWindow = code::kMainOrder;
 using Rolls = std::array<std::uint8_t, kMaxWindow>;
 using Deltas = std::array<std::uint8_t, kMaxWindow - 1>;
 
-/// Occurrences of a string of digits in a secondary sequence: the first place and the number of
-/// places. `first` is valid only if `count` is positive.
+/// Occurrences of a string of digits in a secondary sequence: the place of the first occurrence,
+/// and the number of occurrences. `first` is valid only if `count` is positive.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;

@@ -13,7 +13,7 @@ int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32
 }
 
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place) {
-    // For each code, computes the contribution of a4 to the roll in the same way as `roll`.
+    // For each code, computes the contribution of a4 to the roll in the same way as `roll` does.
     // kPeriods is a multiple of 63 that exceeds any contribution. Adding it keeps the difference of
     // two contributions positive.
     constexpr std::uint32_t kPeriods = 512 * kSections;
@@ -63,8 +63,8 @@ void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::ui
     }
 }
 
-// `sum_` is the roll as computed by `roll`, except for the terms `rolls[place]` of the sequences,
-// which `at` adds.
+// `sum_` is the sum that `roll` computes, without the terms `rolls[place]` of the four sequences.
+// `at` adds these terms.
 RollsAhead::RollsAhead(CodeVariant code, std::uint32_t position)
     : sequences_(basis(code)),
       lines_(modulo_sections(position) + 4 * kSections),

@@ -1,5 +1,5 @@
 // Sequences: the main sequence and the secondary sequences (paper, section II-A; US patent
-// 6,667,695). Static assertions check the properties that decoding needs. docs/position-code.md
+// 6,667,695). Static assertions check the properties that decoding relies on. docs/position-code.md
 // describes the variants of a4.
 #pragma once
 

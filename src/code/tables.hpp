@@ -68,8 +68,8 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns the digit at a place below `length`. Computes the digit from `rolls` to save the
-    /// flash memory of a separate table on devices.
+    /// Returns the digit at a place below `length`. Computes the digit from `rolls`, so that
+    /// devices need no flash memory for a separate table.
     constexpr std::uint8_t digit(std::uint32_t place) const {
         const int difference = rolls[place + 1] - rolls[place];
         const int weighted = difference < 0 ? difference + kSections : difference;

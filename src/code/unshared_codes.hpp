@@ -16,8 +16,8 @@ namespace dotpose::code {
 /// Minimum numbers of unshared lines between a position in the code that was read and any position
 /// in another code. Indices: code that was read, other code, row of `kUnsharedOf`. Character p of a
 /// string is the minimum if the first line is at place p in a4. The a4 sequences of anoto and
-/// libdots differ in only 11 digits. For this pair of codes, the minimum therefore excludes the
-/// same place at shift 0.
+/// libdots differ in only 11 digits, so the same place in the other code usually shares all lines
+/// at shift 0. The minimum for this pair of codes excludes this combination of place and shift.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

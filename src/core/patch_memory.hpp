@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Dots in a patch, in image pixels. Coordinates are relative to the middle of the patch, or to an
-/// origin chosen by `move_origin_to_densest`.
+/// Dots found in a patch. Their coordinates are in image pixels, relative to the middle of the
+/// patch or to an origin chosen by `move_origin_to_densest`.
 struct PatchDots {
     static constexpr int kMax = 2048;
     int count = 0;

@@ -1,7 +1,6 @@
-// Workspace: the memory of a locator. After a frame, the workspace contains the results of all
-// stages. All capacities are fixed. The caller provides the memory as a DeviceMemory, SmallMemory
-// or LargeMemory. A locator constructs the workspace once in this memory, and reuses it for each
-// frame.
+// Workspace: the memory of a locator. After a frame, the workspace contains the results of the
+// stages. All capacities are fixed. The workspace is in a DeviceMemory, SmallMemory or LargeMemory,
+// whose constructor creates the workspace. A locator reuses the workspace for each frame.
 #pragma once
 
 #include <array>

@@ -14,7 +14,7 @@ namespace dotpose::dds {
 struct PublisherOptions {
     int domain = 0;  ///< ROS_DOMAIN_ID
     /// True to resend poses that a subscriber did not receive. A subscriber that requests reliable
-    /// delivery (the default of ROS) receives nothing from a best-effort publisher.
+    /// delivery (the default in ROS) receives nothing from a best-effort publisher.
     bool is_reliable = false;
     /// True to limit discovery to this computer, like ROS with
     /// ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST.
@@ -32,9 +32,9 @@ class Publisher {
     Publisher(const Publisher&) = delete;
     Publisher& operator=(const Publisher&) = delete;
 
-    /// Publishes the messages of a frame. If `waits` is true, waits up to 10 s for slow subscribers
-    /// of reliable messages. Otherwise, keeps the newest 100 messages of a topic for slow
-    /// subscribers.
+    /// Publishes the messages for a frame. If `waits` is true, waits up to 10 s for slow
+    /// subscribers of reliable messages. Otherwise, keeps the newest 100 messages on each topic for
+    /// slow subscribers.
     void publish(const ros::RobotMessages& messages, bool waits);
     /// Publishes the mount of the camera. Subscribers that connect later also receive the mount.
     void publish(const ros::TransformStamped& mount);

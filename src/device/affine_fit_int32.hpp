@@ -59,9 +59,9 @@ class AffineFitInt32 {
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
-    /// A point is near if both of its coordinates are from -kNear to kNear - 1. The products of
-    /// near points are summed in 32 bits, because small processors add 32-bit numbers three times
-    /// as fast as 64-bit numbers. The sums over kMaxRecent near points and one far point do not
+    /// A point is near if both of its coordinates are in [-kNear, kNear). The products of near
+    /// points are summed in 32 bits, because small processors add 32-bit numbers three times as
+    /// fast as 64-bit numbers. The sums over kMaxRecent near points and one far point do not
     /// overflow.
     static constexpr std::uint32_t kNear = 1024;
     static constexpr int kMaxRecent = 32;

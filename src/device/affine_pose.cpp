@@ -76,7 +76,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
                                    }) +
                                    1;
 
-    // Number of fractional bits of the targets, which are the printed positions of the dots. With 6
+    // Number of fractional bits in the targets, which are the printed positions of the dots. With 6
     // bits, the coordinates of targets are less than 2^15 in magnitude, as `AffineFitInt32`
     // requires.
     constexpr int kTargetBits = 6;

@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Finds the grid, the position and the pose of a frame from its blobs. Sets and returns the fix of
+/// Finds the grid, the position and the pose of a frame from its blobs. Sets and returns the fix in
 /// the workspace.
 const Fix& finish_device_attempt(const DeviceOptions& options, DeviceWorkspace& w);
 

@@ -1,4 +1,4 @@
-// Dark pixels: finds the pixels of the stored rows that are darker than the paper.
+// Dark pixels: finds the pixels in the stored rows that are darker than the paper.
 #pragma once
 
 #include <algorithm>

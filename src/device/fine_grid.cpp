@@ -114,7 +114,7 @@ class FineGrid {
                 du_q16_.y * dot.centre_q8.x + dv_q16_.y * dot.centre_q8.y};
     }
     ReadDot read(const DetectedDot& dot) const;
-    /// Returns the offset of a dot from the expected centre of its symbol.
+    /// Returns the offset of a dot from the centre that is expected for its symbol.
     FixedVec offset_q24(const ReadDot& dot) const {
         return dot.from_intersection_q24 -
                FixedVec{dx(dot.symbol) * displacement_q24_, dy(dot.symbol) * displacement_q24_};
@@ -220,16 +220,16 @@ DOTPOSE_NOINLINE int FineGrid::read_and_fit() {
     return fit.count();
 }
 
-/// Returns the code bits of a line after the corner has moved by `line_shift` lines across the line
-/// and by `cell_shift` cells along it. Each shift is -1, 0 or 1.
+/// Returns the code bits of a line after the corner has moved by `line_shift` lines and, along the
+/// lines, by `cell_shift` cells. Each shift is -1, 0 or 1.
 std::uint32_t code_at(std::span<const ComparedLine> lines, int line, int line_shift,
                       int cell_shift) {
     const std::uint32_t bits = lines[static_cast<std::size_t>(line + line_shift)].code;
     return cell_shift >= 0 ? bits >> cell_shift : bits << 1;
 }
 
-/// Returns the number of bits of an axis that disagree with the code after the corner has moved by
-/// the given shift.
+/// Returns the number of bits along an axis that disagree with the code after the corner has moved
+/// by the given shift.
 int wrong_bits(const Tracking& tracking, std::span<const ComparedLine> lines, int line_shift,
                int cell_shift) {
     int wrong = 0;

@@ -31,9 +31,9 @@ Square cells_within(int limit) {
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Returns the set of offsets from an intersection whose components are at most `limit_q16` in
-/// magnitude. An offset is encoded as the lower 16 bits of `rounding_plane_point_q16`, shifted left
-/// by 16 bits.
+/// Returns the set of offsets from the nearest intersection with both components at most
+/// `limit_q16` in magnitude. Each component is encoded as the lower 16 bits of the same component
+/// of `rounding_plane_point_q16`, shifted left by 16 bits.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
@@ -47,10 +47,10 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
 /// belong to the grid.
 constexpr int kFarthest_cells = 500;
 
-/// Calls `use(dot, c, is_within_reach)` for each dot. c is `rounding_plane_point_q16` of the dot,
-/// and its integer part is the nearest cell. `is_within_reach` is true if this cell is at most
-/// `reach_cells` cells from cell (0, 0) along each axis. Returns the statistics of the dots, but
-/// does not set `near_intersections`.
+/// Calls `use(dot, c, is_within_reach)` for each dot. c is the `rounding_plane_point_q16` of the
+/// dot, and the integer part of c is the nearest cell. `is_within_reach` is true if this cell is at
+/// most `reach_cells` cells from cell (0, 0) along each axis. Returns the statistics of the dots,
+/// but does not set `near_intersections`.
 template <typename Use>
 Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const Cells& cells,
                        Use use) {

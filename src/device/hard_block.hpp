@@ -20,14 +20,14 @@ namespace dotpose::core {
 /// cell.
 struct HardLine {
     std::uint32_t bits = 0;
-    std::uint32_t seen = 0;  ///< a bit is 1 if the bit of its cell was read
+    std::uint32_t seen = 0;  ///< bit i is 1 if the bit of cell i was read
 
     /// Returns the number of bits that disagree with the main sequence if the line starts at index
     /// `roll` of the sequence.
     int wrong_at(std::size_t roll) const { return bits_in((code::kMainWords[roll] ^ bits) & seen); }
 };
 
-/// All lines of one axis of a block, in one orientation.
+/// All lines along one axis of a block, in one orientation.
 struct HardLines {
     const HardLine* first = nullptr;
     int step = 1;  ///< index step from one line to the next in memory: 1 or -1

@@ -40,8 +40,9 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
                static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
 }
 
-/// Returns the paper level around an intersection: the mean of the corner pixels of its square,
-/// which no dot reaches. `at` points to the pixel that contains the intersection.
+/// Returns the paper level around an intersection: the mean of the four corner pixels of the square
+/// around it. No dot extends to these pixels. `at` points to the pixel that contains the
+/// intersection.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
     const std::uint8_t* const top = at + tracking.corner_offset;

@@ -12,9 +12,9 @@ struct Tracking;
 /// Functions that search known sheets. DeviceWorkspace calls them through a pointer, so they are
 /// not linked into programs that never set known sheets.
 struct SheetFunctions {
-    /// Searches the known sheets for the bits of a frame without a prediction. If a place is
-    /// certain, sets the place and the orientation in the decoding, and returns true. Otherwise,
-    /// returns false.
+    /// Searches the known sheets for the bits of a frame that was begun without a prediction. If a
+    /// place is certain, sets the place and the orientation in the decoding, and returns true.
+    /// Otherwise, returns false.
     bool (*read)(const DeviceOptions& options, DeviceWorkspace& w);
     /// Returns true if the predicted place of a tracked frame is on the known sheets and the bits
     /// of the frame make it certain (see `is_certain_place`).
@@ -28,7 +28,7 @@ struct SheetFunctions {
     /// grids are tracked only if sheets are known.
     void (*find_dots)(Tracking& tracking);
     /// Fits a fine grid and reads its bits. On success, sets `pattern_from_image` and the
-    /// displacement of the fix, and returns the number of dots in the fit. Returns 0 on failure
+    /// displacement in the fix, and returns the number of dots in the fit. Returns 0 on failure
     /// (see `fit_fine_grid`).
     int (*fit_grid)(const DeviceOptions& options, DeviceWorkspace& w);
 };

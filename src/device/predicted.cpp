@@ -77,8 +77,8 @@ void invert(const PlaneFromImage& plane, std::int32_t det_q24, CellMap& cells) {
                         origin_q16(plane.centre_q8.y, cells.along_x_q16.y, cells.along_y_q16.y)};
 }
 
-/// Crops the edges of a frame until the memory has room for its cells. Returns the maximum distance
-/// of a cell from the middle of the remaining part, in cells.
+/// Crops a frame until its cells fit in memory. Returns the maximum distance of a cell from the
+/// middle of the remaining part, in cells.
 int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     int width_px = tracking.width_px;
     int height_px = tracking.height_px;
@@ -130,7 +130,7 @@ int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     return ((shift_q16 >> 8) * spacing_q8) >> 16;
 }
 
-/// Returns the spacing of a fine grid: the square root of the area of a cell, which is the
+/// Returns the spacing of a fine grid: the square root of the cell area. The cell area is the
 /// reciprocal of the determinant.
 std::int32_t fine_spacing_q8(std::int32_t det_q24) {
     return static_cast<std::int32_t>(

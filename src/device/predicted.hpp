@@ -17,7 +17,7 @@ inline constexpr int kRowsAtOnce = 12;
 /// members that depend on the spacing. The memory and the image size must already be set. The image
 /// must have at most 4096 px per side. The prediction may contain arbitrary values. Returns
 /// not_tracked if:
-/// - a value of the prediction is out of range,
+/// - a value in the prediction is out of range,
 /// - the spacing is not from 7 to 14 px (from 5 to 14 px if sheets are known),
 /// - the angle between the grid axes is less than 45 degrees, or the spacing along one axis is more
 ///   than about 1.6 times the spacing along the other,

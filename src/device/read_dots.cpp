@@ -35,7 +35,7 @@ TrackedView view_of(const Tracking& tracking) {
             extent_q16(tracking.height_px)};
 }
 
-/// Finds the first visible cell, in the reading direction, of row `j`, row `j` + `j_step`, and so
+/// Finds the first visible cell, in the reading direction, in row `j`, row `j` + `j_step`, and so
 /// on. Stops at a row without a visible cell. The visible cells of a row are contiguous, and close
 /// to the visible cells of the previous row. Each search therefore starts at the result of the
 /// previous search.

@@ -22,8 +22,8 @@ int log2_of_places_q8(std::uint64_t n) {
     return log2_at_most_q8(static_cast<std::uint32_t>(n)) + 256 * halvings;
 }
 
-/// Consecutive lines of one axis, at a place in the code. `position` is the position of the first
-/// line.
+/// Consecutive lines along one axis, at a place in the code. `position` is the position of the
+/// first line.
 struct PlacedLines {
     HardLines lines;
     std::uint32_t position;
@@ -32,7 +32,7 @@ struct PlacedLines {
 };
 
 /// Returns the difference between the roll of a line and its roll in section 0, modulo 63. The
-/// difference is the same for all lines of an axis. It is the section of this axis plus the
+/// difference is the same for all lines along an axis. It is the section of this axis plus the
 /// position on the other axis.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));

@@ -42,7 +42,7 @@ std::uint32_t difference(std::uint32_t a, std::uint32_t b) {
     return a >= b ? a - b : a + kSections - b;
 }
 
-/// A pair of adjacent lines of an axis, in one orientation of the block.
+/// A pair of adjacent lines along an axis, in one orientation of the block.
 struct LinePair {
     int line = 0;  ///< index of the first line
     AgreeingRolls first;
@@ -66,7 +66,7 @@ std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     return longest;
 }
 
-/// Pairs of lines of one axis, one pair for each orientation of the block.
+/// Pairs of lines along one axis, one pair for each orientation of the block.
 class PairsOfLines {
   public:
     explicit PairsOfLines(Axis axis) : axis_(axis) {}
@@ -112,7 +112,7 @@ struct RegionAxis {
           section(axis == Axis::x ? region.section.u : region.section.v) {}
 };
 
-/// Rolls, in section 0, of the lines at consecutive positions of an axis.
+/// Rolls, in section 0, of the lines at consecutive positions on an axis.
 struct Rolls {
     std::uint32_t first;
     std::array<std::uint8_t, 128> all;
@@ -136,15 +136,16 @@ class SheetSearch {
     void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
                    const Rolls& rolls, std::uint32_t position, std::uint32_t step);
     /// Tests the places at which the first line of `axis` is at `position`. `wrong` is the number
-    /// of bits of this axis that disagree with the code. The roll of each line of this axis is its
-    /// roll in section 0 plus `added`, modulo 63.
+    /// of bits along this axis that disagree with the code. The roll of each line along this axis
+    /// is its roll in section 0 plus `added`, modulo 63.
     void test_crossing(const KnownRegion& region, Axis axis, int quarters, std::uint32_t position,
                        std::uint32_t added, int wrong);
 
     const HardBlock& block_;
     CodeVariant code_;
-    int max_wrong_;  ///< maximum number of wrong bits, summed over both axes; after a place is
-                     ///< found, one less than its number of wrong bits
+    /// Maximum number of wrong bits, summed over both axes. Once a place is found, this is one less
+    /// than that place's number of wrong bits.
+    int max_wrong_;
     std::optional<SheetPlace> best_;
 };
 
@@ -152,7 +153,7 @@ void SheetSearch::search(const KnownRegion& region, const PairsOfLines& pairs) {
     const RegionAxis along(region, pairs.axis());
     const auto margin = static_cast<std::uint32_t>(
         std::max(block_.lines(pairs.axis(), 0).count, block_.lines(pairs.axis(), 1).count));
-    // Range of positions of a pair's first line for which the block may overlap the region.
+    // Range of positions of the pair's first line at which the block may overlap the region.
     const std::uint32_t begin = along.first < margin ? 0 : along.first - margin;
     const std::uint32_t end = along.first + along.size + margin;
     Rolls rolls;

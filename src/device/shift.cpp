@@ -58,8 +58,8 @@ void Shifts::measure_paper(const Tracking& tracking) {
 
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
-    // Maximum distance of a visited cell from the middle cell, in cells along each axis. It is
-    // sufficient at any rotation of the grid: the visited cells include all dots near the middle
+    // Maximum distance of a visited cell from the middle cell, in cells along each axis. The
+    // distance is sufficient at any rotation of the grid. Within it are all dots near the middle
     // column that are in the first rows, or that a shift can move into the first rows.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
@@ -111,8 +111,8 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// Clears the means around a shift that `next` returned, which excludes adjacent shifts from later
-/// results.
+/// Clears the means around a shift that `next` returned, so that later calls do not return adjacent
+/// shifts.
 void Shifts::forget_around(FixedVec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);

@@ -21,8 +21,8 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// Returns the sums for a least-squares fit that describes the offsets of dots by an affine
-/// function of their cell coordinates. Each dot is weighted by its mass.
+/// Returns the sums for a least-squares fit of an affine function to the offsets of dots. The
+/// arguments of the function are the cell coordinates. Each dot is weighted by its mass.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     FixedVec cells;

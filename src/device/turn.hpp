@@ -6,7 +6,7 @@
 namespace dotpose::core {
 
 /// Measures the dots in the first rows, ring by ring from the middle outwards, and fits the cells
-/// to them. Sets the displacement and the limits for the mass of dots. If too many dots disagree
+/// to them. Sets the displacement, and the limits on the mass of a dot. If too many dots disagree
 /// with the code or too few agree with it, returns false and restores the cells.
 bool find_turn(Tracking& tracking);
 

@@ -14,9 +14,9 @@
 
 namespace dotpose::core {
 
-/// Memory and results of a tracked frame, and of the stages that desktops and devices share.
+/// Memory and results for a tracked frame, and for the stages that desktops and devices share.
 struct DeviceWorkspace : Workspace {
-    bool is_tracking = false;  ///< true if the rows of the current frame are tracked
+    bool is_tracking = false;  ///< true if the current frame is tracked from a prediction
     /// True if the rows of the current frame are stored, and its dots are found after the last row
     /// (see device/small_frame.hpp).
     bool keeps_frame = false;
@@ -49,13 +49,13 @@ struct DeviceCapacity {
     int scored_lines = -1;
     /// Maximum number of dots used to find the axes of the grid.
     int seeds = 64;
-    // Maximum numbers of runs and blobs in one row. These are far above the number of dots in a
+    // Maximum numbers of runs and blobs in one row. These limits far exceed the number of dots in a
     // row, so any further runs and blobs are noise or graphics.
     int runs = 0;
     int blobs = 0;
-    // Maximum number of runs in a whole frame. This limit bounds the processing time. The dots of a
-    // frame of 188 x 120 px have about 500 runs. Noisy frames of this size were still located with
-    // up to 1,900 runs.
+    // Maximum number of runs in a whole frame. This limit bounds the processing time. The dots in a
+    // frame of 188 x 120 px consist of about 500 runs. Noisy frames of this size were still located
+    // with up to 1,900 runs.
     int max_runs = 0;
 };
 

@@ -1,4 +1,4 @@
-// Bounding box of the points of a drawing.
+// Bounding box of the points in a drawing.
 #pragma once
 
 #include <algorithm>

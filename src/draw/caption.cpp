@@ -16,7 +16,7 @@ constexpr double kSmallSize = 36;
 constexpr double kSecondRow_y = 190;
 constexpr double kSheetRow_y = 292;
 
-/// A value of the caption, with a label above it.
+/// A value in the caption, with its label above it.
 struct Entry {
     std::string label;
     std::string value;
@@ -173,7 +173,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes)
     return lines;
 }
 
-/// Returns the message of the status, with the counts that explain it.
+/// Returns the message for the status, with the counts that explain it.
 std::string message_of(const Fix& fix, const DeviceOptions& options) {
     std::string text = fmt::format("{}; dots seen: {}", message(fix.status), fix.dots_seen);
     if (fix.status == Status::too_few_dots) {

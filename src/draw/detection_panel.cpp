@@ -14,9 +14,9 @@ const DetectedDot& dot_of_seed(const Trace& trace, int seed) {
     return trace.dots[trace.seeds[static_cast<std::size_t>(seed)]];
 }
 
-/// Returns the radius of a dot in the drawing. The number of pixels is unknown for dots that were
-/// measured at their predicted positions. Their diameter is drawn as a third of the spacing, which
-/// is typical of blurred dots.
+/// Returns the radius of a dot in the drawing. Dots that were measured at their predicted positions
+/// have no known area. They are drawn with a diameter of a third of the spacing, which is typical
+/// of blurred dots.
 double radius_of(const DetectedDot& dot, const FrameView& view) {
     return dot.area_px == 0 ? view.spacing() / 6
                             : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();
@@ -36,8 +36,8 @@ void draw_connections(const FrameView& view, Svg& svg) {
     svg.add(R"(<g class="connections" stroke="{}" stroke-width="{:.2f}" )"
             R"(stroke-linecap="round" stroke-opacity="0.85">)",
             colour::kEdge, 3.5 * view.stroke());
-    // The edges connect the dots of the first measurement, so they are not drawn if the dots were
-    // measured again.
+    // The edges connect the dots as they were first measured, so they are not drawn if the dots
+    // were measured again.
     if (view.reached().edges && !trace.seeds.empty() && !view.is_dense()) {
         for (const SeedEdge& edge : trace.edges) {
             svg.line(view.at_dot(dot_of_seed(trace, edge.from)),

@@ -1,4 +1,5 @@
-// Panels of the drawing of `draw_frame`. Point (0, 0) of each panel is its top left corner.
+// Panels of the drawing that `draw_frame` produces. The origin of each panel is its top left
+// corner.
 #pragma once
 
 #include "draw/frame_view.hpp"

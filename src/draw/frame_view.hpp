@@ -41,8 +41,8 @@ class Plane {
     double area_;  ///< area of a pixel in the plane, in squared spacings
 };
 
-/// Maps pixels to the drawing. Image pixels are pixels of the captured image. Ideal pixels are
-/// pixels of a camera without lens distortion.
+/// Maps pixel coordinates to the drawing. Image coordinates refer to the captured image. Ideal
+/// coordinates refer to the image that a camera without lens distortion would capture.
 class FrameView {
   public:
     FrameView(ImageView image, const Trace& trace, double side);
@@ -51,7 +51,7 @@ class FrameView {
     const Reached& reached() const { return reached_; }
     double width() const { return width_px_ * scale_; }
     double height() const { return height_px_ * scale_; }
-    /// Returns the side of a pixel in the drawing, in units of the drawing.
+    /// Returns the side length of a pixel in the drawing, in drawing units.
     double scale() const { return scale_; }
     /// Returns true if the dots are too close together in the drawing for legible letters and
     /// rings.
@@ -63,12 +63,12 @@ class FrameView {
     /// of the dots.
     double spacing() const { return spacing_px_ * scale_; }
 
-    /// Converts an ideal pixel to a point of the drawing.
+    /// Converts ideal pixel coordinates to a point in the drawing.
     Point at(Point ideal_px) const;
     Point at_dot(const DetectedDot& dot) const;
-    /// Converts a point of the grid to a point of the drawing. Requires `reached().cells`.
+    /// Converts grid coordinates to a point in the drawing. Requires `reached().cells`.
     Point at_grid(double i, double j) const;
-    /// Returns the reference point of the pose, in ideal pixels.
+    /// Returns the reference point of the pose, in ideal pixel coordinates.
     Point reference_px() const { return reference_px_; }
     /// Returns the direction of the pattern's x axis at the reference point as a unit vector in the
     /// drawing. Requires `reached().pose`.

@@ -19,8 +19,8 @@ constexpr double kMargin_mm = 5;
 /// Line width of a ballpoint pen, in mm.
 constexpr double kLine_mm = 0.4;
 
-/// Returns the page with a known size. If the size is unknown, sets size and position to the
-/// bounding box of the strokes plus a margin.
+/// Returns the page unchanged if its size is known. Otherwise, sets its size and position so that
+/// it contains all strokes with a margin around them.
 InkPage with_size(InkPage page) {
     if (page.width_mm > 0) return page;
     constexpr double kFar = std::numeric_limits<double>::max();
@@ -44,7 +44,7 @@ InkPage with_size(InkPage page) {
     return page;
 }
 
-/// Appends "x y" of a point, in mm from the top left corner of the page.
+/// Appends the coordinates of a point as "x y", in mm from the top left corner of the page.
 void append_place(std::string& text, const InkPage& page, const InkPoint& point) {
     fmt::format_to(std::back_inserter(text), "{:.4f} {:.4f}", point.x_mm - page.left_mm,
                    point.y_mm - page.top_mm);

@@ -80,8 +80,8 @@ class SpinPicture {
         draw_cross(middle(0), colour::kBad);
     }
 
-    /// Draws the centre of rotation computed from each single frame. The centre computed from all
-    /// frames is in the middle of the panel.
+    /// Draws the centre of rotation computed from each individual frame. The centre computed from
+    /// all frames is in the middle of the panel.
     void draw_residuals() {
         double full_mm = kMinFullScale_mm;
         for (const SpinStation& station : spin_.stations)

@@ -25,13 +25,13 @@ constexpr double kMaxArrow = 70;
 constexpr double kMinArrowScale_mm = 0.002;
 
 /// Image centre of one frame, and the difference between its positions on the two sheets. Both are
-/// in mm in the world frame, but with y down.
+/// in world coordinates in mm, but with y down.
 struct Disagreement {
     Point at;
     Point off;
 };
 
-/// Converts a point of a sheet to mm in the world frame, but with y down as in the drawing. The
+/// Converts a point on a sheet to world coordinates in mm, but with y down as in the drawing. The
 /// sheet must have a world pose.
 Point in_world(const SheetEntry& entry, double x_mm, double y_mm) {
     const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();

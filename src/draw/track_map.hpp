@@ -35,11 +35,11 @@ struct Map {
     std::vector<std::string> notes;  ///< lines of text below the drawing
 };
 
-/// Removes the sheets that contain neither a point of a path nor the place of a robot, and adds a
-/// note with their number. If this would remove all sheets, keeps all of them.
+/// Removes the sheets that contain neither a point on a path nor the position of a robot, and adds
+/// a note stating how many were removed. If this would remove all sheets, keeps all of them.
 void keep_visited_sheets(Map& map);
 
-/// Returns the drawing. The size of the drawing is the bounding box of its contents.
+/// Returns the drawing. It is as large as the bounding box of its contents.
 std::string draw_map(const Map& map);
 
 }  // namespace dotpose::draw

@@ -19,7 +19,7 @@ namespace {
 using evaluate_detail::spread_of;
 using Complex = std::complex<double>;
 
-/// The located and the true place of a frame in mm, as complex numbers x + iy.
+/// Located place and true place of a frame, in mm, as complex numbers x + iy.
 struct Pair {
     Complex found;
     Complex truth;
@@ -205,7 +205,7 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
         if (frame.truth) result.is_in_world = frame.truth->is_in_world;
         result.errors.push_back(frame.found ? std::optional(error_of(frame, alignment))
                                             : std::nullopt);
-        // A fix is wrong if its place is not known in the coordinate frame of the true places.
+        // A fix is wrong if its place in the coordinate frame of the true places is unknown.
         if (frame.status == Status::ok && !frame.found) ++result.wrong;
     }
     mark_wrong(frames, result.errors);

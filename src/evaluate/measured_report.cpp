@@ -1,4 +1,5 @@
-// Writes the results of a comparison with measured places: report, errors per frame, and figures.
+// Writes the results of a comparison with measured places: a report, the errors of each frame, and
+// figures.
 #include <cmath>
 #include <functional>
 #include <map>

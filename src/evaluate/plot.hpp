@@ -35,7 +35,7 @@ double rounded_up(double value);
 /// Scale of one axis. Converts data values to drawing units.
 struct Scale {
     double first = 0;
-    double last = 1;  ///< may be below `first`, unless `is_log`
+    double last = 1;  ///< may be less than `first` if `is_log` is false
     bool is_log = false;
     double at_first = 0;  ///< drawing coordinate of `first`
     double at_last = 1;

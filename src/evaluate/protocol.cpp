@@ -24,8 +24,8 @@ struct Stand {
 
 /// Sets the pose of the camera relative to the printed pattern. Point p of the page shows point p -
 /// shift(p) of the pattern, because the printer shifts the ink. The gradient of the shift rotates
-/// the pattern. It also stretches the pattern by at most 1 % over the 8.6 mm of a frame, which is
-/// neglected.
+/// the pattern. The gradient also stretches the pattern by at most 1 % over the 8.6 mm of a frame,
+/// but this function neglects the stretching.
 void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
     Vec2 pattern_mm = stand.place_mm;
     pose.theta_rad = stand.theta_rad;

@@ -1,4 +1,4 @@
-/// Functions of the paper's protocol that are shared by its figures and tests.
+/// Functions for the paper's protocol, shared by its figures and its tests.
 #pragma once
 
 #include <functional>

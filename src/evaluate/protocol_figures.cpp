@@ -21,7 +21,7 @@ constexpr double kLeft = 80;
 constexpr double kTop = 150;
 constexpr double kHeight = kTop + kPanel + 150;
 
-/// One page of a figure: its name, its stations, and the number of decimals of its values.
+/// One page in a figure: its name, its stations, and the number of decimals for its values.
 struct FigurePage {
     std::string name;
     std::span<const Station> stations;

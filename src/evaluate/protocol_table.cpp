@@ -14,7 +14,7 @@ namespace {
 
 using namespace evaluate_detail;
 
-/// Returns the table cells "accuracy | precision" of one coordinate.
+/// Returns the table cells "accuracy | precision" for one coordinate.
 std::string cells(const Summary& summary, const char* unit, int decimals) {
     return fmt::format("{0:.{1}f}{3} | ± {2:.{1}f}{3}", summary.worst, decimals,
                        summary.worst_sigma, unit);

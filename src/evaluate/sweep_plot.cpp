@@ -88,8 +88,8 @@ void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder)
 }
 
 /// Returns a logarithmic scale that contains the medians and the 95th percentiles of the position
-/// errors, for values of the condition with at least kMinFixes fixes. If there are none, the scale
-/// is from 1 to 10 um.
+/// errors, for values of the condition with at least kMinFixes fixes. If there are no such values,
+/// the scale ranges from 1 to 10 um.
 Scale error_scale(const Sweep& sweep) {
     double low_um = 1e300;
     double high_um = 0;

@@ -1,4 +1,4 @@
-// Functions of raster.hpp for a build without librsvg. Figures are written only as SVG.
+// Implements raster.hpp for builds without librsvg. Figures are written only as SVG.
 #include "dotpose/files/error.hpp"
 #include "draw/svg.hpp"
 #include "evaluate/raster.hpp"

@@ -14,21 +14,22 @@ namespace {
 /// Maximum undistorted coordinate. A larger coordinate shows that the iteration did not converge.
 constexpr double kMaxUndistorted_px = 1e6;
 
-/// Number of parameters: k, the two coordinates of the centre, and the six of an affine map. The
-/// affine map is included because every pose fit contains such a map. Lengths are in units of half
-/// the image diagonal.
+/// Number of parameters: k, the two coordinates of the centre, and the six parameters of an affine
+/// map. The affine map is included because every pose fit contains such a map. Lengths are in units
+/// of half the image diagonal.
 constexpr std::size_t kParameters = 9;
 using Fit = LeastSquares<kParameters>;
 using Parameters = Fit::Vector;
 
-/// One point of the image, distorted and undistorted, in the same units.
+/// Distorted and undistorted position of one image point, in the same units.
 struct Pair {
     PixelPoint seen;
     PixelPoint wanted;
 };
 
-/// Residual of a pair, and its derivatives. The residual is the distorted point, undistorted
-/// (paper, equation 2) and transformed by the affine map, minus the undistorted point of the pair.
+/// Residual of a pair, and its derivatives. The distorted point is undistorted (paper, equation 2)
+/// and transformed by the affine map. The residual is the result minus the undistorted point of the
+/// pair.
 struct Misfit {
     double u = 0;
     double v = 0;

@@ -21,8 +21,8 @@ constexpr double kMaxMisfit_px = 0.5;
 constexpr double kMaxPx = 1e6;
 constexpr double kMaxDistortion = 1e3;
 
-/// Returns the list under one of three keys. Files of camera_calibration_parsers have the key
-/// `nested`. Printed messages have `lower` or `upper`.
+/// Returns the list under one of three keys. Files written by camera_calibration_parsers use the
+/// key `nested`. Printed messages use `lower` or `upper`.
 std::vector<double> coefficients(const YamlMap& file, const char* nested, const char* lower,
                                  const char* upper, std::size_t count) {
     if (file.has(nested)) return file.map(nested).numbers("data", count);

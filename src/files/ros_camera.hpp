@@ -1,4 +1,4 @@
-// Reads camera files in the formats of ROS.
+// Reads camera files in ROS formats.
 #pragma once
 
 #include "dotpose/files/camera.hpp"
@@ -6,7 +6,7 @@
 
 namespace dotpose::files {
 
-/// Returns true if `file` is a camera_info file of camera_calibration_parsers, or a printed
+/// Returns true if `file` is a camera_info file written by camera_calibration_parsers, or a printed
 /// camera_info message.
 bool is_camera_info(const YamlMap& file);
 

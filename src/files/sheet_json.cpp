@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "dotpose-sheets";
 
-/// A JSON object of the file, with its path for error messages.
+/// A JSON object in the file, and its path for error messages.
 class Node {
   public:
     Node(const json& value, std::string file, std::string path)

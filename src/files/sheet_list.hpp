@@ -1,4 +1,4 @@
-/// Checks that names and cells of all sheets of a file are unique.
+/// Checks that the names and cells of all sheets in a file are unique.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Reads values of a YAML file. Error messages contain the names of the file and of the key.
+// Reads values from a YAML file. Error messages contain the file name and the key.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +33,7 @@ class YamlMap {
 
     /// Throws Error if the mapping contains a key that is not in `keys`.
     void allow_only(std::initializer_list<const char*> keys) const;
-    /// Throws Error with the names of the file and the key, followed by `what`.
+    /// Throws Error with the file name and the key, followed by `what`.
     [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 
   private:

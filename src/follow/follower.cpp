@@ -1,4 +1,5 @@
-// Functions shared by single images and sequences: options, sheets and camera file.
+// Functions used for both single images and sequences, including those that set the sheets and the
+// camera file.
 #include "dotpose/tools/follower.hpp"
 
 #include <algorithm>

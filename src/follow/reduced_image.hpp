@@ -19,7 +19,8 @@ GreyImage reduced(ImageView image, int by);
 /// the reference point stay at the same points of the scene.
 DeviceOptions reduced(const DeviceOptions& options, ImageView image, int by);
 
-/// Converts the fix of an image reduced by `by` to pixels of the original image.
+/// Converts a fix from the pixel coordinates of an image reduced by `by` to those of the original
+/// image.
 Fix in_whole_pixels(const Fix& fix, int by);
 
 }  // namespace dotpose::follow_detail

@@ -26,7 +26,7 @@ using Vector18 = Eigen::Matrix<double, 18, 1>;
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
 /// Change of log(agility) after two consecutive innovations with equal signs (increase) or with
-/// opposite signs (decrease). With equal magnitudes, as in the tracker of the plane, the normalised
+/// opposite signs (decrease). With equal magnitudes, as in the planar tracker, the normalised
 /// squared errors of individual axes would be up to 1.4 instead of 1 at 200 frames per second
 /// (tests/unit/follow/space_track_test.cpp).
 constexpr double kAgilityIncrease = 0.451;
@@ -35,8 +35,8 @@ constexpr double kAgilityDecrease = -0.405;
 /// expected value. `dotpose_tables space_track` shows the effect.
 constexpr double kAgilityGain = 0.2;
 constexpr double kMinAgility = 1e-6;
-/// Forgetting factor of the information about the fraction of independent errors. It is applied for
-/// each sighting, so the fraction is averaged over about 50 sightings.
+/// Forgetting factor of the information about the fraction of independent errors. It is applied
+/// once per sighting, so the fraction is averaged over about 50 sightings.
 constexpr double kInformationKept = 0.98;
 /// Minimum fraction of independent errors. In the frames of `dotpose_tables space_track`, a minimum
 /// of 0.01 makes positions 0.3 to 0.6 % more accurate, and velocities up to 18 % less accurate.
@@ -80,7 +80,7 @@ Vector3d logarithm(const Quaterniond& rotation) {
     return std::remainder(turn.angle(), 2 * std::numbers::pi) * turn.axis();
 }
 
-/// Adds a step of position and rotation to a pose.
+/// Adds a step in position and rotation to a pose.
 void move(CameraInSpace& camera, const Vector6& step) {
     camera.x_mm += step[0];
     camera.y_mm += step[1];
@@ -111,7 +111,7 @@ Matrix6 matrix_of(const SpaceCovariance& covariance) {
     return matrix;
 }
 
-/// Returns the transformation from the axes of the agility to position and rotation. In a view of a
+/// Returns the matrix that converts from the agility axes to position and rotation. In a view of a
 /// plane, the point in front of the camera is measured more accurately than the camera position.
 /// The position error is therefore mostly the rotation error multiplied by a lever. The lever is
 /// the regression of the position on the rotation. `noise` is the covariance of a sighting.

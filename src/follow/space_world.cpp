@@ -1,4 +1,5 @@
-// Converts sightings and tracks of a camera in space between the frames of sheets and the world.
+// Converts sightings and tracks of a camera in space between sheet coordinates and world
+// coordinates.
 #include <cmath>
 
 #include <Eigen/Core>

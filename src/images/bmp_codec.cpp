@@ -47,7 +47,7 @@ struct BmpHeader {
     std::size_t palette_at;
     std::size_t palette_count;
     std::size_t palette_entry_bytes;
-    /// Bit masks of red, green, blue and opacity in a pixel of 16 or 32 bits. The mask of a missing
+    /// Bit masks of red, green, blue and opacity in a 16-bit or 32-bit pixel. The mask of a missing
     /// component is 0.
     std::array<std::uint32_t, 4> masks;
 };

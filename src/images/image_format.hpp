@@ -1,5 +1,6 @@
-/// Detects and decodes the formats of image files. image_file.hpp describes the conversions and
-/// limits. Error messages contain only the reason, and the caller adds the name of the file.
+/// Detects the formats of image files and decodes the images. image_file.hpp describes the
+/// conversions and limits. Error messages contain only the reason, and the caller adds the file
+/// name.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ using Bytes = std::span<const std::uint8_t>;
 /// A file in memory and the limits for decoding it.
 struct ImageInput {
     Bytes file;
-    int page = 1;  ///< number of the page of a TIFF file, from 1
+    int page = 1;  ///< page number in a TIFF file, from 1
     int max_pixels = kDefaultImagePixels;
 };
 
@@ -30,7 +31,7 @@ struct ImageFormat {
     /// Decodes an image. Sets `note` as `read_image` does, but without the name of the file.
     GreyImage (*decode)(const ImageInput& input, std::string& note);
     /// Returns the origin and the resolution from the metadata of the file. The resolution may be a
-    /// default of the program that wrote the file.
+    /// default value set by the program that wrote the file.
     ImageOrigin (*origin)(const ImageInput& input);
     /// Returns the number of pages. Null if files of the format have a single page.
     int (*count_pages)(Bytes file) = nullptr;
@@ -52,7 +53,7 @@ struct OtherFormat {
 /// for other files.
 const OtherFormat* other_format_of(Bytes head);
 
-// Functions of the formats. Each format has its own source file.
+// Functions for the individual formats. Each format has its own source file.
 GreyImage decode_bmp(const ImageInput& input, std::string& note);
 ImageOrigin bmp_origin(const ImageInput& input);
 GreyImage decode_heif(const ImageInput& input, std::string& note);

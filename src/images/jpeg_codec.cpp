@@ -19,10 +19,10 @@ namespace {
 constexpr int kQuality = 95;
 constexpr int kExifMarker = JPEG_APP0 + 1;
 // Maximum number of scans. Each scan processes all pixels, so a small file with many scans could
-// occupy the decoder for hours. Progressive images of cameras have about ten scans.
+// occupy the decoder for hours. Progressive images from cameras have about ten scans.
 constexpr int kMaxScans = 100;
 
-/// Collects the messages of libjpeg. The error handler must not return to libjpeg, so it jumps to
+/// Collects the messages from libjpeg. The error handler must not return to libjpeg, so it jumps to
 /// `leave`. Each call that may fail must follow setjmp(leave), and no objects with destructors may
 /// be created between setjmp and the call.
 struct Report : jpeg_error_mgr {

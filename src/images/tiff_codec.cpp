@@ -21,7 +21,7 @@
 namespace dotpose::images {
 namespace {
 
-/// A file in memory, and the first error of libtiff.
+/// A file in memory, and the first error reported by libtiff.
 struct Input {
     Bytes file;
     std::uint64_t at = 0;
@@ -99,8 +99,8 @@ class TiffReader {
                                unit == RESUNIT_CENTIMETER ? kCentimetresPerInch : 1);
     }
 
-    /// Returns true if the page has EXIF data of a camera. Afterwards, the EXIF directory is the
-    /// current directory of libtiff instead of the page.
+    /// Returns true if the page has EXIF data written by a camera. Afterwards, the EXIF directory
+    /// is the current directory of libtiff instead of the page.
     bool read_is_of_camera() {
         toff_t exif = 0;
         if (TIFFGetField(tiff_.get(), TIFFTAG_EXIFIFD, &exif) == 0 ||

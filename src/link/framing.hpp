@@ -1,6 +1,6 @@
 // Framing: encodes a fixed number of arbitrary bytes as bytes without zeros (COBS), and appends a
-// CRC. The CRC covers the encoded bytes, because an error in a code byte of COBS shifts all
-// following plain bytes, and a CRC of the plain bytes would not always detect this.
+// CRC. The CRC covers the encoded bytes, because an error in a COBS code byte shifts all following
+// plain bytes, and a CRC over the plain bytes would not always detect this.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@ namespace {
 /// Maximum predicted motion, in spacings. Larger motions are not predicted, because fixed-point
 /// coordinates could overflow.
 constexpr float kMaxMotion = 2048;
-/// Minimum standard deviation of a predicted position, in 2^-16 spacings. Accounts for the error of
+/// Minimum standard deviation of a predicted position, in 2^-16 spacings. Accounts for the error in
 /// the last plane, which is not part of `MeasuredMotion::sigma_mm`.
 constexpr float kMinSigma_q16 = 65536.0F / 32;
 

@@ -17,7 +17,7 @@
 namespace dotpose::core {
 
 /// Attempts without a prediction. `resampled` is a second attempt that samples the bits again if
-/// the position is doubtful, and takes three times as long as `second`.
+/// the position is doubtful. It takes three times as long as `second`.
 enum class Step : std::uint8_t { first, turning, second, resampled, device };
 
 /// Returns true if the status means that the image shows a grid of dots whose bits do not determine
@@ -44,16 +44,16 @@ class Attempts {
     bool may_try_twice() const;
 
     /// Judges the fix of the last attempt, which was made in the code `read`. Returns the certainty
-    /// of the fix, and the likeliest other code with its odds.
+    /// of the fix, and the most likely other code with its odds.
     Judgement judge(CodeVariant read) const;
     /// Returns true if a rotation of the scene during the readout may explain the residuals of the
     /// fix. A search for this rotation (`Step::turning`) may then give a better fix.
     bool shows_turn();
-    /// Returns true if the last attempt found that the image shows too few cells for a reliable
-    /// fix, whatever the code.
+    /// Returns true if the last attempt found that the image shows too few cells for a reliable fix
+    /// in any code.
     bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }
-    /// Returns true if the bits of the last `Step::first` attempt were clear and agreed with the
-    /// code, but were too few for a reliable position (see `Measurement::has_clear_bits`).
+    /// Returns true if the bits read in the last `Step::first` attempt were clear and agreed with
+    /// the code, but were too few for a reliable position (see `Measurement::has_clear_bits`).
     bool has_clear_bits() const { return w_.measurement.has_clear_bits; }
 
   private:
@@ -71,7 +71,7 @@ class Attempts {
     SecondAttempt second_;
     /// The code in which `second` found the doubtful position with the fewest bit errors.
     CodeVariant worth_resampling_ = CodeVariant::anoto;
-    int min_errors_ = kMaxErrors;  ///< number of bit errors of this position
+    int min_errors_ = kMaxErrors;  ///< number of bit errors at this position
 };
 
 }  // namespace dotpose::core

@@ -232,8 +232,8 @@ Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInVi
 }
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. An
-/// exact hypothesis is implausible if its bits are not clean. It is also implausible if kMaxLooks
-/// fits move its plane far (see `is_far_from`).
+/// exact hypothesis is implausible if its bits are not clean, or if its plane moves far (see
+/// `is_far_from`) in kMaxLooks fits.
 Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
                                  const PlaceEvidence& evidence, Measurement& measurement,
                                  Fix& fix) {
@@ -344,7 +344,7 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
     const auto measure = [&] {
         return measure_and_compare(frame, hypothesis, evidence, measurement, fix);
     };
-    // Sets a flag of the hypothesis, and measures its dots. If the result is neither ok nor
+    // Sets a flag in the hypothesis, and measures its dots. If the result is neither ok nor
     // too_few_bits, resets the flag and returns nullopt.
     const auto measure_with = [&](bool Hypothesis::*property) -> std::optional<Confirmation> {
         std::optional<OtherCodes> before;

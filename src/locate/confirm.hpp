@@ -11,7 +11,7 @@
 
 namespace dotpose::core {
 
-/// Returns true if the plane is a plausible view of paper in the whole image (see
+/// Returns true if the plane describes a plausible view of paper across the whole image (see
 /// `is_within_reason`). All stages reject implausible planes.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
@@ -38,9 +38,9 @@ bool explains_few_dots(const PoseFit& fit, int dots_seen);
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
-    implausible,  ///< the plane is not plausible, or the dots or their bits contradict the
-                  ///< hypothesis
-    uncertain,    ///< the hypothesis is plausible, but its position is not certain
+    /// The plane is not plausible, or the dots or their bits contradict the hypothesis.
+    implausible,
+    uncertain,  ///< the hypothesis is plausible, but its position is not certain
     /// Same as `uncertain`, but all bits in view (in small views, nearly all bits) are clear and
     /// agree with the code, or a small view shows too few cells for a further attempt.
     too_few_bits,
@@ -69,11 +69,10 @@ struct Measurement {
     bool has_clear_bits = false;
 };
 
-/// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose.
-/// If the hypothesis is predicted, and its dots can be sampled directly (see
-/// `can_sample_directly`), tries direct sampling first. If the result is ok, sets the fix and the
-/// results of `measurement`. Otherwise, only `p_wrong_log2`, `prior`, `frames` and `bit_errors` of
-/// the fix may have changed.
+/// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. If
+/// the hypothesis is predicted, and its dots can be sampled directly (see `can_sample_directly`),
+/// tries direct sampling first. If the result is ok, sets the fix and the results in `measurement`.
+/// Otherwise, only `p_wrong_log2`, `prior`, `frames` and `bit_errors` of the fix may have changed.
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix);
 

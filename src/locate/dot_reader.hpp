@@ -35,7 +35,7 @@ class DotReader {
     /// biased.
     void drop_cut_dots(const Hypothesis& hypothesis) const;
     /// Measures the dot centres in centroid windows. If the hypothesis is exact, also fits its
-    /// plane to the centres, and sets `projected`, `squares` and `right` of `bits`. `right` is then
+    /// plane to the centres, and sets `projected`, `squares` and `right` in `bits`. `right` is then
     /// the number of dots found. If fewer than kMinFound dots are found, only sets `right` to 0. If
     /// the hypothesis is not exact, measures the centres only if `is_last` is true.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
@@ -47,10 +47,10 @@ class DotReader {
     /// nothing.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
-    /// Corrects the bias of facing dots, which are adjacent dots displaced towards each other (see
-    /// core/pose/facing_dots.hpp). The plane must be fitted again afterwards. Returns false and
-    /// changes nothing if the hypothesis is exact, if the centroid windows do not extend to the
-    /// facing dot, or if the bias is not significant.
+    /// Corrects the bias caused by facing dots, which are adjacent dots displaced towards each
+    /// other (see core/pose/facing_dots.hpp). The plane must be fitted again afterwards. Returns
+    /// false and changes nothing if the hypothesis is exact, if the centroid windows do not extend
+    /// to the facing dot, or if the bias is not significant.
     bool correct_neighbour_bias(const Hypothesis& hypothesis, const PoseFit& fit) const;
     const MeasuredDots& dots() const { return dots_; }
 

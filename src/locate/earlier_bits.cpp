@@ -109,9 +109,10 @@ float power_of_two(float exponent) {
     return natural_exp(std::numbers::ln2_v<float> * exponent);
 }
 
-/// The likeliest match of two grids, and the summed weight of all possible matches. The weight of a
-/// match is the product of its likelihood ratio (see `log2_ratio`) and the probability density of
-/// its angle and shift, given the measured motion. The density is relative to its maximum.
+/// The most likely match between two grids, and the summed weight of all possible matches. The
+/// weight of a match is the product of its likelihood ratio (see `log2_ratio`) and the probability
+/// density of its angle and shift, given the measured motion. The density is relative to its
+/// maximum.
 struct Match {
     int quarters = 0;
     FixedVec shift;  ///< from the turned earlier grid to the current grid, in cells
@@ -149,8 +150,8 @@ struct ExpectedShift {
     float variance = 0;
 };
 
-/// Adds the possible matches of `now` with `earlier`, which has been turned by `quarters` quarter
-/// turns. `turn_log2` is log2 of the weight of this turn.
+/// Adds the possible matches between `now` and `earlier`, which has been turned by `quarters`
+/// quarter turns. `turn_log2` is log2 of the weight of this turn.
 void add_matches(const BitBlock& now, const BitBlock& earlier, const ExpectedShift& expected,
                  int quarters, float turn_log2, Match& match) {
     const float reach =
@@ -224,8 +225,8 @@ std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
         const float off_rad = std::remainder(
             angle_of(grid_from_image) - angle_of(before) - motion_.turn_rad, 2 * kPi);
         if (std::abs(off_rad) > tuned::kReach_sigmas * std::sqrt(variance_rad2)) continue;
-        // Point of the earlier image that shows the same point of the paper as the reference point
-        // of the current image.
+        // Point in the earlier image that shows the same point on the paper as the reference point
+        // in the current image.
         const float scale = spacing_px(before) / spacing_mm_;
         const FloatVec reached{reference_px_.x + scale * motion_.right_mm,
                                reference_px_.y + scale * motion_.down_mm};

@@ -1,6 +1,6 @@
-// Earlier bits: the bits of earlier frames, in the grid of the newest earlier frame. A measured
-// motion relates this grid to the current grid. Frames that do not determine a reliable position
-// individually may do so together. See docs/integrity.md, "Frames read together".
+// Earlier bits: the bits read in earlier frames, arranged in the grid of the newest of these
+// frames. A measured motion relates this grid to the current grid. Frames that do not determine a
+// reliable position individually may do so together. See docs/integrity.md, "Frames read together".
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace dotpose::core {
 
-/// Bits of one or several frames in one grid.
+/// Bits from one or more frames, in one grid.
 struct FrameBits {
     BitBlock block;
     FloatPlane grid_from_image;  ///< image points are in px relative to the image centre
@@ -20,7 +20,7 @@ struct FrameBits {
     int frames = 0;              ///< number of frames that contributed bits
 };
 
-/// Bits of several frames in the grid of the current frame.
+/// Bits from several frames, in the grid of the current frame.
 struct JoinedBits {
     BitBlock block;
     int frames = 0;
@@ -39,7 +39,7 @@ class EarlierBits {
     /// grids match. If the frame has no bits, keeps the earlier bits.
     void end_frame();
 
-    /// Stores a block of bits of the current frame. Must be called between `begin_frame` and
+    /// Stores a block of bits from the current frame. Must be called between `begin_frame` and
     /// `end_frame`. If several blocks are stored, only one is kept: the last block with a confirmed
     /// place or, if no place is confirmed, the block with the most bits.
     void note(const BitBlock& block, const FloatPlane& grid_from_image, bool is_confirmed);
@@ -49,7 +49,7 @@ class EarlierBits {
     /// Returns true between `begin_frame` and `end_frame`.
     bool is_in_series() const { return is_in_frame_; }
     bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
-    /// Joins a block of the current frame with the earlier bits. Drops cells whose bits differ
+    /// Joins a block from the current frame with the earlier bits. Drops cells whose bits differ
     /// between the frames. Returns nullopt if there are no earlier bits, or if the upper bound on
     /// the probability of a wrong grid match exceeds half of the accepted probability of a wrong
     /// fix.

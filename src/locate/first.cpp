@@ -84,8 +84,8 @@ class PatchSearch {
         PatchGrid grid;
         Confirmation square = Confirmation::implausible;
         if (find_middle_grid(false, grid)) {
-            // Only a square grid is tested in this way. The spacing of a skewed grid is not
-            // reliable, because scattered dots may form a skewed grid with any spacing.
+            // This test applies only to square grids. The spacing of a skewed grid is not reliable,
+            // because scattered dots may form a skewed grid with any spacing.
             measurement_.shows_too_few_cells = shows_too_few_cells(grid.grid_from_image);
             if (measurement_.shows_too_few_cells) return Confirmation::implausible;
             square = test_grid(grid);
@@ -103,10 +103,10 @@ class PatchSearch {
     }
 
     /// Finds the grid in the patch at the image centre. If `is_skewed` is true, cells may be
-    /// arbitrary parallelograms. Otherwise, cells must be approximately square. If no skewed grid
-    /// is found, or if it is probably false, repeats the search with waves from other numbers of
-    /// central dots, because the default number may be too small, or a rotation may displace the
-    /// dots.
+    /// arbitrary parallelograms. Otherwise, cells must be approximately square. If the search for a
+    /// skewed grid finds none, or finds a grid that is probably false, it is repeated with the
+    /// waves computed from a different number of central dots. The default number may be too small,
+    /// or a rotation may displace the dots.
     bool find_middle_grid(bool is_skewed, PatchGrid& grid) const {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;
@@ -124,14 +124,14 @@ class PatchSearch {
         return is_found;
     }
 
-    /// Tests the hypothesis that is decoded from a grid of the patch at the image centre.
+    /// Tests the hypothesis that is decoded from a grid in the patch at the image centre.
     Confirmation test_grid(const PatchGrid& grid) {
         auto hypothesis = read_grid(patch_, grid, middle_of(patch_, frame_.image), evidence_,
                                     PlaceSearch::thorough);
         if (!hypothesis) return Confirmation::implausible;
         move_origin_to_centre(*hypothesis);
-        // If the patch is the whole image, the grid is fitted to all dots, and predicts each dot to
-        // within a fraction of a pixel unless the spacing is too small.
+        // If the patch is the whole image, the grid is fitted to all dots. It then predicts the
+        // position of each dot to within a fraction of a pixel, unless the spacing is too small.
         hypothesis->is_predicted =
             is_whole_image(patch_, frame_.image) &&
             spacing_px(hypothesis->pattern_from_image) >= tuned::kMinSpacingForPrediction_px;
@@ -251,7 +251,7 @@ class PatchSearch {
     /// because each further hypothesis may agree with the bits by chance, and thus increases the
     /// probability of a wrong fix.
     int tries_left_ = 0;
-    DotTiles dot_tiles_ = DotTiles::median;  ///< for `find_hypothesis`
+    DotTiles dot_tiles_ = DotTiles::median;  ///< tiles used by `find_hypothesis`
 };
 
 }  // namespace

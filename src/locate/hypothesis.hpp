@@ -14,12 +14,13 @@ namespace dotpose::core {
 
 /// A plane and a place that are not yet confirmed by bits.
 struct Hypothesis {
-    FloatPlane pattern_from_image;  ///< upright; image points are relative to `from_centre`
-    FloatVec from_centre;           ///< origin of the plane, in px relative to the image centre
-    Place place;                    ///< place of cell (0, 0) of the plane
-    float displacement = 0;         ///< typical distance between dot and intersection, in spacings
-    bool is_certain = false;        ///< true if the place needs no confirmation
-    bool is_predicted = false;      ///< true if dots are predicted to within a fraction of a pixel
+    /// Map from the image to the upright pattern. Image points are relative to `from_centre`.
+    FloatPlane pattern_from_image;
+    FloatVec from_centre;       ///< origin of the plane, in px relative to the image centre
+    Place place;                ///< place of the plane's cell (0, 0) in the code
+    float displacement = 0;     ///< typical distance between dot and intersection, in spacings
+    bool is_certain = false;    ///< true if the place needs no confirmation
+    bool is_predicted = false;  ///< true if dots are predicted to within a fraction of a pixel
     /// True if each dot is closer to its predicted image position than to the other three possible
     /// dot positions of its cell. The dots are then sampled directly.
     bool is_exact = false;
@@ -28,8 +29,8 @@ struct Hypothesis {
     bool reads_cut_dots = false;
     /// True if the pattern may cover only the part of the image around `from_centre`.
     bool is_partial_view = false;
-    /// True if the image is small and shows few cells. The work spent on testing the place is then
-    /// limited (see `PlaceEvidence::work`).
+    /// True if the image is small and shows few cells. The effort spent on testing the place is
+    /// then limited (see `PlaceEvidence::work`).
     bool is_small_view = false;
     /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
     int dot_contrast_q8 = 0;
@@ -84,8 +85,8 @@ struct Similarity {
     float squares_px2 = 0;  ///< sum of the squared residuals of the fit
 };
 
-/// Fits a similarity transform to the offsets of at least one dot. Fits only the shift if all dots
-/// have the same predicted point.
+/// Fits a similarity transform to the offsets in `found`, which must contain at least one dot. Fits
+/// only the shift if all dots have the same predicted point.
 Similarity similarity_of(const DotOffsets& found);
 
 /// Returns the plane shifted, scaled and rotated by a similarity transform.

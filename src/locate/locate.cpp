@@ -115,11 +115,11 @@ class Cascade {
         return *doubtful;
     }
 
-    /// Returns the fix of a step, which must be certain, or a better fix if one of the following
-    /// attempts finds one. Reads the frame again in another code if that code is more likely.
-    /// After a first attempt, searches for a rotation if the residuals indicate one. If this gives
-    /// no better fix and the residuals are large, makes a second attempt. If none of these attempts
-    /// finds a certain fix, repeats the original attempt to restore its results in the workspace.
+    /// Tries to improve the certain fix that `step` has found, and returns the best fix. If another
+    /// code is more likely, reads the frame again in that code. After a first attempt, searches for
+    /// a rotation if the residuals indicate one. If this gives no better fix and the residuals are
+    /// large, makes a second attempt. If none of these attempts finds a certain fix, repeats the
+    /// original attempt to restore its results in the workspace.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempts_.make(other_step, other)) return false;
@@ -224,8 +224,8 @@ CodeReading locate_in_code(const ImageView& image, const DeviceOptions& options,
         name_code_that_explains(w.other_codes, reading);
     } else if (leaves_code_open(reading.fix.status)) {
         note_other_reading(locate_in_any_code(image, options, nullptr, {}, w), reading);
-        locate(image, options, nullptr, w);  // restores the results of the returned fix in the
-                                             // workspace
+        // Restores the results of the returned fix in the workspace.
+        locate(image, options, nullptr, w);
     }
     return reading;
 }

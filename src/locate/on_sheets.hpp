@@ -17,19 +17,19 @@ namespace dotpose::core {
 bool is_possible(CodeVariant code, const Decoding& decoding, const KnownSheets& known);
 
 /// Returns the most likely place of a block on the known sheets. Returns nullopt if the block has
-/// no bits, if this place is in a code other than the code of the options, or if too many bits
-/// disagree with the code at this place.
+/// no bits, if this place is in a code other than `options.code`, or if too many bits disagree with
+/// the code at this place.
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
                                                const BitBlock& block, const KnownSheets& known);
 
 /// Returns true if `place` is certain among the places on the known sheets. `block` must be
-/// upright. Sets `p_wrong_log2` of the fix and, if the place is certain, `prior`.
+/// upright. Sets `p_wrong_log2` in the fix and, if the place is certain, also `prior`.
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
 /// Finds the position of the decoded region on the known sheets. Returns true if a position is
-/// found and is certain. Sets `bit_errors` and `p_wrong_log2` of the fix if a position is found. If
-/// the position is certain, also sets the decoding, and `prior` of the fix.
+/// found and is certain. If a position is found, sets `bit_errors` and `p_wrong_log2` in the fix.
+/// If the position is certain, also sets the decoding, and `prior` in the fix.
 bool read_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Grid& grid,
                     const KnownSheets& known, Decoding& decoding, Fix& fix);
 

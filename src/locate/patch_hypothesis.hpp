@@ -22,7 +22,7 @@ void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots);
 /// Returns the centre of a patch, in px relative to the image centre.
 FloatVec middle_of(const Patch& patch, const ImageView& image);
 
-/// Places a patch around a point of the image, in px. The patch is `scale` times as wide and as
+/// Places a patch around the image point `around_px`. The patch is `scale` times as wide and as
 /// high as the smallest patch, at 1/`scale` of the resolution. Returns false if the patch is too
 /// small for a grid.
 bool place_patch(const ImageView& image, FixedVec around_px, int scale, Patch& patch);
@@ -42,7 +42,7 @@ bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix, DotTiles tiles 
 std::optional<Hypothesis> read_grid(const Patch& patch, const PatchGrid& grid, FloatVec from_centre,
                                     const PlaceEvidence& evidence, PlaceSearch search);
 
-/// Finds a grid in the dots of a patch, and its place in the code by a brief search (see
+/// Finds a grid in the dots of a patch, and then its place in the code with a brief search (see
 /// `read_grid`). Returns nullopt if no grid or no place is found.
 std::optional<Hypothesis> read_hypothesis(const Patch& patch, const PatchView& view,
                                           FloatVec from_centre, const PlaceEvidence& evidence);

@@ -62,16 +62,16 @@ bool is_certain_together(const PlaceEvidence& evidence, const Place& place,
     return true;
 }
 
-/// Returns true if at most one in kMinBitsPerError bits of an upright block is wrong on each axis.
+/// Returns true if, on each axis, at most one bit in kMinBitsPerError of an upright block is wrong.
 bool agrees_with_code(CodeVariant code, const Place& place, const BitBlock& upright) {
     const auto [x, y] = compared_with_code(code, place, upright);
     constexpr int kMinBits = tuning::patch_grid::kMinBitsPerError;
     return kMinBits * x.wrong() <= x.bits() && kMinBits * y.wrong() <= y.bits();
 }
 
-/// Returns false if no place can agree with the bits of an axis (see `agrees_with_code`). `bits` is
-/// the number of bits of the axis. The score of a place is at most the sum of the best scores of
-/// all lines.
+/// Returns false if no place can agree with the bits along an axis (see `agrees_with_code`). `bits`
+/// is the number of these bits. The score of a place is at most the sum of the best scores of all
+/// lines.
 bool may_agree(const Lines& lines, int bits) {
     constexpr int kWeight = 127;
     int max_score = 0;

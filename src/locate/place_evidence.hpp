@@ -28,8 +28,9 @@ struct PlaceEvidence {
     const KnownSheets& known;
     EarlierBits& earlier;
     std::span<ScoredLine> line_scores;  ///< memory for the line scores of a block
-    OtherCodes* others;  ///< receives the odds of the other codes; null if not requested
-    /// Remaining work that may be spent on testing places in small views of this frame.
+    OtherCodes* others;                 ///< receives the odds of the other codes, unless it is null
+    /// Remaining effort that may be spent on testing places in this frame. Applies only to small
+    /// views.
     WorkLimit& work;
 };
 
@@ -41,7 +42,7 @@ struct TurnedPlace {
 
 /// Thoroughness of the search for a place.
 enum class PlaceSearch : std::uint8_t {
-    brief,  ///< searches only at the likeliest quarter turn
+    brief,  ///< searches only at the most likely quarter turn
     /// If the brief search finds no place that agrees with the bits, searches thoroughly at all
     /// quarter turns. In a block of few cells, many lines are too short to determine their rolls,
     /// or to vote for a quarter turn.
@@ -65,7 +66,7 @@ bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, Earli
 std::array<Confidence, 2> confidences_in(const BitsRead& bits);
 
 /// Returns true if the bits make the place of the hypothesis certain. If frames are being read
-/// together, also uses the bits of earlier frames. If the place is certain, sets `p_wrong_log2` of
+/// together, also uses the bits of earlier frames. If the place is certain, sets `p_wrong_log2` in
 /// the fix. Also sets `prior` if known sheets were needed, and `frames` if earlier frames were
 /// needed.
 bool confirm_place(const PlaceEvidence& evidence, const Hypothesis& hypothesis,

@@ -18,10 +18,10 @@ class SecondAttempt {
 
     explicit SecondAttempt(DesktopWorkspace& w) : w_(w) {}
 
-    /// Locates the frame in the code of its options. All calls must pass the same image. If there
-    /// is a fix, stores it in the workspace and returns true. Otherwise, stores the status. If the
-    /// position is not certain, `Resampling::if_doubtful` fits the grid to the dots that the code
-    /// predicts at this position, and reads and decodes the bits again.
+    /// Locates the frame in the code that its options specify. All calls must pass the same image.
+    /// If there is a fix, stores it in the workspace and returns true. Otherwise, stores the
+    /// status. If the position is not certain, `Resampling::if_doubtful` fits the grid to the dots
+    /// that the code predicts at this position, and reads and decodes the bits again.
     bool read(const Frame& frame, Resampling resampling);
 
   private:
@@ -34,9 +34,9 @@ class SecondAttempt {
     bool fit_pattern(const Frame& frame, const Nominal& nominal, PoseFit& fit);
 
     DesktopWorkspace& w_;
-    bool is_seen_ = false;  ///< true if the workspace contains the dots and cells of the filtered
-                            ///< image
-    Fix seen_;              ///< the fix after the bits were read, before decoding
+    /// True if the workspace contains the dots and cells of the filtered image.
+    bool is_seen_ = false;
+    Fix seen_;  ///< the fix after the bits were read, before decoding
 };
 
 }  // namespace dotpose::core

@@ -84,7 +84,7 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
     CellsInView view = cells_in_view(frame, hypothesis, reach, dots.capacity(), rolls);
     view.windows = Windows::on_dots;
     const bool by_centroids = can_sample_directly(hypothesis);
-    // The image must contain the centroid windows at every shift of the search.
+    // The centroid windows must be inside the image at every shift in the search range.
     if (by_centroids) view.margin_px = kPredictedCentroidRadius_px + static_cast<float>(max_px + 1);
     kernels.list_cells(view, dots);
     // Tests at most thirteen shifts along each axis, in steps of about max_px / 6.

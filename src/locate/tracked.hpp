@@ -10,7 +10,7 @@
 namespace dotpose::core {
 
 /// Measures the dots at their predicted image positions. If their bits confirm the prediction, sets
-/// the fix of the workspace and returns true.
+/// the fix in the workspace and returns true.
 bool locate_tracked(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);
 
 /// Variant of `locate_tracked` that uses only the given parts of the workspace. Does not reset the

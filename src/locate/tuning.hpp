@@ -7,7 +7,7 @@
 
 namespace dotpose::core::tuning {
 
-/// Grids of patches (locate/first, locate/turning, locate/patch_hypothesis).
+/// Grids in patches (locate/first, locate/turning, locate/patch_hypothesis).
 namespace patch_grid {
 /// A grid is probably correct if the variance of the dot offsets along each axis is at most this
 /// value, in spacings^2. The offset of a dot is relative to the nearest of the four dot positions
@@ -18,8 +18,8 @@ namespace patch_grid {
 /// frames, the variance of correct grids can exceed 0.002, because the dots are printed
 /// inaccurately. The limit was tested in 3,000 frames of scenes that rotate by 10 to 40 degrees
 /// during the readout. With a limit of 0.002, false grids end the search for a rotation too early
-/// in 3 frames, or in 6 frames if the sheet is known. With a limit of 0.0015, this happens in no
-/// frame.
+/// in 3 frames, or in 6 frames if the sheet is known. With a limit of 0.0015, this does not happen
+/// in any frame.
 inline constexpr float kMaxVariance = 0.0015F;
 /// The search for the place is thorough only if the patch has at most this number of dots. With
 /// more dots, enough lines are long enough to determine their rolls, so the brief search finds the
@@ -49,7 +49,7 @@ inline constexpr int kMaxPixelsOfFewDots = 96 * 96;
 /// limited, because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
 /// Parameters of the wave search away from the image centre: the numbers of central dots from which
-/// the waves are computed, and factors for the estimated spacing. The search tries all
+/// the waves are computed, and the factors applied to the estimated spacing. The search tries all
 /// combinations. Large displacements weaken the waves, and only some combinations find a grid with
 /// weak waves.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
@@ -57,10 +57,10 @@ inline constexpr float kSpacings[] = {1, 0.965F};
 /// Numbers of central dots from which the waves of a skewed grid at the image centre are computed
 /// if the default number leads to no grid, or to a grid that is probably false.
 inline constexpr float kOtherCentralDots[] = {45, 20};
-/// Factors for the estimated spacing if sheets are known. On a known sheet, a strip of only three
-/// rows of dots can make the place certain. The estimated spacing of such a strip is too large,
-/// because the estimate assumes that the nearest neighbours of a dot fill a disc. For the same
-/// reason, the estimate is too large for dots among graphics.
+/// Factors applied to the estimated spacing if sheets are known. On a known sheet, a strip of only
+/// three rows of dots can make the place certain. The estimated spacing of such a strip is too
+/// large, because the estimate assumes that the nearest neighbours of a dot fill a disc. For the
+/// same reason, the estimate is too large for dots among graphics.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F, 0.85F, 0.65F};
 }  // namespace first
 
@@ -80,9 +80,9 @@ inline constexpr float kStepParts = 32;
 /// A grid replaces the best grid so far if its agreement exceeds this multiple of the best
 /// agreement.
 inline constexpr float kBetter = 1.0005F;
-/// Minimum of explained / (dots * variance) for a significant rotation. `explained` is the part of
-/// the squared residuals that the rotation explains, summed over both axes. `variance` is the
-/// remaining variance along one axis. kMinGainIfEven applies if the remaining residuals of
+/// Minimum value of explained / (dots * variance) for a significant rotation. `explained` is the
+/// part of the squared residuals that the rotation explains, summed over both axes. `variance` is
+/// the remaining variance along one axis. kMinGainIfEven applies if the remaining residuals of
 /// neighbouring dots are not correlated, and kMinGain otherwise. The values 0.5 and 3 correspond to
 /// a fifth and to three fifths of all squared residuals.
 inline constexpr float kMinGainIfEven = 0.5F;
@@ -171,7 +171,7 @@ inline constexpr float kOutlier = 8.3F;
 /// axis. If the distance is larger, the dots are measured again, because small centroid windows do
 /// not measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
-/// An exact hypothesis is implausible if this number of fits move its plane by more than kFar.
+/// An exact hypothesis is implausible if its plane moves by more than kFar in this number of fits.
 /// docs/accuracy.md, "Dots with the same sub-pixel phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Windows are dropped if their paper level is less than kTable times the mean paper level. Such
@@ -203,7 +203,7 @@ inline constexpr float kFacing = 0.55F;
 inline constexpr float kDrift_px = 0.05F;
 /// The pixel bias is corrected only if the sub-pixel phases of the dots of a row or column change
 /// by less than this distance across the view. The correction is restricted in this way because it
-/// takes several times as long as all other steps of a frame.
+/// takes several times as long as all other steps together.
 inline constexpr float kDriftInView_px = 0.35F;
 /// The pixel bias is not significant if the variance of the mean dot centre along one axis exceeds
 /// this limit, because other errors are then larger than the bias.
@@ -215,7 +215,7 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// If the image contains fewer cells than this, bits are also read from dots that are cut off by
 /// the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels in a small view. In small views, the work spent on testing a place is
+/// Maximum number of pixels in a small view. In small views, the effort spent on testing a place is
 /// limited. Larger images rarely show so few cells, for example if a rolling shutter stretches the
 /// cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
@@ -223,8 +223,8 @@ inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,
 /// "Small frames", contains the numbers for other sizes.
 inline constexpr float kMinCellsForSecond = 70;
-/// The dot of a cell may be partly visible if its intersection is outside the image by at most this
-/// distance, in spacings.
+/// Maximum distance, in spacings, of an intersection outside the image whose dot may still be
+/// partly visible.
 inline constexpr float kBeyondBorder = 0.2F;
 /// Minimum number of dots that `DotReader::find_centres` must find to fit a plane to them.
 inline constexpr int kMinFound = 8;
@@ -257,8 +257,8 @@ namespace known {
 /// margin. The pose errors are equal in both cases (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
-/// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
-/// has at least this weight.
+/// Minimum weight of a bit, in units of 1/127. The second attempt uses a cell only if each of its
+/// two bits has at least this weight.
 inline constexpr int kMinWeight = 48;
 }  // namespace known
 
@@ -273,8 +273,8 @@ inline constexpr float kDifferentBit_log2 = -3;
 /// log2 of the weight of a blunder: a measured motion whose error is far larger than its standard
 /// deviation.
 inline constexpr float kBlunder_log2 = -36;
-/// Standard deviations of the grid errors: of the angle, in rad, and of the position, in spacings.
-/// The angle error includes the effect of the camera tilt.
+/// Standard deviations of the angle error of the grid, in rad, and of its position error, in
+/// spacings. The angle error includes the effect of the camera tilt.
 inline constexpr float kGridAngle_rad = 0.035F;
 inline constexpr float kGridPhase = 0.06F;
 /// Maximum deviation of a match from the prediction: kReach_sigmas standard deviations, but at most
@@ -285,9 +285,9 @@ inline constexpr float kMaxReach = 24;
 
 /// Second attempt (locate/second).
 namespace second {
-/// Factors for the thresholds of a filtered image. Filtering reduces noise to a third, and makes
-/// dots paler and wider. With dirt on 5 % of the area, 93 % of 200 frames are located with these
-/// factors, and 80 % with the original thresholds (docs/limits.md).
+/// Factors by which the thresholds are multiplied for a filtered image. Filtering reduces noise to
+/// a third, and makes dots paler and wider. With dirt on 5 % of the area, 93 % of 200 frames are
+/// located with these factors, and 80 % with the original thresholds (docs/limits.md).
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
 /// If an image has too few dots, dots are detected again with the minimum contrast divided by this
@@ -295,8 +295,8 @@ inline constexpr int kHigh_10ths = 9;
 /// detection finds dots that are 6 grey levels darker than the paper (`dotpose_tables alike
 /// --spacings 8 --dots 0.10 --blurs 1.5`).
 inline constexpr int kPaleParts = 3;
-/// Maximum rotations of the grid relative to the first grid estimate in the periodogram search, in
-/// degrees. If the search finds no grid within the first maximum, it is repeated with the second,
+/// Maximum rotations that the periodogram search tries, relative to the first grid estimate, in
+/// degrees. If the search finds no grid up to the first maximum, it is repeated with the second,
 /// because printed text can cause an error of 26 degrees in the first estimate.
 inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second

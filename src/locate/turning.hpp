@@ -14,7 +14,8 @@ namespace dotpose::core {
 
 /// Returns true if the fix of a first or tracked attempt has large or correlated residuals that a
 /// rotation during the readout may explain. Returns false if `pixels` has no room for the derotated
-/// image. `measurement` must contain the results of the attempt. Changes the dots of `measurement`.
+/// image. `measurement` must contain the results of the attempt. Modifies the dots in
+/// `measurement`.
 bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t> pixels,
                 Measurement& measurement);
 

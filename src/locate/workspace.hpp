@@ -1,4 +1,4 @@
-// Desktop workspace: all memory of a Locator.
+// Desktop workspace: all memory that a Locator uses.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;   ///< used by the first attempt and the search for a rotation
     Smoothing smoothing;      ///< used by the second attempt
     Measurement measurement;  ///< memory and results of `confirm`
-    OtherCodes other_codes;   ///< odds of the codes in which the frame was not read
+    OtherCodes other_codes;   ///< odds of the codes other than the one that was read
     EarlierBits earlier;
     WorkLimit work{WorkLimit::kOfFrame};  ///< see `PlaceEvidence::work`
     PushedImage pushed;
@@ -51,7 +51,7 @@ struct DesktopWorkspace : DeviceWorkspace {
                          : options.lattice.min_dots};
     }
 
-    /// Returns the sources of evidence with which an attempt finds and tests places in a frame.
+    /// Returns the sources of evidence that an attempt uses to find and test places.
     PlaceEvidence evidence(const Frame& frame) {
         return {frame.kernels, frame.options, known,
                 earlier,       line_scores,   other_codes.are_wanted ? &other_codes : nullptr,
@@ -133,8 +133,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // The side of a block of the PaperMap is a tenth of the shorter image side, and at least 6 px.
-    // There are at most 11 x 683 blocks.
+    // The blocks of the PaperMap are squares. Their side is a tenth of the shorter image side,
+    // rounded down, and therefore at least 6 px. There are at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};

@@ -15,9 +15,9 @@ using namespace mcap;
 namespace {
 
 /// Returns the QoS profiles that rosbag2 stores with a channel, as a YAML list. The policies are
-/// written as the numeric values of rmw, which all versions of rosbag2 can read. History 1 is keep
-/// last, reliability 1 is reliable, and liveliness 1 is automatic. Durability 1 is transient local,
-/// and durability 2 is volatile.
+/// written as the numeric values defined by rmw, which all versions of rosbag2 can read. History 1
+/// is keep last, reliability 1 is reliable, and liveliness 1 is automatic. Durability 1 is
+/// transient local, and durability 2 is volatile.
 std::string offered_profiles(const McapQuality& quality) {
     const std::string durability = quality.is_transient_local ? "1" : "2";
     const std::string forever = "\n    sec: 9223372036\n    nsec: 854775807\n";
@@ -71,9 +71,9 @@ class McapFile::Writer {
         const auto id = static_cast<std::uint16_t>(channel);
         const std::uint64_t number = contents_.messages.at(id)++;
         chunk_.add_message(id, static_cast<std::uint32_t>(number), time_ns, cdr);
-        // Ends a chunk that covers at least `chunk_ns`, unless it is smaller than the end of the
-        // file. The end of the file is rewritten after each chunk, so small chunks would multiply
-        // the number of bytes written.
+        // Ends the chunk once it covers at least `chunk_ns` and is at least as large as the end of
+        // the file. The end of the file is rewritten after each chunk, so small chunks would
+        // multiply the number of bytes written.
         const bool is_long =
             chunk_.duration_ns() >= static_cast<std::uint64_t>(options_.chunk_ns) &&
             chunk_.size() >= end_bytes_;

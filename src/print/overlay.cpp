@@ -49,8 +49,8 @@ bool begins_like_pdf(const fs::path& path) {
     throw Error(fmt::format("{}: its objects are nested too deeply", path.string()));
 }
 
-/// Returns the warnings of qpdf about faults that are repaired in the new file. Throws Error for
-/// faults in the content or in stream data, because qpdf would copy such faults unchanged.
+/// Returns qpdf's warnings about faults that are repaired in the new file. Throws Error for faults
+/// in the content or in stream data, because qpdf would copy such faults unchanged.
 std::set<std::string> repaired_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
     for (const QPDFExc& warning : pdf.getWarnings()) {
@@ -98,8 +98,8 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password,
     }
 }
 
-/// Returns the result of `work`. Converts exceptions of qpdf to an Error that reports a damaged
-/// document.
+/// Returns the result of `work`. Converts exceptions thrown by qpdf to an Error that reports a
+/// damaged document.
 template <typename Work>
 auto with_damage_errors(const fs::path& path, const Work& work) {
     try {

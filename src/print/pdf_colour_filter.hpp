@@ -1,4 +1,4 @@
-/// Rewrites the colour operators of one content stream.
+/// Rewrites the colour operators in one content stream.
 #pragma once
 
 #include <map>

@@ -83,9 +83,9 @@ bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle s
     return true;
 }
 
-/// Replaces the grey colour space of an image with a palette of converted colours, so that the
-/// pixel data need not change or be decompressed. Returns false and changes nothing unless pixels
-/// have 1 to 8 bits.
+/// Replaces the grey colour space of an image with a palette of converted colours, so the pixel
+/// data need not be changed or decompressed. Returns false and changes nothing unless pixels have 1
+/// to 8 bits.
 bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     QPDFObjectHandle depth = dict.getKey("/BitsPerComponent");
     if (!depth.isInteger() || depth.getIntValue() > 8 || depth.getIntValue() < 1) return false;

@@ -38,7 +38,7 @@ constexpr double kArrowHead_mm = 1.3;
 constexpr double kNoteAway_mm = 3;  // distance from the x arrow to the note
 
 // Widths of the characters from the space to '~' in thousandths of the font size (Adobe font
-// metrics of Helvetica).
+// metrics for Helvetica).
 constexpr std::array<int, 95> kHelveticaWidths = {
     278,  278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,  //
     556,  556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556,  //
@@ -218,7 +218,7 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     return content + "ET\n" + forms;
 }
 
-/// Returns a point of the page as PDF operands.
+/// Returns a point on the page as PDF operands.
 std::string point(const Sheet& sheet, double x_mm, double y_mm) {
     return fmt::format("{:.3f} {:.3f}", x_mm * kPointsPerMm,
                        (sheet.height_mm - y_mm) * kPointsPerMm);
@@ -231,7 +231,7 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;
     const double away_from_mm = free_margin_mm(sheet, side);
-    // Returns the point of the page at a position along the ruler and a distance from the dots. The
+    // Returns the point on the page at a position along the ruler and a distance from the dots. The
     // left ruler runs downwards.
     const auto at = [&](double along_mm, double away_mm) {
         return is_top ? point(sheet, along_mm, away_from_mm - away_mm)

@@ -65,7 +65,7 @@ class ByteCount : public Pipeline {
 };
 
 /// Returns the number of bytes that the predictor of a compression filter allocates for a row, or 0
-/// without a predictor.
+/// if there is no predictor.
 double predictor_row_bytes(QPDFObjectHandle parameters) {
     if (!parameters.isDictionary()) return 0;
     double bytes = 1.0 / 8;

@@ -1,4 +1,4 @@
-// ScriptText for a build without librsvg. All functions that typeset text throw Error.
+// Implements ScriptText for builds without librsvg. All functions that typeset text throw Error.
 #include "dotpose/files/error.hpp"
 #include "pdf_script_text.hpp"
 

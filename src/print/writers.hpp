@@ -1,5 +1,6 @@
-/// Writers of the file formats. Each of them writes a validated sheet as a complete file to `file`,
-/// which the caller commits. All writers throw Error if writing fails or `progress` returns false.
+/// Writers for the file formats. Each of them writes a validated sheet as a complete file to
+/// `file`, which the caller commits. All writers throw Error if writing fails or `progress` returns
+/// false.
 #pragma once
 
 #include <span>

@@ -27,7 +27,7 @@ namespace dotpose::publish {
 enum class Presence {
     online,   ///< the publisher is connected
     offline,  ///< the publisher disconnected
-    broken,   ///< the connection of the publisher broke
+    broken,   ///< the publisher's connection broke
 };
 
 struct MqttOptions {
@@ -84,7 +84,7 @@ class MqttClient {
     virtual void on_published(int) {}
     virtual void on_message(std::string_view, std::string_view) {}
     /// Runs one iteration of the network loop while connected: waits a short time for the socket,
-    /// then receives and sends. Returns an error code of libmosquitto.
+    /// then receives and sends. Returns a libmosquitto error code.
     virtual int work();
 
     /// Returns true if the latest attempt to connect failed or the connection is lost. The caller
@@ -99,7 +99,7 @@ class MqttClient {
     /// acknowledged by the broker (QoS 1). The limit is small, because libmosquitto sends its
     /// messages in order, but the publisher sends the newest messages first.
     static constexpr std::size_t kMaxUnderWay = 20;
-    /// Quality of service of presence messages: at least once.
+    /// Quality of service for presence messages: at least once.
     static constexpr int kPresenceQos = 1;
 
     MqttOptions options_;

@@ -1,5 +1,5 @@
-// Converts the results of a frame to metres with y up. The results are in mm with y down, or in the
-// world frame, which is already in metres with y up.
+// Converts the results for a frame to metres with y up. The results are in mm with y down, or in
+// the world frame, which is already in metres with y up.
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -81,7 +81,7 @@ std::string three_digits(double value) {
     return text.data();
 }
 
-/// Returns the additional values of a frame with a fix, for the diagnostics.
+/// Returns additional diagnostic values for a frame with a fix.
 std::vector<KeyValue> fix_facts_of(const Located& located) {
     const Fix& fix = located.fix;
     std::vector<KeyValue> facts = {{"dots_used", std::to_string(fix.dots_used)},

@@ -1,5 +1,5 @@
 // Rules that determine which requests a server answers. They protect a server at a loopback address
-// from pages of other sites in the same browser. They protect a server on a network from clients
+// from pages on other sites in the same browser. They protect a server on a network from clients
 // without the token.
 #pragma once
 
@@ -15,8 +15,8 @@ inline constexpr std::size_t kMinTokenLength = 16;
 /// Maximum length of a token.
 inline constexpr std::size_t kMaxTokenLength = 256;
 
-/// Returns a random token of 128 bits, as 32 hexadecimal digits. Throws Error if the system has no
-/// random numbers.
+/// Returns a random token of 128 bits, as 32 hexadecimal digits. Throws Error if the system cannot
+/// provide random numbers.
 std::string make_token();
 
 /// Reads a token from the first line of a file. Throws Error if the file cannot be read or the
@@ -33,7 +33,7 @@ struct RequestHead {
     std::string origin;         ///< header Origin, which browsers add to requests from scripts
     std::string cookie;         ///< header Cookie
     std::string authorization;  ///< header Authorization
-    std::string token;          ///< parameter `token` of the URL
+    std::string token;          ///< URL parameter `token`
     bool is_get = false;        ///< true if the method is GET
 };
 
@@ -41,7 +41,7 @@ enum class Verdict {
     allowed,
     allowed_by_url,  ///< allowed by the token in the URL; the answer should store it as a cookie
     wrong_host,      ///< the host is not a name of this server (DNS rebinding)
-    wrong_origin,    ///< the request is from a page of another site
+    wrong_origin,    ///< the request is from a page on another site
     wrong_token,     ///< the token is missing or wrong
     wrong_method,
 };

@@ -11,7 +11,7 @@ void run_in_background() {
     sigset_t all;
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, nullptr);
-    // In Linux, `setpriority` changes the priority of a single thread.
+    // On Linux, `setpriority` changes the priority of a single thread.
     constexpr int kNiceness = 5;
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
 }

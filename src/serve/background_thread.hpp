@@ -1,4 +1,4 @@
-// Settings of the threads that serve the web page while the main thread follows the robot.
+// Settings for the threads that serve the web page while the main thread follows the robot.
 #pragma once
 
 namespace dotpose::serve {

@@ -26,8 +26,8 @@ struct FrameOverlay {
     std::optional<Axes> axes;  ///< none without a fix
 };
 
-/// Returns the overlay of the last frame of a Locator. `image` must be the located image, and
-/// `DeviceOptions::show_stages` must be set.
+/// Returns the overlay for the last frame that a Locator processed. `image` must be the located
+/// image, and `DeviceOptions::show_stages` must be set.
 FrameOverlay overlay_of(ImageView image, const Trace& trace);
 
 /// Returns the message: the size of the JSON in bytes (32 bits, little-endian), the JSON, and the

@@ -52,18 +52,18 @@ struct Answer {
     std::string download = {};
 };
 
-/// Returns the answer to a GET request. Called on the thread of the server. Must not throw.
+/// Returns the answer to a GET request. Called on the server's thread. Must not throw.
 using Route = std::function<Answer()>;
 
-/// Format of the values of a topic.
+/// Format in which the values of a topic are sent.
 enum class Format { text, binary };
 
 struct ServerOptions {
     Address address;
     std::string token;            ///< token for clients; may be empty at a loopback address
     std::span<const Page> pages;  ///< must outlive the server; the page "/" is the start page
-    /// Called with messages for the user, such as reports of refused clients. Called on the thread
-    /// of the server.
+    /// Called with messages for the user, such as reports of refused clients. Called on the
+    /// server's thread.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 

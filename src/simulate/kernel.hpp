@@ -1,4 +1,4 @@
-/// Point spread function of lens, motion and pixel area, as weights of sub-pixels.
+/// Point spread function due to lens, motion and pixel area, as sub-pixel weights.
 #pragma once
 
 #include <vector>

@@ -10,7 +10,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the page positions, in spacings, of an even grid of image points.
+/// Returns the page positions, in spacings, of a regular grid of image points.
 std::vector<Vec2> sample_points(const Shot& shot) {
     constexpr int kColumns = 64;
     constexpr int kRows = 48;

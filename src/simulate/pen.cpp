@@ -1,4 +1,4 @@
-// Simulates frames of a camera in a pen, and paths of handwriting.
+// Simulates frames from a camera in a pen, and paths of handwriting.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -32,7 +32,7 @@ Vector on_pattern(const PenPose& pose, const Vector& in_camera) {
     return about_z(pose.azimuth_rad, about_y(-pose.tilt_rad, turned));
 }
 
-/// Sets the cell and the fraction of a pose to a position, given in spacings.
+/// Sets the cell and the fraction of a pose from a position in spacings.
 void move_to(double x_grid, double y_grid, CameraPose& pose) {
     pose.cell = {static_cast<std::uint32_t>(std::floor(x_grid)),
                  static_cast<std::uint32_t>(std::floor(y_grid))};

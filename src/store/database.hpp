@@ -38,7 +38,7 @@ struct State {
     std::int64_t number = 0;       ///< sequence number
     std::int32_t delay_us = 0;     ///< time from sending to receiving
     Motion motion = Motion::lost;  ///< if `lost`, only members up to `reason` are stored
-    /// Why the robot is lost, or `ok` if it is not lost or the reason is unknown.
+    /// Reason why the robot is lost, or `ok` if it is not lost or the reason is unknown.
     Status reason = Status::ok;
     std::int32_t theta_urad = 0;
     std::int64_t x_nm = 0;
@@ -85,7 +85,8 @@ class Database {
     /// safely be repeated.
     virtual void write(std::span<const State> states) = 0;
 
-    /// Removes the states of all days before the day of `time_us`. Throws Error if this fails.
+    /// Removes the states of all days before the day that contains `time_us`. Throws Error if this
+    /// fails.
     virtual void remove_days_before(std::int64_t time_us) = 0;
 
     /// Calls `take` with each state that the query selects, in chronological order. An exception

@@ -44,10 +44,10 @@ Integers integers_of(const State& state, std::int64_t robot_id, std::int64_t pla
 /// Returns the text of the column `reason`.
 std::string_view reason_text(Status reason);
 
-/// Returns the state of a row, without `robot` and `place`.
+/// Returns the state in a row, without `robot` and `place`.
 State state_of(const Integers& integers, std::string_view state, std::string_view reason);
 
-/// Returns the name of the partition of a day, such as "states_20261128". `day` is the number of
+/// Returns the name of the partition for a day, such as "states_20261128". `day` is the number of
 /// days since 1970-01-01.
 std::string partition_name(std::int64_t day);
 

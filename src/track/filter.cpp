@@ -31,7 +31,7 @@ float squared(float value) {
     return value * value;
 }
 
-/// Returns the covariance of a sighting plus the variances of printing errors.
+/// Returns the covariance of a sighting plus the variances due to printing errors.
 Matrix3 noise_of(const Sighting& sighting, const TrackOptions& options) {
     Matrix3 noise = sighting.covariance;
     noise[0][0] += squared(options.min_sigma_mm);

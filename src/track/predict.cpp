@@ -9,9 +9,9 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Minimum standard deviations of a prediction. They are needed because the covariance of the
-/// filter becomes too small when the robot rests for a long time. The dot search extends to three
-/// standard deviations, that is, at least 3/32 of a spacing and 0.53 degrees.
+/// Minimum standard deviations of a prediction. They are needed because the filter covariance
+/// becomes too small when the robot rests for a long time. The dot search extends to three standard
+/// deviations, that is, at least 3/32 of a spacing and 0.53 degrees.
 constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
 constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;

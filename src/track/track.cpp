@@ -45,7 +45,7 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
     return true;
 }
 
-/// Returns true if a robot could have moved from `from` to `sighting` within the limits of speed
+/// Returns true if a robot could have moved from `from` to `sighting` within the limits on speed
 /// and turn rate, with a tolerance of `gate_sigmas` standard deviations.
 bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
                   const TrackOptions& options) {

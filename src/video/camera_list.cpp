@@ -17,8 +17,8 @@ namespace dotpose::video {
 namespace {
 
 constexpr int kMaxDevices = 64;
-/// Maximum number of entries read from each list of a driver. The limit is needed because a faulty
-/// driver might return entries endlessly.
+/// Maximum number of entries read from each list that a driver returns. The limit is needed because
+/// a faulty driver might return entries endlessly.
 constexpr std::uint32_t kMaxEntries = 256;
 
 class Device {

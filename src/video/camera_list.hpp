@@ -6,7 +6,7 @@
 
 namespace dotpose::video {
 
-/// A frame size of a camera, with its frame rates and pixel formats.
+/// A frame size that a camera supports, with its frame rates and pixel formats.
 struct CameraSize {
     std::string size;           ///< for example "640x480", or a range of sizes
     std::vector<double> rates;  ///< frames per second in descending order, or empty if unknown

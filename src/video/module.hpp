@@ -1,6 +1,6 @@
-// Cameras, videos and windows. They are implemented in the module dotpose-video.so in the folder of
-// the program. The module is loaded on first use, because loading OpenCV and FFmpeg takes a third
-// of a second.
+// Cameras, videos and windows. They are implemented in the module dotpose-video.so in the program's
+// folder. The module is loaded on first use, because loading OpenCV and FFmpeg takes a third of a
+// second.
 #pragma once
 
 #include <functional>

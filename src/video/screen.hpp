@@ -19,7 +19,7 @@
 
 namespace dotpose::video {
 
-/// A point of the path in a plane. `is_jump` is true if the path is interrupted before this point.
+/// A point on the path in a plane. `is_jump` is true if the path is interrupted before this point.
 struct PathMark {
     double x = 0;
     double y = 0;
@@ -44,7 +44,7 @@ struct CalibrationScene {
     bool is_taken = false;  ///< true if this frame was added to the calibration
 };
 
-/// Contents of the picture of one frame.
+/// Contents of the picture for one frame.
 struct Scene {
     ImageView image;
     Trace trace;
@@ -53,7 +53,7 @@ struct Scene {
     std::span<const PathMark> path;  ///< the path up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
     bool y_up = false;                       ///< true if y points up in the plane
-    /// Gauges of a calibration. They are shown instead of the sheets and the path.
+    /// Calibration gauges, which are shown instead of the sheets and the path.
     std::optional<CalibrationScene> calibration;
 };
 
@@ -70,7 +70,7 @@ struct ScreenOptions {
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;
-    /// Implementations of the functions of Screen with the same names.
+    /// These functions implement the functions of the same names in Screen.
     virtual bool show(const Scene& scene) = 0;
     virtual void finish() = 0;
     virtual bool is_wanted() = 0;
@@ -103,7 +103,7 @@ class Screen {
     std::unique_ptr<ScreenOutput> output_;
 };
 
-/// Returns true if an X server answers, so a window can be opened. The X server may be the one of a
+/// Returns true if an X server answers, so a window can be opened. The X server may belong to a
 /// Wayland session.
 bool has_display();
 

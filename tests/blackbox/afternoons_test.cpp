@@ -38,7 +38,7 @@ class Afternoon : public SheetsCommand {
         ASSERT_EQ(ToolCommand::run(arguments), 0) << arguments << "\n" << errors_;
     }
 
-    /// Writes frames of a robot that drives along the x axis of the sheet, 1 mm per frame.
+    /// Writes frames taken by a robot that drives along the x axis of the sheet, 1 mm per frame.
     void drive_over(const json& sheet, int frames) {
         fs::create_directory(directory_ / "drive");
         for (int i = 0; i < frames; ++i) {

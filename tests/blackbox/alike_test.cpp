@@ -19,7 +19,7 @@ constexpr int kFramesOfCase = 60;
 
 struct AlikeCase {
     AlikeDots dots;
-    double max_median_px;  ///< maximum median of the position errors
+    double max_median_px;  ///< maximum allowed median of the position errors
 };
 
 void PrintTo(const AlikeCase& of, std::ostream* out) {

@@ -176,7 +176,7 @@ constexpr const char* kMountedCamera =
     "centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: [500, 59.5], "
     "theta_offset_rad: 0.25, gain: 3}";
 
-// The frame shows a spacing of 0.508 mm at the scale in the camera file.
+// At the scale given in the camera file, the spacing in the frame is 0.508 mm.
 TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
     simulate("frames", 1);
     std::ofstream(directory_ / "camera.yaml") << kMountedCamera;
@@ -204,8 +204,8 @@ TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
 }
 
 TEST_F(CalibrateCommand, TakesTheSpacingFromTheSheetFile) {
-    // The first sheet of a sheet file begins at cell 1024,1024, so frames at the following cells
-    // show it.
+    // In a new sheet file, the first sheet begins at cell 1024,1024, so frames at the following
+    // cells show it.
     ASSERT_EQ(run("print -o fine.svg --spacing 0.3 --sheets sheets.json --name fine"), 0);
     std::string frames;
     for (const int at : {1100, 1130, 1160, 1190, 1220}) {
@@ -259,7 +259,8 @@ TEST_F(CalibrateCommand, KeepsTheMountOfTheFileThatItReplaces) {
     EXPECT_THAT(file("camera.yaml"), HasSubstr("k_per_px2: -8.7e-06"));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: [500, 59.5]"));
 
-    // Files of other cameras or formats are not overwritten, because their contents would be lost.
+    // Files for other cameras or in other formats are not overwritten, because their contents would
+    // be lost.
     for (const char* other : {kLargeCamera, "{format: another}"}) {
         std::ofstream(directory_ / "camera.yaml") << other;
         EXPECT_EQ(run("calibrate frames/*.pgm -o camera.yaml"), 1);

@@ -135,8 +135,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(exit_code_, 0) << output_;
     EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo"));
 
-    // scan.jpg contains no resolution. screen.jpg contains 72 dpi, which is not the resolution of a
-    // scan.
+    // scan.jpg specifies no resolution. screen.jpg specifies 72 dpi, at which the page would be
+    // eight times its size.
     const GreyImage scan = test::scan_page(sheet, {});
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);
@@ -176,9 +176,9 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
     EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);
 
-    // The EXIF data of a scanner contain no exposure, so the check uses the resolution in the file.
-    // The image was scanned at 330 dpi, but the file contains 300 dpi, so the page seems to be
-    // scaled to 110 %. For a photo, the scale is checked only if --dpi is given.
+    // EXIF data written by a scanner contain no exposure, so the check uses the resolution given in
+    // the file. The image was scanned at 330 dpi, but the file specifies 300 dpi, so the page seems
+    // to be scaled to 110 %. For a photo, the scale is checked only if --dpi is given.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));
@@ -194,7 +194,7 @@ TEST_F(CheckPrintCommand, judges_every_sheet_on_the_scan_by_what_the_sheet_file_
     for (const SheetEntry& entry : read_sheets(directory_ / "sheets.json"))
         on_table.push_back(entry.sheet);
     on_table.pop_back();
-    // The second sheet was printed at 96 %, with dots twice as wide.
+    // The second sheet was printed at a scale of 96 %, with dots twice as wide.
     on_table[1].pattern.spacing_mm *= 0.96;
     on_table[1].pattern.displacement_mm *= 0.96;
     on_table[1].pattern.dot_mm *= 2;

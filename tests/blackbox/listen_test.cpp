@@ -109,7 +109,7 @@ TEST_F(Listen, ReadsASerialDeviceUntilItGoes) {
     ASSERT_EQ(unlockpt(device), 0);
     const std::string name = ptsname(device);
     std::string stream;
-    // The packets contain bytes that a terminal would interpret.
+    // The packets contain bytes that a terminal would interpret as control characters.
     for (std::uint16_t i = 0; i < 50; ++i)
         stream += on_the_line(packet_at(i, 0x0D0A0304U));
     std::thread sender([&] {

@@ -27,8 +27,8 @@ class LiveCalibration : public ToolCommand {
         ASSERT_EQ(run("simulate -o frames --seed 5 --k -8.7e-6 " + options), 0) << errors_;
     }
 
-    /// Writes the images as raw frames to `name`. Each image is repeated three times, like the
-    /// frames of a camera at rest.
+    /// Writes the images as raw frames to `name`. Each image is repeated three times, like frames
+    /// from a camera at rest.
     void put_raw(const std::string& name, int first = 0) {
         ASSERT_EQ(shell(fmt::format("ffmpeg -v error -framerate 30 -start_number {} "
                                     "-i frames/frame_%06d.pgm -vf fps=90 -f rawvideo "

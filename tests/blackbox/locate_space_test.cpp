@@ -22,8 +22,8 @@ constexpr double kDistance_mm = kTiltedDistance_mm;
 
 class LocateSpace : public LocateCommand {
   protected:
-    /// Writes a frame of a camera that is tilted by 20 degrees towards +x, and the camera file of
-    /// this camera.
+    /// Writes a frame taken by a camera that is tilted by 20 degrees towards +x, and the camera
+    /// file for this camera.
     void SetUp() override {
         shot_ = tilted_shot();
         write_pgm(directory_ / "frame.pgm", render(shot_).view());

@@ -56,7 +56,7 @@ void expect_equal(const Matrix& actual, const Matrix& expected) {
 
 class OutputLines : public ToolCommand {
   protected:
-    /// Writes frames of a drive over two sheets, frames without a pattern, and packets.
+    /// Writes frames from a drive over two sheets, frames without a pattern, and packets.
     void SetUp() override {
         save_drive_sheets(directory_ / "sheets.json");
         json file = json::parse(read_file(directory_ / "sheets.json"));
@@ -100,7 +100,7 @@ class OutputLines : public ToolCommand {
     }
 
     static constexpr double kYaw_rad = 0.4;
-    /// First frame. The robot drives through a curve at 300 mm/s.
+    /// Index of the first frame. At this time, the robot drives through a curve at 300 mm/s.
     static constexpr int kFirst = 320;
     const Drive drive_;
     const JsonSchema schema_{
@@ -237,8 +237,8 @@ TEST_F(OutputLines, OfRosAreRightHandedInMetresAndRadians) {
 }
 
 TEST_F(OutputLines, OfATrackTurnOverOnlyWhereYPointsDown) {
-    // Without sheets, the track is in the pattern, where y points down. With sheets, it is in the
-    // world, where y points up.
+    // Without sheets, the track is in pattern coordinates, with y down. With sheets, it is in world
+    // coordinates, with y up.
     for (const std::string sheets : {"", " --sheets sheets.json"}) {
         const double sign = sheets.empty() ? -1 : 1;
         const std::string command = "watch frames --fps 200 --no-window" + sheets + " --units ";

@@ -42,7 +42,7 @@ class PrintMaps : public ToolCommand {
             << errors_;
     }
 
-    /// Returns the records of the frames `NAME-*.pgm`.
+    /// Returns the records for the frames `NAME-*.pgm`.
     std::vector<json> located(const std::string& name, const std::string& options = "") {
         std::vector<json> records;
         run("locate --sheets sheets.json " + options + " " + name + "-*.pgm");

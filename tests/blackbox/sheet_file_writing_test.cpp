@@ -57,7 +57,7 @@ TEST_F(SheetFileWriting, a_refused_or_failed_print_changes_nothing) {
 TEST_F(SheetFileWriting, an_interrupted_print_adds_no_sheet) {
     ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
     const std::string before = read_file(directory_ / "sheets.json");
-    // Printing this page takes minutes, so the tool is ended before the page is complete.
+    // Printing this page takes minutes, so the tool is terminated before the page is complete.
     const int status = print(
         "-o huge.png --paper 20000x20000 --dpi 1200 --sheets sheets.json --name b & tool=$!; "
         "until ls -A | grep huge > during || ! kill -0 $tool; do sleep 0.02; done; "

@@ -1,5 +1,5 @@
-// Tests `locate` with simulated frames of known poses. DOTPOSE_LONG_TESTS=1 in the environment
-// increases the number of frames.
+// Tests `locate` with simulated frames whose poses are known. DOTPOSE_LONG_TESTS=1 in the
+// environment increases the number of frames.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -83,8 +83,8 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     // The limit of 3 % of the fixes allows for the small number of frames. If the true fraction is
     // 1 %, only one run in 70 exceeds the limit by chance.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
-    // Only half of the steps need to be detected, because the others affect only a corner of the
-    // view or are smaller than the scatter of the dots.
+    // Only half of the steps need to be detected, because the other steps affect only a corner of
+    // the view or are smaller than the scatter of the dots.
     EXPECT_GE(divided, fixes / 2);
 }
 

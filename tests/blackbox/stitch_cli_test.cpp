@@ -35,8 +35,8 @@ SheetEntry sheet(const std::string& name, std::uint32_t origin_x) {
     return entry;
 }
 
-/// Returns a frame of one sheet. Its centre is at (x_mm, y_mm), measured from the upper left corner
-/// of the sheet.
+/// Returns a frame of one sheet, centred on (x_mm, y_mm). This position is measured from the upper
+/// left corner of the sheet.
 GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, double y_mm,
                       double theta_rad) {
     Shot shot = like;
@@ -50,7 +50,7 @@ GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, do
     return render(shot);
 }
 
-/// Returns a frame centred on a position of the table, in the coordinates of the first sheet.
+/// Returns a frame centred on a position on the table, in the coordinates of the first sheet.
 /// Renders each sheet alone with the same light and noise, and takes the darker value of each
 /// pixel, so the frame shows the dots of both sheets.
 GreyImage table_frame(std::uint64_t index, double x_mm, double y_mm, double theta_rad) {

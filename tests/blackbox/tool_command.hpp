@@ -27,9 +27,9 @@ inline constexpr const char* kLargeCamera =
     "centre_px: [319.5, 239.5]}";
 inline constexpr const char* kNotForLargeCamera = ": the camera file is for images of 640 x 480";
 
-/// Shell command that waits until the background process $tool has installed its handler of
-/// SIGTERM. Before that, SIGTERM would end the process immediately. SIGTERM is bit 14 of the signal
-/// mask in /proc.
+/// Shell command that waits until the background process $tool has installed its SIGTERM handler.
+/// Before that, SIGTERM would end the process immediately. SIGTERM is bit 14 of the signal mask in
+/// /proc.
 inline constexpr const char* kUntilItHandlesSignals =
     "until grep -qE '^SigCgt:.*[4-7c-f][0-9a-f]{3}$' /proc/$tool/status || ! kill -0 $tool; "
     "do sleep 0.02; done; ";

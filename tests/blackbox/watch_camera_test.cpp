@@ -22,7 +22,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kFrames = 8;
-constexpr int kMoving = 220;  ///< first frame. The robot is driving on the first sheet.
+constexpr int kMoving = 220;  ///< first frame, in which the robot is driving on the first sheet
 
 class WatchCamera : public ToolCommand {
   protected:
@@ -77,8 +77,8 @@ TEST_F(WatchCamera, ThePoseIsThatOfTheRobot) {
             30, 0.05);
         tracked += watched[i]["attempt"] == "tracked" ? 1 : 0;
     }
-    // The track contains the pose of the robot, but the tracker must predict the view of the
-    // camera. Most frames are tracked, so this prediction is correct.
+    // The track contains the pose of the robot, but the tracker must predict what the camera sees.
+    // Most frames are tracked, so this prediction is correct.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_NEAR(watched.back()["track_x_mm"].get<double>(),
                 watched.back()["x_m"].get<double>() * 1000, 0.1);

@@ -44,7 +44,7 @@ DriveReading reading_of(const json& line) {
 DriveErrors errors_of(const std::vector<json>& lines, const Drive& drive, int first = 0) {
     DriveErrors errors;
     for (const json& line : lines) {
-        // Finds the frame by its time, because frames are missing from a damaged video.
+        // Finds the frame by its time, because a damaged video lacks some frames.
         const int frame = static_cast<int>(std::lround(line["t_s"].get<double>() * kDriveFps));
         errors.add(drive.at(first + frame), reading_of(line));
     }

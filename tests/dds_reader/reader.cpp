@@ -118,7 +118,7 @@ DomainParticipantQos participant_quality() {
     return qos;
 }
 
-/// Reports writers of ROS topics whose user data contains no type hash.
+/// Prints the names of ROS topics that have a writer without a type hash in its user data.
 class HashCheck : public DomainParticipantListener {
   public:
     void on_publisher_discovery(DomainParticipant*,

@@ -1,7 +1,7 @@
-// Runs the device program of embedded/ in an emulator, on the frames of a simulated drive. `dotpose
-// listen` receives its packets. The packets must be bit-identical to those of the desktop program,
-// and the poses close to those of a `DeviceLocator` without predictions. All frames must be on
-// time, and no frame may be lost.
+// Runs the device program from embedded/ in an emulator, on the frames of a simulated drive.
+// `dotpose listen` receives its packets. The packets must be bit-identical to those of the desktop
+// program, and the poses close to those of a `DeviceLocator` without predictions. All frames must
+// be on time, and no frame may be lost.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -171,8 +171,8 @@ class EmulatedDevice : public testing::Test {
     /// A pseudo-terminal. Bytes written to kDescriptor can be read from the terminal `name`.
     class SerialLine {
       public:
-        static constexpr int kDescriptor =
-            9;  ///< one digit, because shells do not support larger descriptors
+        /// A single digit, because shells do not support larger descriptors.
+        static constexpr int kDescriptor = 9;
         SerialLine() {
             int master = -1;
             std::array<char, 256> name{};

@@ -9,7 +9,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Locates a uniform frame, with memory for frames of exactly this size.
+/// Locates a uniform frame, using a locator with memory for exactly this frame size.
 template <int Width, int Height>
 Fix locate_black() {
     static DeviceMemoryFor<Width, Height> memory;

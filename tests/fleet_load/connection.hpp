@@ -27,8 +27,8 @@ class Connection {
     bool has_room() const { return published_ - answered_ < kMaxUnanswered; }
     void publish(const std::string& topic, const std::string& payload);
 
-    /// Sends and receives until `until_us` of the monotonic clock, or longer if there is still data
-    /// to send. Throws std::runtime_error if the other side disconnects.
+    /// Sends and receives until the monotonic clock reaches `until_us`, or longer if there is still
+    /// data to send. Throws std::runtime_error if the other side disconnects.
     void exchange(std::int64_t until_us);
 
     std::int64_t published() const { return published_; }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kPoints = 40;
 
-/// Returns the state of a robot at a point of its circle. Robots pass 20 points per second.
+/// Returns the state of a robot at a point on its circle. Robots pass 20 points per second.
 cli::RobotState state_at(int robot, int point) {
     constexpr double kRadius_m = 0.2;
     constexpr double kBetween_m = 0.5;

@@ -22,7 +22,7 @@ class Robots {
     static std::size_t index(int robot) { return static_cast<std::size_t>(robot); }
 
     std::vector<std::string> topics_;
-    /// The part of a message that follows its number and time, indexed by robot and point of the
+    /// The part of a message that follows its number and time, indexed by robot and point on the
     /// circle.
     std::vector<std::vector<std::string>> tails_;
 };

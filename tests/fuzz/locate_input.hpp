@@ -68,8 +68,8 @@ inline DeviceOptions options_of(const LocateHeader& header) {
 }
 
 /// Returns one of two kinds of predictions. The first kind is arbitrary, and is read from the last
-/// bytes of the input, which are also pixels. The second kind is the fix of the frame, moved by up
-/// to 2 spacings and 11 degrees.
+/// bytes of the input, which are also pixels. The second kind is the fix of the frame, displaced by
+/// up to 2 spacings and rotated by up to 11 degrees.
 inline Prediction prediction_of(const LocateHeader& header, std::span<const std::uint8_t> rest,
                                 const Fix& fix) {
     static_assert(std::is_trivially_copyable_v<Prediction>);

@@ -34,14 +34,14 @@ std::function<bool(const GuideState&)> is_in(GuidePhase phase) {
     return [phase](const GuideState& state) { return state.phase == phase; };
 }
 
-/// Returns the sheet of the frames, printed at this scale.
+/// Returns the sheet that the frames show, with the given print scale.
 std::vector<SheetEntry> sheets_with_scale(double print_scale) {
     std::vector<SheetEntry> sheets = {test::drive_sheets().front()};
     sheets[0].print_scale_x = sheets[0].print_scale_y = print_scale;
     return sheets;
 }
 
-/// Returns frames of a mounted camera at different positions on the sheet.
+/// Returns frames taken by a mounted camera at different positions on the sheet.
 std::vector<capture::Frame> frames_of_sheet() {
     const Sheet sheet = test::drive_sheets().front().sheet;
     std::vector<capture::Frame> frames;
@@ -53,7 +53,7 @@ std::vector<capture::Frame> frames_of_sheet() {
         frame.image =
             render(page_of(sheet), CameraModel{}, pose, test::DriveCamera::nominal(), 1 + i);
         frame.index = i;
-        // Frames from files are treated as frames of a camera at rest.
+        // Frames from files are treated as frames from a camera at rest.
         frame.file = std::to_string(i);
     }
     return frames;
@@ -146,7 +146,7 @@ TEST(CalibrationGuide, AFastDriveOffTheSheetEndsTheStep) {
         drive.take(Status::ok);
     EXPECT_EQ(drive.guide().state().frames, 20);
     drive.take(Status::too_few_dots);
-    // The pixels of the frames show no dots, so there is no result.
+    // The frame images show no dots, so there is no result.
     EXPECT_TRUE(reaches(drive.guide(), is_in(GuidePhase::failed)));
 }
 

@@ -27,7 +27,7 @@ using testing::HasSubstr;
 constexpr const char* kWaiting =
     "has() { until [ $(grep -c \"$2\" $1) -ge $3 ]; do kill -0 $watch; sleep 0.05; done; }\n"
     "set -e; touch lines told; trap 'kill $camera $watch 2>/dev/null || true' EXIT\n";
-/// Shell commands of a run. They wait for 30 fixes, disconnect the camera until the robot is lost,
+/// Shell commands for a run. They wait for 30 fixes, disconnect the camera until the robot is lost,
 /// connect the camera again, wait for 30 more fixes, and end the tool. Each test defines the
 /// commands `unplug` and `plug_in`.
 constexpr const char* kRun =
@@ -113,7 +113,7 @@ TEST_F(Cameras, AtThisComputer) {
         EXPECT_EQ(settings.count(setting), 2U) << setting;
     for (const json& line : lines()) {
         const auto time_us = std::llround(line["t_s"].get<double>() * 1e6);
-        // The tool converts the times of the driver to milliseconds as doubles, so rounding may
+        // The tool converts the driver's timestamps to milliseconds as doubles, so rounding may
         // change them by 1 µs.
         const auto at = times_us.lower_bound(time_us - 1);
         const bool is_of_driver = at != times_us.end() && *at <= time_us + 1;

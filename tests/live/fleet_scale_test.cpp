@@ -25,7 +25,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A state in the log of a fleet: the name of the robot, and the number of the message.
+/// A state in a fleet's log: the name of the robot, and the number of the message.
 using Logged = std::pair<std::string, int>;
 
 class FleetScale : public Mqtt {
@@ -104,7 +104,7 @@ TEST_F(FleetScale, AGroupSharesTheStates) {
     WatchedFleet a(folders[0], arguments);
     WatchedFleet b(folders[1], arguments);
     // The broker sends each state to one of the two members, in turn. Because the number of robots
-    // is odd, each member receives every second state of each robot.
+    // is odd, each member receives every other state of each robot.
     publish(broker, 51, 40);
     wait_for_states(folders, 51 * 40);
     for (WatchedFleet* fleet : {&a, &b}) {

@@ -60,7 +60,8 @@ TEST(FleetConditions, FollowTheConnection) {
     r.connect("anna", "OFFLINE");
     EXPECT_EQ(r.condition("anna"), Condition::gone);
     EXPECT_EQ(r.robot("anna").reason, "disconnected");
-    // The fleet receives retained messages of robots that have sent no state since it was started.
+    // The fleet receives retained messages from robots that have sent no state since it was
+    // started.
     r.connect("bert", "ONLINE");
     EXPECT_EQ(r.condition("bert"), Condition::lost);
     EXPECT_EQ(r.robot("bert").reason, "no state yet");

@@ -158,7 +158,7 @@ TEST(FleetValues, OneRobotWithItsPathAndAlerts) {
     EXPECT_EQ(value(77), nullptr);
 }
 
-/// A map message of the fleet: a JSON header, followed by binary records.
+/// A map message sent by the fleet: a JSON header, followed by binary records.
 struct MapMessage {
     explicit MapMessage(const std::string& bytes) {
         std::uint32_t size = 0;

@@ -123,8 +123,8 @@ TEST(GuidedFrames, AFastDriveEndsWhenTheRobotStops) {
 
 constexpr double kFocal_px = 16 / 0.03;
 
-/// Returns a frame of a tilted camera. The azimuth of the tilt is measured from +x towards +y of
-/// the sheet.
+/// Returns a frame taken by a tilted camera. The azimuth of the tilt is measured from the sheet's
+/// +x axis towards its +y axis.
 GuidedFrame leaning(Robot& robot, double tilt_deg, double azimuth_deg, double turn_deg = 0) {
     GuidedFrame frame = robot.frame(100, 100, turn_deg * kDegree_rad);
     const double per_px = std::tan(tilt_deg * kDegree_rad) / kFocal_px;

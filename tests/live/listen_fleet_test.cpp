@@ -157,8 +157,8 @@ TEST_F(ListenFleet, AStatusOfANewerVersionIsReportedAsOther) {
     std::ofstream(directory_ / "packets.bin", std::ios::binary) << bytes;
     WatchedFleet fleet(directory_, "--qos 1 --metrics fleet.prom --mqtt " + broker.url());
     ASSERT_EQ(run("listen packets.bin --robot m0 --qos 1 --mqtt " + broker.url()), 0) << errors_;
-    // The fleet counts from the first report of the camera. The second report contains one more
-    // refused frame than the first, so the count is 1.
+    // The fleet starts counting at the first report from the camera. The second report contains one
+    // more refused frame than the first, so the count is 1.
     wait_until([&] {
         return file("fleet.prom").find("refused_frames_total{reason=\"other\"} 1\n") !=
                std::string::npos;

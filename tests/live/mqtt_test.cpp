@@ -239,7 +239,7 @@ MqttOptions with_presence(MqttOptions options) {
     return options;
 }
 
-/// A subscriber that appends each received payload and a space to a string.
+/// A subscriber that appends each received payload, followed by a space, to a string.
 class Heard {
   public:
     /// The constructor returns after the broker has accepted the subscription.

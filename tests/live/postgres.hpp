@@ -42,7 +42,7 @@ class Postgres {
 
     std::string url() const { return fmt::format("postgresql://robots@127.0.0.1:{}/fleet", port_); }
 
-    /// Returns the rows of a query, with | between columns.
+    /// Returns the result rows of a query, with | between columns.
     std::string query(const std::string& sql) const {
         return checked("psql -X -A -t '" + url() + "' -c \"" + sql + "\"");
     }

@@ -1,4 +1,4 @@
-/// Messages of robots, written independently of the code under test.
+/// Robot messages, written independently of the code under test.
 #pragma once
 
 #include <chrono>
@@ -48,7 +48,7 @@ inline std::string connection_topic(const std::string& robot) {
     return "uagv/v2/dotpose/" + robot + "/connection";
 }
 
-/// Converts a time in microseconds since 1970 to the format of messages.
+/// Converts a time in microseconds since 1970 to the format used in messages.
 inline std::string timestamp(std::int64_t us) {
     const std::time_t seconds = us / 1'000'000;
     char text[40];

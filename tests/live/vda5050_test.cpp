@@ -56,13 +56,13 @@ JsonSchema connection() {
     return JsonSchema({{"type", "object"}, {"required", required}, {"properties", properties}});
 }
 
-/// Regular expression for a time in UTC according to ISO 8601.
+/// Regular expression for a UTC time in ISO 8601 format.
 constexpr const char* kTimestamp =
     "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]+Z$";
 
 class Vda5050 : public Mqtt {
   protected:
-    /// Runs `dotpose watch` on ten frames of a robot. The last five frames show no pattern.
+    /// Runs `dotpose watch` on ten frames from a robot. The last five frames show no pattern.
     void watch(const Broker& broker) {
         const DriveCamera camera(188, 120);
         for (int i = 0; i < 10; ++i) {

@@ -44,7 +44,7 @@ std::uint32_t random_position(Rng& rng) {
 
 Draw random_draw(std::uint64_t seed) {
     std::minstd_rand rng(static_cast<std::uint32_t>(seed % 2147483646 + 1));
-    rng.discard(3);  // because the first numbers of consecutive seeds are similar
+    rng.discard(3);  // because the first numbers generated from consecutive seeds are similar
     Draw draw;
     draw.code = kCodeVariants[static_cast<std::size_t>(random_int(rng, 0, 2))];
     draw.place = random_place(rng);

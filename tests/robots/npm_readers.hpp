@@ -29,7 +29,7 @@ inline ShellOutcome run_node(const std::string& command) {
     return run_shell("node '" + npm_folder() + "'/" + command);
 }
 
-/// Reads all messages of an MCAP file with both readers, which check all checksums.
+/// Reads all messages in an MCAP file with both readers, which check all checksums.
 inline std::vector<nlohmann::json> read_mcap(const std::string& path,
                                              const std::string& option = "") {
     const ShellOutcome read = run_node("read_mcap.mjs '" + path + "' " + option + " 2>&1");

@@ -253,7 +253,8 @@ TEST(RobotUpdates, TheWorldHasYUpAlready) {
     EXPECT_FALSE(ros::update_of(followed, true, 0).fix);
 }
 
-/// Returns a frame of a camera that looks straight down from 20 mm above the pattern.
+/// Returns the track of `followed_in_pattern`, with the pose of a camera that looks straight down
+/// from 20 mm above the pattern.
 Followed followed_in_space() {
     Followed followed = followed_in_pattern();
     SpacePose& space = followed.located.space.emplace();

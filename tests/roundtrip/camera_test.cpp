@@ -1,5 +1,6 @@
-// Tests pages of `dotpose overlay` as a camera sees them. A PDF renderer replaces the printer, a
-// simulated camera takes frames of the rendered pages, and `dotpose locate` locates the frames.
+// Tests pages written by `dotpose overlay` as a camera sees them. A PDF renderer replaces the
+// printer, a simulated camera takes frames of the rendered pages, and `dotpose locate` locates the
+// frames.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

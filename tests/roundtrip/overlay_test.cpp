@@ -79,7 +79,7 @@ class Documents : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Returns the renderers that can draw the document. mutool of Debian 13 loses a resource when it
+/// Returns the renderers that can draw the document. mutool in Debian 13 loses a resource when it
 /// converts certain documents, and then cannot draw its own result.
 std::vector<const char*> renderers_of(const fs::path& pdf) {
     try {

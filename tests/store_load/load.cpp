@@ -29,7 +29,7 @@ struct Arguments {
     int robots = 200;
     int hz = 10;
     int hours = 24;
-    int period_s = 5;  ///< seconds of states per transaction
+    int period_s = 5;  ///< time span of the states in one transaction
     bool only_reads = false;
 };
 

@@ -27,7 +27,7 @@ const kCache = kPrefix + __BUILD__;
 
 async function install(): Promise<void> {
     const cache = await caches.open(kCache);
-    // Bypasses the HTTP cache of the browser, which may contain files of the previous build.
+    // Bypasses the browser's HTTP cache, which may contain files from the previous build.
     await cache.addAll(__FILES__.map((file) => new Request(file, { cache: "reload" })));
     await worker.skipWaiting();
 }

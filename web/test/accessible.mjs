@@ -1,4 +1,4 @@
-// Accessibility checks of the pages.
+// Accessibility checks for the pages.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -7,7 +7,7 @@ const kAxe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.m
 
 /** Requires that axe finds no violation, and that nothing is wider than the screen. */
 export async function audit(page) {
-    // The content security policy of the page does not restrict the scripts of the test.
+    // The content security policy of the page does not restrict the test's scripts.
     await page.evaluate(kAxe);
     const { violations } = await page.evaluate(() => globalThis.axe.run());
     assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);

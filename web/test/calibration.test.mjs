@@ -23,7 +23,7 @@ const kPeriod_ms = 50;
 const kReadout_ms = 20;
 const kPlace = { x: 5000, y: 7000 };
 
-/** The camera in a pen, and its tip in the frame of the camera: x right, y down, z forward. */
+/** The camera in a pen, and the pen's tip in the camera frame: x right, y down, z forward. */
 const kPen = { size: "320x240", focal_px: 16 / 0.03, spacing_mm: 0.3, tip_mm: [0.5, 5, 18], rest_mm: 0.1, at_mm: [500, 700] };
 
 let folder;
@@ -58,7 +58,7 @@ function pen(index, tilt_deg, side_deg, turn_deg) {
     const axis = on_sheet([0, 0, 1]);
     const distance_mm = (tip[2] + kPen.rest_mm) / axis[2];
     const at = [0, 1].map((i) => (kPen.at_mm[i] - tip[i] + distance_mm * axis[i]) / kPen.spacing_mm);
-    // The normal of the paper in the frame of the camera is (sin ty, -sin tx cos ty, cos tx cos ty).
+    // The normal of the paper in the camera frame is (sin ty, -sin tx cos ty, cos tx cos ty).
     const normal = [on_sheet([1, 0, 0])[2], on_sheet([0, 1, 0])[2], axis[2]];
     const tilts = [Math.atan2(-normal[1], normal[2]), Math.asin(normal[0])].map((angle) => (angle * 180) / Math.PI);
     const right = on_sheet([1, 0, -normal[0] / normal[2]]);
@@ -70,13 +70,13 @@ function pen(index, tilt_deg, side_deg, turn_deg) {
     return pixelsOf(join(into, "frame_000000.pgm"), 320 * 240);
 }
 
-/** Frames of a pen that is tilted to all sides, by small, medium and large angles. */
+/** Frames from a pen that is tilted to all sides, by small, medium and large angles. */
 function pivot() {
     const rings = [12, 24, 36].flatMap((tilt_deg, ring) => Array.from({ length: 10 }, (_, i) => [tilt_deg, 36 * i + 12 * ring, 50 * i]));
     return [[0, 0, 0], [3, 90, 120], ...rings].map((tilts, i) => pen(i, ...tilts));
 }
 
-/** Frames of a robot that turns on the spot. Its centre stays at `kPlace`. */
+/** Frames from a robot that turns on the spot. Its centre stays at `kPlace`. */
 function turn(steps) {
     return Array.from({ length: steps }, (_, i) => {
         const angle_deg = 7 + (360 / steps) * i;
@@ -87,7 +87,7 @@ function turn(steps) {
     });
 }
 
-/** Frames of a robot that drives straight ahead. */
+/** Frames from a robot that drives straight ahead. */
 function drive(frames, step_mm) {
     const angle_deg = 20;
     const heading = (angle_deg * Math.PI) / 180 + kHeading_rad;
@@ -97,7 +97,7 @@ function drive(frames, step_mm) {
     });
 }
 
-/** Frames of a camera with a rolling shutter that moves along the x axis of its image. */
+/** Frames from a camera with a rolling shutter that moves along the x axis of its image. */
 function fastDrive(frames, step_mm) {
     const readout_px = ((step_mm / kScale_mm_per_px) * kReadout_ms) / kPeriod_ms;
     return Array.from({ length: frames }, (_, i) =>
@@ -112,7 +112,7 @@ function places() {
     return Array.from({ length: 30 }, (_, i) => pixelsOf(join(into, `frame_${String(i).padStart(6, "0")}.pgm`)));
 }
 
-/** Runs `dotpose watch` with the page. Its camera repeats the frames of the latest call of `show`. */
+/** Runs `dotpose watch` with the page. Its camera repeats the frames passed in the latest call to `show`. */
 class Run {
     #frames = [];
     #next = 0;
@@ -300,7 +300,7 @@ async function picture(page, name) {
     if (process.env.DOTPOSE_PICTURES) await takeForms(page, process.env.DOTPOSE_PICTURES, name);
 }
 
-/** Returns the newest JSON line of a frame. */
+/** Returns the newest JSON line for a frame. */
 function newestLine(page) {
     return page.evaluate(
         () =>
@@ -329,7 +329,7 @@ test("the tip of a pen is calibrated by pivoting, and the run uses it", async ()
         await page.waitForFunction(() => document.querySelectorAll("#calibration-needs li").length === 9);
         assert.match(await page.textContent("#calibration-needs"), /tilt the pen farther.*towards the right edge.*towards the upper right corner/);
         assert.match(await page.textContent("#calibration-now"), /the tip stays at its point/);
-        // Fewer than six frames of the pen do not determine its tip.
+        // Fewer than six frames from the pen do not determine its tip.
         await page.waitForFunction(() => /^1 frame /.test(document.getElementById("calibration-frames").textContent));
         run.show(shots.pivot.slice(0, 2));
         await page.waitForTimeout(6 * kPeriod_ms);

@@ -1,4 +1,4 @@
-// Makes clips for the fake camera of Chromium from simulated frames with known poses.
+// Makes clips for Chromium's fake camera from simulated frames with known poses.
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -18,9 +18,8 @@ function readPgm(bytes) {
 }
 
 /**
- * Writes `clip.y4m` to the folder. For each frame, returns the true pose, the tool's output line
- * for the luma of the frame (`tool`), and the frame as a picture (`png`). `options` are further options
- * of `dotpose simulate`.
+ * Writes `clip.y4m` to the folder. For each frame, returns the true pose, the tool's output line for the luma of the
+ * frame (`tool`), and the frame as a picture (`png`). `options` are further options for `dotpose simulate`.
  */
 export function makeClip(folder, { frames, size, options = [] }) {
     const still = join(folder, "frames");

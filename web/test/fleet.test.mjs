@@ -55,7 +55,7 @@ test("a robot that is killed, silenced, lost and removed is shown so", async () 
     assert.ok(Date.now() - begun < 1000 * kShown_s);
     await page.waitForSelector("#fleet-robot", { state: "hidden" });
     await until(async () => (await alerts())[0]?.startsWith("annasilent → removed"), "the removal is no alert");
-    // The broker no longer retains messages of the robot.
+    // The broker no longer retains messages from the robot.
     assert.ok(!dotpose("fleet", "--mqtt", broker.url, "--seconds", "0.5").includes("anna"));
     assert.deepEqual(complaints, []);
     await page.close();

@@ -87,7 +87,7 @@ export class Robot {
         this.is_lost = false;
         /** Returns the position of state n, in m. */
         this.path = (n) => [0.1 + 0.01 * n, this.place.y_m];
-        /** Further members of localized states. */
+        /** Additional members of the states in which the robot is localized. */
         this.more = {};
         const connection = `uagv/v2/dotpose/${name}/connection`;
         const will = JSON.stringify({ headerId: 0, timestamp: new Date().toISOString(), connectionState: "CONNECTIONBROKEN" });

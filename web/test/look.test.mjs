@@ -25,10 +25,7 @@ after(async () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
 });
 
-/**
- * Runs the camera until `frames` frames are logged. Returns the log and the errors and warnings of
- * the page.
- */
+/** Runs the camera until `frames` frames are logged. Returns the log, and the errors and warnings from the page. */
 async function runCamera(address, frames) {
     const { page, complaints } = await open(browser.context, server.url + address);
     await page.click("#look-start");
@@ -42,8 +39,8 @@ async function runCamera(address, frames) {
 }
 
 /**
- * Returns the true pose for a line of the log. It is the nearest pose of the clip, because the
- * frames of the clip are metres apart.
+ * Returns the true pose for a line of the log. It is the pose in the clip that is nearest to the
+ * logged pose, because the clip's frames are metres apart.
  */
 function truthOf(line) {
     const near = (at) => Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
@@ -156,7 +153,7 @@ function sheetFile() {
     return path;
 }
 
-/** Returns frames of a sheet of section 0, 0. `at` is the place under the image centre, in cells. */
+/** Returns frames of a sheet in section 0, 0. `at` is the place under the image centre, in cells. */
 function viewsOf(at, size, frames = 1) {
     const still = mkdtempSync(join(folder, "view-"));
     return makeClip(still, { frames, size, options: ["--section", "0,0", "--at", at.join()] });

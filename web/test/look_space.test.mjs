@@ -23,7 +23,7 @@ let folder;
 let server;
 let browser;
 let clip;
-/** Output lines of the tool for 40 frames of the view, with poses in space. */
+/** Output lines from the tool for 40 frames of the view, with poses in space. */
 let lines;
 
 before(async () => {

@@ -9,7 +9,7 @@ const kMmPerPx = 0.046;
 const kSpacing_mm = 0.508;
 const kSide_mm = 31;
 const kFirst_mm = 0.5;
-/** The right sheet is lower and turned clockwise, in coordinates of the left page. */
+/** The right sheet is lower and turned clockwise, in the coordinates of the left page. */
 const kRight = { x_mm: 31.5, y_mm: 0.7, turn_rad: 0.012 };
 
 function entry(name, origin_x) {
@@ -18,7 +18,7 @@ function entry(name, origin_x) {
     return { name, page: 1, origin_x, origin_y: 4096, ...size, ...pattern };
 }
 
-/** Returns the pixels of a frame whose centre is at a point of a page. */
+/** Returns the pixels of a frame whose centre is at a point on a page. */
 function render(folder, sheet, { x_mm, y_mm }, theta_rad, seed) {
     const at = [sheet.origin_x + (x_mm - kFirst_mm) / kSpacing_mm, sheet.origin_y + (y_mm - kFirst_mm) / kSpacing_mm];
     const scene = ["--preset", "clean", "--size", `${kWidth_px}x${kHeight_px}`, "--mm-per-px", String(kMmPerPx), "--section", "0,0"];
@@ -40,7 +40,7 @@ function isOnDots({ x_mm, y_mm }) {
     return Math.min(x_mm, y_mm) > kFirst_mm - 0.2 && Math.max(x_mm, y_mm) < kLast_mm;
 }
 
-/** Returns a frame centred on a point of the left page. */
+/** Returns a frame centred on a point on the left page. */
 function seamFrame(folder, at, theta_rad, seed) {
     const left = render(folder, entry("left", 2048), at, theta_rad, seed);
     const right = render(folder, entry("right", 6144), onRight(at), theta_rad - kRight.turn_rad, seed);

@@ -47,13 +47,13 @@ function save(page, form) {
     return page.click(`#${form}-form button[type=submit]`);
 }
 
-/** Waits for a message of the page, and clears it. */
+/** Waits for a message on the page, and clears it. */
 async function message(page, pattern) {
     await page.waitForFunction((text) => new RegExp(text).test(document.getElementById("sheets-message").textContent), pattern.source);
     await page.evaluate(() => (document.getElementById("sheets-message").textContent = ""));
 }
 
-/** Returns a function that maps points of the world to points of the window. */
+/** Returns a function that converts world coordinates to window coordinates. */
 async function mapOf(page) {
     await page.evaluate(() => document.getElementById("sheets-map").scrollIntoView({ block: "center" }));
     const box = await page.locator("#sheets-map").boundingBox();
@@ -259,7 +259,7 @@ test("sheets are renamed and removed like on the command line, and both are undo
         await undo(/^Refused: .*'window'.*can no longer be undone/);
         assert.deepEqual(names(), [kTable, "door", "window"]);
 
-        // The only sheet of the file cannot be removed, because the run needs at least one.
+        // The only sheet in the file cannot be removed, because the run needs at least one.
         for (const name of ["window", "door"]) {
             await select(page, name);
             await page.click("#sheet-remove");

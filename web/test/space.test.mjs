@@ -54,7 +54,7 @@ async function seen(frames, options, look) {
     }
 }
 
-/** Returns the values of the panel, their standard deviations, and the angles of the drawing. */
+/** Returns the values in the panel, their standard deviations, and the angles in the drawing. */
 function shownIn(page) {
     return page.evaluate(() => {
         const text = (id) => document.getElementById(`live-${id}`).textContent;

@@ -1,6 +1,6 @@
-// Takes the pictures of docs/web.md and docs/fleet.md. Run `node tools/take_live_pictures.mjs [PART]` after the build
-// of the tool. PART is watch, sheets, stitch or fleet. With DOTPOSE_PICTURES=../docs/pictures,
-// test/calibration.test.mjs takes the pictures of the calibration. Needs ffmpeg.
+// Takes the pictures for docs/web.md and docs/fleet.md. Run `node tools/take_live_pictures.mjs [PART]` after building
+// the tool. PART is watch, sheets, stitch or fleet. With DOTPOSE_PICTURES=../docs/pictures, test/calibration.test.mjs
+// takes the pictures of the calibration. Needs ffmpeg.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";

@@ -1,4 +1,4 @@
-// Takes the pictures of the page in web/README.md. Run `node tools/take_picture.mjs` after
+// Takes the pictures of the page for web/README.md. Run `node tools/take_picture.mjs` after
 // web/build. Needs ffmpeg.
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -1,4 +1,4 @@
-// C functions of the position code, which return the displacements of dots.
+// C functions for the position code. They return the displacements of dots.
 #include "dotpose/code.hpp"
 
 #include <algorithm>

@@ -319,7 +319,7 @@ enum {
     DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 4.4 MB */
     DOTPOSE_KIND_DEVICE_160X120 = 3, /* like DEVICE, for images up to 160 px wide, 11 KB */
     DOTPOSE_KIND_DEVICE_320X240 = 4, /* like DEVICE, for images up to 320 x 240 px, 23 KB */
-    /* Like DEVICE, for images of optical mice up to 36 px wide, only on known sheets, 5 KB. */
+    /* Like DEVICE, but for images from optical mice: up to 36 px wide, known sheets only, 5 KB. */
     DOTPOSE_KIND_DEVICE_36X36 = 5
 };
 

@@ -1,4 +1,4 @@
-// Implementation of dotpose_locator. An object contains the memory and the locator of the core, and
+// Implementation of dotpose_locator. An object contains a core locator with its memory, and
 // pointers to the functions of its kind.
 #pragma once
 

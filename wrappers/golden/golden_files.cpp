@@ -66,7 +66,7 @@ void write(const GreyImage& image, std::FILE* file) {
     std::fwrite(image.pixels.data(), 1, image.pixels.size(), file);
 }
 
-/// Numbers of a line, in the order of the columns. Floating-point numbers are stored as the
+/// Numbers in a line, in the order of the columns. Floating-point numbers are stored as the
 /// hexadecimal digits of their bits.
 class Numbers {
   public:
@@ -112,7 +112,7 @@ class Numbers {
     std::vector<std::string> all_;
 };
 
-/// Returns all numbers of a fix, separated by commas. The status of the fix must be ok.
+/// Returns all numbers in a fix, separated by commas. The status of the fix must be ok.
 std::string numbers_of(const Fix& fix) {
     Numbers all;
     const double mm = fix.spacing_mm();

@@ -2,8 +2,8 @@
 ///
 /// Coordinate frames:
 /// - *pixel*: the centre of the first pixel is (0, 0), and v points down.
-/// - *undistorted* pixel: the pixel at which a camera without distortion would show the same point
-///   of the scene. It may be outside the image.
+/// - *undistorted* pixel: the pixel at which a camera without distortion would show the same scene
+///   point. It may be outside the image.
 /// - *camera*: coordinates on the paper in mm, relative to the point that is visible at the
 ///   distortion centre. x is along the image x axis, and y points DOWN.
 #pragma once
@@ -37,7 +37,7 @@ struct PaperScale {
     double mm_per_px_x = 0;
     double mm_per_px_y = 0;
     double skew = 0;  ///< shift of each image row relative to the row above, in px
-    /// Change of d per px along u and v. Both are 0 if the optical axis is perpendicular to the
+    /// Change in d per px along u and v. Both are 0 if the optical axis is perpendicular to the
     /// paper.
     double perspective_u = 0;
     double perspective_v = 0;
@@ -84,17 +84,18 @@ struct PenTip {
 struct Camera {
     int width_px = 0;
     int height_px = 0;
-    /// Coefficient k of the radial distortion about `centre_px`, a division model (paper, equations
-    /// 1 and 2). Negative for barrel distortion.
+    /// Coefficient k of the division model (paper, equations 1 and 2) for radial distortion about
+    /// `centre_px`. Negative for barrel distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
     /// View of the paper: the map from the undistorted image to the paper. None if the camera is
     /// hand-held, or if the view is not known.
     std::optional<PaperScale> paper;
-    std::optional<double> focal_px;  ///< focal length; none if the calibration did not determine it
-    /// Pinhole model, if pixels are not square or `centre_px` is not on the optical axis. The
-    /// camera_info files of ROS may describe such cameras. None for other cameras, whose model
-    /// follows from `focal_px` (see `pinhole_of`).
+    /// Focal length. None if the calibration did not determine it.
+    std::optional<double> focal_px;
+    /// Pinhole model, if pixels are not square or `centre_px` is not on the optical axis. ROS
+    /// camera_info files may describe such cameras. None for other cameras, whose model follows
+    /// from `focal_px` (see `pinhole_of`).
     std::optional<Pinhole> pinhole;
     /// Tilt of a mounted camera. None if the calibration did not determine the tilt.
     std::optional<Tilt> tilt;
@@ -113,8 +114,8 @@ struct Camera {
     bool flip = false;
 
     /// Flat field: the brightness of white paper in the image, relative to its maximum. It includes
-    /// the vignetting of the lens and the uneven light of the lamps. The samples are in rows, and
-    /// evenly spaced from the first to the last pixel along each axis. Each sample is in
+    /// lens vignetting and uneven lighting. The samples are stored row by row, and are evenly
+    /// spaced from the first to the last pixel along each axis. Each sample is in
     /// [kMinFlatField, 1]. The brightness between the samples is interpolated bilinearly. Empty if
     /// the brightness is uniform or unknown.
     std::vector<std::vector<double>> flat_field;
@@ -142,10 +143,10 @@ struct Camera {
 /// - The perspective of `paper` is so strong that the horizon is in the image or near it.
 /// - `flat_field` has rows of different lengths, fewer than two rows or columns, or more rows or
 ///   columns than the image.
-/// - Another value is not finite or out of its range, for example a length that is not positive.
+/// - Any other value is not finite or is out of range, for example a length that is not positive.
 void validate(const Camera& camera);
 
-/// Returns the undistorted pixel of `pixel` (paper, equations 1 and 2).
+/// Returns the undistorted pixel that corresponds to `pixel` (paper, equations 1 and 2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
 /// Inverse of the function `undistorted`. If k is positive, points far from the distortion centre
 /// have no distorted pixel. For such a point, returns the pixel in the same direction from the
@@ -164,12 +165,12 @@ struct CameraPoint {
 /// Returns the point on the paper that an undistorted pixel shows, in the camera frame. Throws
 /// std::bad_optional_access if `camera.paper` is none.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
-/// Returns the undistorted pixel of a point in the camera frame. Throws std::bad_optional_access if
-/// `camera.paper` is none.
+/// Returns the undistorted pixel that shows a point given in the camera frame. Throws
+/// std::bad_optional_access if `camera.paper` is none.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
 
 /// Returns the direction of the image x axis on the paper, at an undistorted pixel. The angle is
-/// measured from +x towards +y of the camera frame. Throws std::bad_optional_access if
+/// measured from +x towards +y in the camera frame. Throws std::bad_optional_access if
 /// `camera.paper` is none.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
@@ -192,7 +193,7 @@ std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera
 /// `camera.flat_field`. The flat field must not be empty, and `camera` must be valid.
 double brightness_at(const Camera& camera, PixelPoint pixel);
 
-/// Returns the camera that describes crops of the images of `camera`. A crop has `width_px` x
+/// Returns the camera that describes crops of the images from `camera`. A crop has `width_px` x
 /// `height_px` pixels, and its top left pixel is (`left_px`, `top_px`). The reference point remains
 /// the same point of the scene, even if `camera.reference_px` is none. If the view of the paper is
 /// known, the heading also remains the same. `flat_field` and `readout_ms` are adapted to the crop.
@@ -200,9 +201,9 @@ double brightness_at(const Camera& camera, PixelPoint pixel);
 /// `validate`).
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
-/// Sets the lens in `options`, and the reference point if the camera has one. If the view of the
-/// camera is known, also sets `show_stages`, because `with_camera` needs the dots in the trace.
-/// Throws BadArgument if `width_px` x `height_px` is not the image size of the camera.
+/// Sets the lens in `options`, and the reference point if the camera has one. If the camera's view
+/// of the paper is known, also sets `show_stages`, because `with_camera` needs the dots in the
+/// trace. Throws BadArgument if `width_px` x `height_px` is not the image size of the camera.
 void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options);
 
 }  // namespace dotpose

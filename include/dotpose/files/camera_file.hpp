@@ -4,8 +4,8 @@
 ///     DeviceOptions options;
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///
-/// `read_camera` also reads the `camera_info` files of ROS with the distortion model `plumb_bob`,
-/// and converts this model to the distortion model of the paper.
+/// `read_camera` also reads ROS `camera_info` files with the distortion model `plumb_bob`, and
+/// converts this model to the distortion model of the paper.
 #pragma once
 
 #include <filesystem>
@@ -21,19 +21,19 @@ namespace dotpose {
 /// Version of the camera file format. `read_camera` accepts no other version.
 inline constexpr int kCameraFileVersion = 1;
 
-/// Reads a camera file, or a camera_info file of ROS. Throws Error, with the file name and the key
-/// in the message, in these cases:
+/// Reads a camera file, or a ROS camera_info file. Throws Error, with the file name and the key in
+/// the message, in these cases:
 /// - The file cannot be read, or has another format or version.
 /// - A key is missing, unknown, of the wrong type or out of range.
 /// - The distortion model is not plumb_bob, or the paper's equation 2 cannot approximate the lens
 ///   to within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
-/// Reads a camera from the text of a camera file or of a camera_info file. `name` is the file name
-/// for error messages. Throws Error if the text is not valid (see `read_camera`).
+/// Reads a camera from the text of a camera file or a ROS camera_info file. `name` is the file name
+/// used in error messages. Throws Error if the text is not valid (see `read_camera`).
 Camera parse_camera(const std::string& text, const std::string& name);
 
-/// Returns true if the file is a camera_info file of ROS. Do not write a camera to such a file,
+/// Returns true if the file is a ROS camera_info file. Do not write a camera to such a file,
 /// because `write_camera` would replace it with a file in another format. Throws Error if the file
 /// cannot be read.
 bool is_camera_info(const std::filesystem::path& path);

@@ -39,16 +39,16 @@ struct DotOffset {
     double y() const { return y_q14 / 16384.0; }
 };
 
-/// Errors of a map. They vary slowly over the page, so all dots in a view have nearly the same
-/// error. This struct contains the covariance of the error at the nodes of a grid that spans all
-/// dots of the page.
+/// Errors of a print map. They vary slowly over the page, so all dots in a view have nearly the
+/// same error. This struct contains the covariance of the error at the nodes of a grid that spans
+/// all dots on the page.
 struct MapErrors {
     /// Covariance of the shift along x and y, in spacings, and of the rotation, in rad: the
     /// elements (x, x), (x, y), (y, y), (x, rotation), (y, rotation), (rotation, rotation).
     using Node = std::array<float, 6>;
 
-    int columns = 0;          ///< number of nodes along x, at least 2; 0 if the errors are unknown
-    int rows = 0;             ///< number of nodes along y
+    int columns = 0;  ///< number of nodes along x: at least 2, or 0 if the errors are unknown
+    int rows = 0;     ///< number of nodes along y
     std::vector<Node> nodes;  ///< row by row
 };
 
@@ -73,9 +73,9 @@ struct MapPage {
     /// Offsets of the dots, row by row. A dot that was never seen is assigned the mean offset of
     /// the dots around it.
     std::vector<DotOffset> offsets;
-    std::vector<std::uint8_t> views;  ///< number of frames in which each dot was measured, at most
-                                      ///< 255
-    MapErrors errors;                 ///< empty in a map of file version 1
+    /// Number of frames in which each dot was measured, at most 255.
+    std::vector<std::uint8_t> views;
+    MapErrors errors;  ///< empty in a map of file version 1
 
     /// Returns the index of a dot in `offsets` and `views`. Returns none if the place of the dot is
     /// not on the page.
@@ -107,14 +107,14 @@ const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& pla
 enum class MapUse : std::uint8_t {
     no_map,  ///< there is no map of the page, or there is no fix
     used,    ///< the fix is corrected by the map
-    /// Fewer than 20 of the dots in view, or less than 75 % of them, were seen in the frames of the
-    /// map.
+    /// Fewer than 20 of the dots in view, or less than 75 % of them, were seen in the frames from
+    /// which the map was made.
     not_covered,
-    contradicted  ///< the dots in view contradict the map, for example because the print was moved
-                  ///< or replaced
+    /// The dots in view contradict the map, for example because the print was moved or replaced.
+    contradicted
 };
 
-/// Maximum size of a map file, in bytes. The map of a page with the size of A0 is about 20 MB.
+/// Maximum size of a map file, in bytes. The map of an A0 page is about 20 MB.
 inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
 
 /// Parses the contents of a map file. Throws Error if the contents are not a map, are truncated or

@@ -27,9 +27,9 @@ struct Pattern {
     CodeVariant code = CodeVariant::anoto;
     Section section;
     double spacing_mm = kDefaultSpacing_mm;
-    double displacement_mm = kDefaultSpacing_mm / 6;  ///< distance from an intersection to the
-                                                      ///< centre of its dot
-    double dot_mm = kDefaultSpacing_mm / 6;           ///< diameter of a dot
+    /// Distance from an intersection to the centre of its dot.
+    double displacement_mm = kDefaultSpacing_mm / 6;
+    double dot_mm = kDefaultSpacing_mm / 6;  ///< diameter of a dot
 };
 
 /// Returns the maximum distance in mm, along x or y, from an intersection to the outer edge of its

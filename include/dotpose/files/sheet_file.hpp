@@ -1,4 +1,4 @@
-/// Sheet files: the region of the code plane on each printed page, and the place of the page in the
+/// Sheet files: the region of the code plane on each printed page, and the pose of the page in the
 /// world (docs/sheet-files.md).
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");

@@ -30,11 +30,11 @@ using PoseCovariance = std::array<std::array<float, 3>, 3>;
 /// Place of a fix on a page of a sheet file.
 struct SheetPlace {
     const SheetEntry* entry = nullptr;  ///< entry of the page, in the span passed to `find_sheet`
-    double x_mm = 0;                    ///< position in the sheet frame, corrected for the print
-                                        ///< scale
+    /// Position in the sheet frame, corrected for the print scale.
+    double x_mm = 0;
     double y_mm = 0;
-    double theta_rad = 0;  ///< angle of the image x axis, from the sheet's +x towards +y, in (-pi,
-                           ///< pi]
+    /// Angle of the image x axis, from the sheet's +x towards +y, in (-pi, pi].
+    double theta_rad = 0;
     /// Covariance of (x_mm, y_mm, theta_rad), from the covariance of the fix. All 0 if the fix has
     /// no covariance.
     PoseCovariance covariance{};
@@ -58,8 +58,8 @@ struct WorldPlace {
     PoseCovariance covariance{};
 };
 
-/// Converts a place on a sheet to the world. Returns none if the world pose of the sheet is not
-/// known.
+/// Converts a place on a sheet to world coordinates. Returns none if the world pose of the sheet is
+/// not known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
 /// Converts the covariance of a pose from the sheet frame to the world frame: rotates it, and

@@ -55,7 +55,7 @@ struct CalibrateOptions {
     std::function<bool(int done, int total)> progress;
 };
 
-/// Returns the code variant of the options, or none if it must be detected from the frames.
+/// Returns the code variant given in the options, or none if it must be detected from the frames.
 std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 
 /// Required number of distinct frames with a fix. With fewer frames, the verdict is
@@ -66,21 +66,22 @@ inline constexpr int kWantedFrames = 5;
 enum class CalibrationVerdict {
     good,
     too_few_frames,  ///< fewer than kWantedFrames distinct frames have a fix
-    same_place,    ///< all frames show the same dots, so printing errors and lens errors cannot be
-                   ///< separated
-    out_of_focus,  ///< the dots are blurred to about a third of the spacing or more
+    /// All frames show the same dots, so printing errors and lens errors cannot be separated.
+    same_place,
+    out_of_focus,    ///< the dots are blurred to about a third of the spacing or more
     corners_unseen,  ///< the fraction of the image that is covered by dots is below kMinCoverage
 };
 /// Returns the identifier, such as "out_of_focus".
 const char* name(CalibrationVerdict verdict);
 
-/// One dot of one frame, with its residuals in px of the undistorted image.
+/// One dot in one frame, with its residuals in undistorted px.
 struct CalibrationDot {
-    int frame = 0;      ///< index of the frame in the series
-    PixelPoint pixel;   ///< measured pixel of the dot
-    PixelPoint before;  ///< residual before the calibration, with a camera model without
-                        ///< distortion, skew or tilt
-    PixelPoint after;   ///< residual after the calibration
+    int frame = 0;     ///< index of the frame in the series
+    PixelPoint pixel;  ///< measured pixel coordinates of the dot
+    /// Residual before the calibration: the residual of a camera model without distortion, skew or
+    /// tilt.
+    PixelPoint before;
+    PixelPoint after;  ///< residual after the calibration
 };
 
 /// The calibrated camera, with measures of its reliability.
@@ -94,19 +95,19 @@ struct LensCalibration {
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
     int frames = 0;                         ///< number of input frames
     int located = 0;                        ///< number of distinct frames with a fix
-    int duplicates = 0;             ///< number of frames not used, because they repeat an earlier
-                                    ///< frame
-    int dots = 0;                   ///< number of dots used
-    int outliers = 0;               ///< number of dots rejected as outliers
-    double residual_before_px = 0;  ///< rms residual per axis before the calibration, with a camera
-                                    ///< model without distortion, skew or tilt
-    double residual_px = 0;         ///< rms residual per axis after the calibration
-    double px_per_spacing = 0;      ///< mean grid spacing at the image centre over all frames, in
-                                    ///< px
-    /// Mean width of the dots at half of their darkness, in spacings. Sharp dots have a width of
-    /// 1/6.
+    /// Number of frames not used, because they repeat an earlier frame.
+    int duplicates = 0;
+    int dots = 0;      ///< number of dots used
+    int outliers = 0;  ///< number of dots rejected as outliers
+    /// Rms residual, per axis, before the calibration: the residual of a camera model without
+    /// distortion, skew or tilt.
+    double residual_before_px = 0;
+    double residual_px = 0;  ///< rms residual per axis after the calibration
+    /// Mean grid spacing at the image centre over all frames, in px.
+    double px_per_spacing = 0;
+    /// Mean width of the dots at half their darkness, in spacings. Sharp dots have a width of 1/6.
     double dot_width = 0;
-    double coverage = 0;  ///< fraction of the parts of the image (see ImageCoverage) that show dots
+    double coverage = 0;  ///< fraction of the image parts (see ImageCoverage) that show dots
     CalibrationVerdict verdict = CalibrationVerdict::good;
     std::string advice;  ///< one or two sentences for the user
     std::vector<CalibrationDot> seen;
@@ -115,7 +116,7 @@ struct LensCalibration {
 /// Computes lens and scale and, if the frames determine them, tilt and focal length. Throws
 /// BadArgument if `frames` is less than 1. Throws Error if fewer than two distinct frames can be
 /// located, if the frames differ in size, if `options.sheets` is not empty and no frame shows one
-/// of these sheets, or if the frames give no plausible lens.
+/// of these sheets, or if no plausible lens fits the frames.
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 
@@ -200,7 +201,7 @@ struct PivotCalibration {
     Camera camera;  ///< the given camera with `tip` set
     int frames = 0;
     int located = 0;
-    int used = 0;  ///< number of frames used: those with the tip at the common point of rest
+    int used = 0;  ///< number of frames in which the tip is at the common point of rest
     /// Rms angle by which the pen rotated about the axis of least rotation. A larger angle gives a
     /// more accurate position of the tip.
     double pivot_rad = 0;
@@ -264,7 +265,7 @@ struct ReadoutCalibration {
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
 /// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
-/// - Fewer than 5 frames are located together with their previous and next frames.
+/// - Fewer than 5 frames are located along with both the previous and the next frame.
 /// - The standard deviation of the readout time is 10 % of the readout time or more.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
@@ -310,10 +311,10 @@ struct Seam {
     std::string first;
     std::string second;
     int frames = 0;
-    double residual_mm = 0;   ///< rms difference between the positions of a frame according to the
-                              ///< two sheets, per axis
-    double residual_rad = 0;  ///< rms difference between the directions of a frame according to the
-                              ///< two sheets
+    /// Rms difference, per axis, between the positions of a frame according to the two sheets.
+    double residual_mm = 0;
+    /// Rms difference between the directions of a frame according to the two sheets.
+    double residual_rad = 0;
 };
 /// Position of the image centre of one frame on two sheets, relative to the first intersection of
 /// each sheet, in nominal mm.

@@ -23,8 +23,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Minimum fraction of the parts of the image (see ImageCoverage) that show dots. Below this
-/// fraction, the verdict of a calibration is `corners_unseen`.
+/// Minimum fraction of the image parts (see ImageCoverage) that show dots. Below this fraction, the
+/// verdict of a calibration is `corners_unseen`.
 inline constexpr double kMinCoverage = 0.85;
 /// Maximum width of dots in focus, in spacings. Dots that are blurred to twice their printed width
 /// begin to touch.
@@ -49,7 +49,8 @@ PixelPoint farthest_corner(const Camera& camera);
 /// Throws std::out_of_range if `camera.sigma` does not contain these standard deviations.
 double corner_sigma_px(const Camera& camera);
 
-/// The parts of the image in which dots have been seen.
+/// Divides the image into kColumns x kRows equal parts, and records in which parts dots have been
+/// seen.
 class ImageCoverage {
   public:
     static constexpr int kColumns = 12;
@@ -76,7 +77,7 @@ class ImageCoverage {
 
 /// One located frame.
 struct CalibrationView {
-    std::vector<PixelPoint> dots;  ///< measured pixels of the dots
+    std::vector<PixelPoint> dots;  ///< measured pixel coordinates of the dots
     double x_grid = 0;             ///< pattern position under the image centre, in spacings
     double y_grid = 0;
     Section section;

@@ -15,8 +15,8 @@
 /// A page may contain several fields: patches of a test page (test_page.hpp), or sheets side by
 /// side. Functions throw Error or BadArgument. They share no state.
 ///
-/// Coordinate frames (both x right, y DOWN): *pattern* (mm, as printed), *scan* (pixels; the centre
-/// of the first pixel is (0, 0)).
+/// Coordinate frames (both x right, y DOWN): *pattern* (mm, as printed), *scan* (px, relative to
+/// the centre of the first pixel).
 #pragma once
 
 #include <functional>
@@ -56,8 +56,8 @@ struct CheckPrintOptions {
     /// resolution is ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. It cannot be measured, because
-    /// dots are only a few pixels wide. The measured diameter of a dot is that of a disc of this
-    /// ink with the same total darkness.
+    /// dots are only a few pixels wide. The measured diameter of a dot is the diameter of a disc of
+    /// solid ink with the same total darkness.
     double ink_reflectance = 0.15;
     /// Called after each step of the check. `total` is an estimate that may grow during the check.
     /// Returning false aborts the check with an Error.
@@ -68,10 +68,10 @@ struct CheckPrintOptions {
 /// scan, with the page turned by 90 degrees, separates the errors of the printer from those of the
 /// scanner.
 struct PrintScale {
-    double scale_x = 1;       ///< ratio of the printed to the nominal length along the pattern's x
-                              ///< axis
-    double scale_y = 1;       ///< ratio of the printed to the nominal length along the pattern's y
-                              ///< axis
+    /// Ratio of the printed to the nominal length along the pattern's x axis.
+    double scale_x = 1;
+    /// Ratio of the printed to the nominal length along the pattern's y axis.
+    double scale_y = 1;
     double rotation_rad = 0;  ///< direction of the pattern's x axis in the scan, from +u towards +v
     double skew_rad = 0;      ///< angle from the x axis to the y axis, minus 90 degrees
 };
@@ -121,7 +121,7 @@ struct PrintField {
 
     /// Number of cells covered by other print, such as text. `cells` excludes these cells.
     int covered = 0;
-    int cells = 0;       ///< number of cells of the region that are in view and not covered
+    int cells = 0;       ///< number of cells in the region that are in view and not covered
     int missing = 0;     ///< number of cells without a dot
     int merged = 0;      ///< number of dots that touch a neighbour
     int dots = 0;        ///< number of dots found
@@ -129,10 +129,10 @@ struct PrintField {
     /// Median diameter of the dots. The diameter of a dot is that of an equivalent disc (see
     /// CheckPrintOptions::ink_reflectance).
     double dot_mm = 0;
-    double dot_sigma_mm = 0;  ///< standard deviation of the diameter, from the median absolute
-                              ///< deviation
-    double paper_level = 0;   ///< median grey level of blank paper
-    double contrast = 0;      ///< darkness at the centres of the dots relative to the paper, 0 to 1
+    /// Standard deviation of the diameter, from the median absolute deviation.
+    double dot_sigma_mm = 0;
+    double paper_level = 0;  ///< median grey level of blank paper
+    double contrast = 0;     ///< darkness at the centres of the dots relative to the paper, 0 to 1
     /// False if the sizes and the contrast cannot be measured, because of the blur and the tone
     /// curve of a photo.
     bool are_sizes_measured = true;
@@ -143,7 +143,7 @@ struct PrintField {
     double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }
     double merged_share() const { return dots > 0 ? double(merged) / dots : 0; }
     double wrong_share() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
-    /// Returns the relative increase of the dot diameter from its nominal value. Negative if the
+    /// Returns the relative increase in the dot diameter over its nominal value. Negative if the
     /// dots are smaller than intended.
     double gain() const { return dot_mm / pattern.dot_mm - 1; }
     /// Returns the sum of the four fractions above, at most 1. It estimates the fraction of the
@@ -197,7 +197,7 @@ struct RepeatedCells {
 
 /// Evidence that the image is a photo instead of a scan.
 struct CameraSigns {
-    double perspective = 0;  ///< relative change of lengths across the page
+    double perspective = 0;  ///< relative change in length across the page
     double lens = 0;         ///< relative displacement of the outermost dots by lens distortion
 };
 
@@ -210,7 +210,7 @@ struct PrintCheck {
     CodeVariant code = CodeVariant::anoto;  ///< code variant that was given or detected
     /// Probability that the detected code variant is wrong. 0 if the code variant was given.
     double code_p_wrong = 0;
-    std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
+    std::optional<Resolution> resolution;  ///< resolution that was used, or none for a photo
     bool is_photo = false;                 ///< copy of CheckPrintOptions::is_photo
     /// Evidence that the image is a photo. None if there is no evidence, or if no resolution was
     /// given. With evidence, the given resolution is ignored.

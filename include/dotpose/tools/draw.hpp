@@ -1,5 +1,5 @@
-/// Drawing: writes self-contained SVG pictures of the stages of `locate` in a frame, of paths over
-/// a sheet, and of calibrations, checked prints and evaluations.
+/// Drawing: writes self-contained SVG pictures that show the stages of `locate` for a frame, paths
+/// over a sheet, calibrations, checked prints, and evaluations.
 ///
 ///     const dotpose::Fix fix = locator.locate(image.view());
 ///     draw_frame("frame.svg", image.view(), locator.trace());
@@ -41,20 +41,20 @@ struct DrawOptions {
     /// in spacings.
     double spacing_mm = kDefaultSpacing_mm;
     /// The fix to show, for example a fix that was corrected with a camera file, or rejected after
-    /// `locate`. Default: the fix of the trace.
+    /// `locate`. Default: the fix in the trace.
     std::optional<Fix> fix{};
     std::string title{};  ///< title of the caption, for example the name of the file, or empty
     /// Place of the fix on a sheet. If given, the caption shows the pose in large type. This pose
     /// is in world coordinates, or in sheet coordinates if the world pose of the sheet is unknown.
     /// If no place is given, the caption shows the pose in the pattern.
     std::optional<SheetPlace> place{};
-    /// Text of the caption if there is no fix: the reason and the remedy. Default: the message of
+    /// Text of the caption if there is no fix: the reason and the remedy. Default: the message for
     /// the status.
     std::string reason{};
 };
 
-/// Draws the last frame of a Locator, with all stages that it reached. `image` must be the located
-/// image, and `DeviceOptions::show_stages` must be set.
+/// Draws the last frame that a Locator processed, with all stages that it reached. `image` must be
+/// the located image, and `DeviceOptions::show_stages` must be set.
 ///
 /// The left panel shows the image with a ring around each dot, the symmetric connections of the
 /// neighbour search, and the origin of the grid (paper, figures 2 and 3). Below the panel, the same

@@ -38,7 +38,7 @@ namespace dotpose {
 struct KnownFrame {
     GreyImage image;
     Truth truth;
-    /// Code variant of this frame. Replaces the code variant of the options.
+    /// Code variant of this frame. Overrides the code variant in the options.
     std::optional<CodeVariant> code;
     std::string problem;  ///< reason why there is no image, or empty
 };
@@ -47,8 +47,8 @@ struct KnownFrame {
 /// from several threads.
 using FrameSource = std::function<KnownFrame(int index)>;
 
-/// Returns a source of the images listed in a truth.csv. A file that cannot be read becomes a frame
-/// with a `problem`.
+/// Returns a source that reads the images listed in a truth.csv file. An image that cannot be read
+/// becomes a frame with a `problem`.
 FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<TruthRow> rows);
 
 /// Returns a source that renders the frames `draw_shot(setup, index)`.

@@ -1,4 +1,4 @@
-/// Correction of vignetting and of uneven light with the flat field of a camera file.
+/// Corrects vignetting and uneven light with the flat field in a camera file.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ class FlatFieldCorrection {
     /// these conditions.
     explicit FlatFieldCorrection(const Camera& camera);
 
-    /// Returns the image with each grey level divided by the brightness at its pixel. Levels are
-    /// clamped to 255. Throws BadArgument if the image does not have the size of the camera file.
+    /// Returns the image with each grey level divided by the flat field at its pixel. Levels are
+    /// clamped to 255. Throws BadArgument if the image does not have the size in the camera file.
     GreyImage corrected(ImageView image) const;
 
   private:

@@ -52,7 +52,7 @@ struct FollowerOptions {
     /// True to flip images left to right before they are located. Has the same effect as `flip` in
     /// a camera file. All pixel coordinates refer to the flipped images.
     bool flip = false;
-    /// Reference pixel of the pose. Replaces the image centre and the reference point of the camera
+    /// Reference pixel of the pose. Replaces the image centre and the reference point in the camera
     /// file.
     std::optional<PixelPoint> reference_px;
     /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
@@ -65,7 +65,7 @@ struct FollowerOptions {
     SpaceTrackOptions space_track;  ///< used only if `fits_space_pose` is set
 };
 
-/// The result of a single image.
+/// The result for a single image.
 struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
@@ -75,11 +75,11 @@ struct Located {
     /// by the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong` does
     /// not include the prior (see Followed).
     CodeReading reading;
-    /// Nominal spacing, in mm, of the sheet of the fix. If the fix is not on any sheet, this is the
-    /// common spacing of all sheets, or NaN if the sheets differ in spacing. If there are no
-    /// sheets, it is FollowerOptions::spacing_mm.
+    /// Nominal spacing, in mm, of the sheet that contains the fix. If the fix is not on any sheet,
+    /// this is the common spacing of all sheets, or NaN if the sheets differ in spacing. If there
+    /// are no sheets, it is FollowerOptions::spacing_mm.
     double spacing_mm = 0;
-    /// Spacing computed from the fix and the view of the camera file, in mm. NaN if unknown.
+    /// Spacing computed from the fix and the view in the camera file, in mm. NaN if unknown.
     /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     /// Velocity of the camera during the readout. None if there is no fix, or if the camera file
@@ -91,7 +91,7 @@ struct Located {
     /// Tip of the pen in the pattern frame. None if `space` is none or ambiguous, or if the camera
     /// file contains no tip.
     std::optional<TipPose> tip;
-    bool is_pen_down = false;  ///< true if `tip` is on the paper; see PenContact
+    bool is_pen_down = false;  ///< true if `tip` is on the paper (see PenContact)
     /// Result of applying `FollowerOptions::print_map` to the fix.
     MapUse map_use = MapUse::no_map;
     /// True if the options or the sheets limit the code variants. False if all were tried.
@@ -101,7 +101,7 @@ struct Located {
 
 /// The result for one image of a sequence. It depends on the previous images.
 struct Followed {
-    /// Result of the image. If the fix was accepted only because it is at the predicted place, its
+    /// Result for the image. If the fix was accepted only because it is at the predicted place, its
     /// `p_wrong` includes the prior probability of that place.
     Located located;
     Track track;
@@ -139,8 +139,8 @@ class Follower {
     /// place makes it certain enough for the tracker.
     Followed follow(ImageView image, std::int64_t time_us);
 
-    /// Returns true if the robot is tracked in the world of the sheet file (m, y up) instead of the
-    /// pattern frame.
+    /// Returns true if the robot is tracked in the world frame of the sheet file (m, y up) instead
+    /// of the pattern frame.
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
 
@@ -235,8 +235,8 @@ class Follower {
     Tracker tracker_;
     SpaceTracker space_tracker_;
     PenContact contact_;
-    std::optional<Seen> seen_;  ///< none if there was no fix, or if the last fix is too old for a
-                                ///< prediction
+    /// None if there was no fix, or if the last fix is too old for a prediction.
+    std::optional<Seen> seen_;
 };
 
 }  // namespace dotpose

@@ -32,8 +32,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Limits of the images that can be read: the maximum side, the maximum number of pixels, and the
-/// default for `max_pixels` of `read_image`.
+/// Limits for images that can be read: the maximum side, the maximum number of pixels, and the
+/// default for the parameter `max_pixels` of `read_image`.
 inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
 inline constexpr int kDefaultImagePixels = 100'000'000;
@@ -48,11 +48,11 @@ struct ImageTooLarge : Error {
 };
 
 /// Reads one image. Reading needs up to 15 bytes of memory per pixel in addition to the file. Files
-/// larger than 8 * max_pixels bytes + 1 MiB are refused. `page` is the number of a page of a TIFF
-/// file, from 1. Throws Error with the name of the file and the reason: no such page, no such file,
-/// a directory, no permission, empty, unknown image format, truncated, damaged, too large, not
-/// enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or kMaxImagePixels
-/// pixels. Thread-safe.
+/// larger than 8 * max_pixels bytes + 1 MiB are refused. `page` is the page number in a TIFF file,
+/// from 1. Throws Error with the name of the file and the reason: no such page, no such file, a
+/// directory, no permission, empty, unknown image format, truncated, damaged, too large, not enough
+/// memory. Throws ImageTooLarge if the image has more than `max_pixels` or kMaxImagePixels pixels.
+/// Thread-safe.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 

@@ -28,7 +28,7 @@ struct InkSample {
     double sigma_x_mm = 0;  ///< standard deviations, above 0
     double sigma_y_mm = 0;
     double sigma_height_mm = 0;
-    double tilt_rad = 0;  ///< tilt and azimuth are those of CameraLean
+    double tilt_rad = 0;  ///< tilt and azimuth as defined in CameraLean
     double azimuth_rad = 0;
 };
 

@@ -36,7 +36,7 @@ struct FoundPlace {
     double angle_rad = 0;
 };
 
-/// One frame with its true and its found place.
+/// One frame, with its true place and the place that was found.
 struct MeasuredFrame {
     std::string file;
     std::optional<TruePlace> truth;  ///< none if the frame has no readable pattern

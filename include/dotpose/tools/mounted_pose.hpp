@@ -30,20 +30,20 @@ namespace dotpose {
 /// - the velocity and the turn rate, if the file contains the readout time of a rolling shutter.
 ///
 /// The result is more accurate than `fix`, especially far from the image centre. Its theta is the
-/// heading of the robot. `print` is the print scale of the sheet, if it is known. The position of
-/// the result is in nominal units of the pattern, like that of `fix`. If the camera file has no
+/// heading of the robot. `print` is the print scale of the sheet, if it is known. The position in
+/// the result is in nominal units of the pattern, like that in `fix`. If the camera file has no
 /// view of the paper, or if the trace has fewer than 12 dots, only theta is changed. A fix that is
 /// not ok is returned unchanged.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 
-/// Velocity of a camera over the paper, from one image of a rolling shutter.
+/// Velocity of a camera over the paper, estimated from a single rolling-shutter image.
 struct ReadoutVelocity {
     /// Velocity of the reference point along x and y of the pattern (y down), in spacings per
     /// second.
     double x_per_s = 0;
     double y_per_s = 0;
-    /// Turn rate: the change of theta, in rad per second.
+    /// Turn rate: the change in theta, in rad per second.
     double turn_rad_s = 0;
     /// Covariance of (x_per_s, y_per_s, turn_rad_s).
     std::array<std::array<double, 3>, 3> covariance{};
@@ -78,7 +78,7 @@ MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const 
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
 /// Maximum relative difference between the nominal and the measured spacing of a sheet. It is
-/// larger than the changes of scale within the depth of field of a camera close to the paper, but
+/// larger than the scale changes within the depth of field of a camera close to the paper, but
 /// smaller than the 3 % by which a printer driver may shrink the page.
 inline constexpr double kMaxSpacingDifference = 0.025;
 

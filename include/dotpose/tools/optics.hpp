@@ -43,13 +43,13 @@ struct Optics {
     std::optional<double> field_height_mm;
 };
 
-/// Returns the device of the paper: an MT9V034 with 6 um pixels binned 4 x 4, a 5.5 mm lens, 0.046
-/// mm per px, and a field of 8.59 x 5.48 mm.
+/// Returns the device described in the paper: an MT9V034 with 6 um pixels binned 4 x 4, a 5.5 mm
+/// lens, 0.046 mm per px, and a field of 8.59 x 5.48 mm.
 Optics paper_optics();
 
 /// One fault or remark about a device.
 struct OpticsAdvice {
-    bool is_fault = false;  ///< true for a fault of the device, false for a remark
+    bool is_fault = false;  ///< true for a fault in the device, false for a remark
     std::string text;       ///< one sentence: the fault and the remedy
 };
 

@@ -30,8 +30,8 @@ struct Outcome {
     Fix fix;
     Truth truth;
     double elapsed_us = 0;  ///< duration of `locate`, without the time to read the frame
-    std::string problem;    ///< error while reading the file; if not empty, `fix` and `elapsed_us`
-                            ///< are not valid
+    /// Error while reading the file, or empty. If not empty, `fix` and `elapsed_us` are not valid.
+    std::string problem;
 
     /// Returns true if the frame was read and located, correctly or not.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }

@@ -1,4 +1,4 @@
-/// Overlay: adds the pattern above or below the content of the pages of an existing PDF.
+/// Overlay: adds the pattern above or below the page content of an existing PDF.
 ///
 ///     dotpose::OverlayOptions options;
 ///     options.origin = {.x = 5000, .y = 0};
@@ -40,7 +40,7 @@ struct OverlayOptions {
     /// `make_sheets`.
     Cell origin;
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
-    double dpi = 600;      ///< resolution of the printer; see PrintOptions
+    double dpi = 600;      ///< resolution of the printer (see PrintOptions)
     DotDrawing drawing = DotDrawing::automatic;
     /// Numbers of the pages to which dots are added, from 1, for example "1-3,7". "z" is the last
     /// page. Empty for all pages.
@@ -53,7 +53,8 @@ struct OverlayOptions {
     std::optional<Paper> card_paper;
     /// True to draw the dots below the content of the page instead of above it.
     bool under = false;
-    std::string password;  ///< password of an encrypted file; the result is also encrypted
+    /// Password of an encrypted file. The result is also encrypted.
+    std::string password;
     /// True to replace black ink with cyan, magenta and yellow. Infrared cameras see black ink, but
     /// not the other inks.
     bool black_to_cmy = false;

@@ -24,7 +24,7 @@ namespace dotpose {
 struct TipPose {
     double x_mm = 0;
     double y_mm = 0;
-    double height_mm = 0;  ///< height above the paper; 0 while the pen rests on the paper
+    double height_mm = 0;  ///< height above the paper, or 0 while the pen rests on the paper
     /// Covariance of (x_mm, y_mm, height_mm). Includes the errors of the pose, and of the tip in
     /// the camera file.
     std::array<std::array<double, 3>, 3> covariance{};
@@ -34,7 +34,7 @@ struct TipPose {
 };
 
 /// Returns the place of the tip in the frame of the pose. `sigma` is `Camera::sigma`. If it
-/// contains no standard deviations of the tip, the tip in the camera file is assumed to be exact.
+/// contains no standard deviations for the tip, the tip in the camera file is assumed to be exact.
 TipPose tip_of(const SpacePose& pose, const PenTip& tip,
                const std::map<std::string, double>& sigma = {});
 
@@ -46,7 +46,8 @@ TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
 /// be on the paper again once its height falls below `kLift_mm`.
 class PenContact {
   public:
-    /// Maximum height of paper on a table above the nominal plane. The paper is not perfectly flat.
+    /// Maximum height by which paper on a table rises above the nominal plane. The height is not 0
+    /// because paper is not perfectly flat.
     static constexpr double kLift_mm = 0.05;
 
     /// `is_down` is the state before the first pose.

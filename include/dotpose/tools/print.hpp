@@ -26,7 +26,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Maximum number of pages of one document.
+/// Maximum number of pages in one document.
 inline constexpr int kMaxPages = 10'000;
 /// Maximum resolution of PNG, TIFF and PDF files.
 inline constexpr double kMaxResolution_dpi = 19'200;
@@ -47,8 +47,9 @@ Paper landscape(Paper paper);
 
 /// Options for `make_sheet`.
 struct SheetOptions {
-    Pattern pattern;       ///< code, section, and dimensions of the dots
-    Cell origin;           ///< cell of the top left dot; each sheet should have its own cells
+    Pattern pattern;  ///< code, section, and dimensions of the dots
+    /// Cell of the top left dot. Each sheet should have its own cells.
+    Cell origin;
     Paper paper;           ///< size of the page, by default A4 portrait
     double margin_mm = 5;  ///< unprinted margin on all sides, 0 for borderless printing
 };
@@ -80,7 +81,7 @@ void validate_resolution(const Sheet& sheet, double dpi);
 
 /// File formats of printed sheets.
 enum class PrintFormat {
-    text,  ///< the letters u, d, l, r; one line per row of the pattern (paper, section III-A.1)
+    text,  ///< the letters u, d, l, r, one line per row of the pattern (paper, section III-A.1)
     svg,   ///< true size in mm, black round dots
     png,   ///< 1 bit per pixel
     tiff,  ///< 1 bit per pixel, CCITT group 4
@@ -107,8 +108,8 @@ enum class DotDrawing {
 
 /// Options for `write_sheet`.
 struct PrintOptions {
-    /// Resolution of PNG and TIFF in dots per inch, which should be the resolution of the printer.
-    /// A PDF has no pixels, but the printer must be able to print its dots at this resolution (see
+    /// Resolution of PNG and TIFF files, in dpi. It should be the resolution of the printer. A PDF
+    /// has no pixels, but the printer must be able to print its dots at this resolution (see
     /// `validate_resolution`), and DotDrawing::glyphs refers to these pixels. Not used for text and
     /// SVG.
     double dpi = 600;

@@ -44,7 +44,7 @@ struct PrintMappingOptions {
 struct MappedPage {
     std::string name;              ///< name of the sheet
     std::size_t frames = 0;        ///< number of frames used
-    std::size_t dots = 0;          ///< number of dots of the page
+    std::size_t dots = 0;          ///< number of dots on the page
     std::size_t seen = 0;          ///< number of dots that were seen
     std::size_t observations = 0;  ///< number of measured dots in all frames
     std::size_t outliers = 0;      ///< number of measured dots that were rejected as outliers
@@ -56,7 +56,7 @@ struct MappedPage {
     double slow_mm = 0;
     /// True if all frames had the same scale, because the camera was mounted at a constant height.
     bool is_rigid = true;
-    int iterations = 0;  ///< conjugate gradient iterations in the last round
+    int iterations = 0;  ///< number of conjugate gradient iterations in the last round
     /// Standard deviation of the map error in a view, per axis (see MapErrors): the rms value over
     /// all dots that were seen. 0 if unknown, because the earlier map does not contain its errors.
     double error_mm = 0;
@@ -68,7 +68,7 @@ struct PrintMapResult {
     std::size_t frames = 0;         ///< number of input frames
 };
 
-/// Collects the dots of frames, and computes the map. Needs 12 bytes of memory for each dot in each
+/// Collects the dots in frames, and computes the map. Needs 12 bytes of memory for each dot in each
 /// frame.
 class PrintMapping {
   public:
@@ -108,8 +108,8 @@ struct MappedFix {
 /// significant. The covariance is that of the absolute position on the page. It is computed from
 /// the residuals and from the error of the map (`MapPage::error_covariance`), so it does not
 /// include the errors of the print. Fixes at the same place share the same map error. To obtain the
-/// covariance of the difference between such fixes, first subtract the covariance of the map error
-/// from both.
+/// covariance of the difference between two such fixes, first subtract the covariance of the map
+/// error from the covariance of each fix.
 ///
 /// A map that contains the dots in view is used only if the variance of the residuals with the map
 /// is at most 0.8 times the variance without the map, or at most twice the square of

@@ -32,9 +32,10 @@ struct ProtocolOptions {
 
 /// Error of one coordinate while the device is at rest.
 struct Spread {
-    double bias = 0;   ///< mean of found minus true values; the paper calls its magnitude
-                       ///< "accuracy"
-    double sigma = 0;  ///< standard deviation; the paper calls it "precision"
+    /// Mean of found minus true values. The paper calls its magnitude "accuracy".
+    double bias = 0;
+    /// Standard deviation. The paper calls it "precision".
+    double sigma = 0;
 };
 
 /// The results at one position or angle of the device.
@@ -68,7 +69,7 @@ struct Protocol {
 /// are no samples.
 Protocol run_protocol(const ProtocolOptions& options);
 
-/// Returns Table III in Markdown, with the numbers of the paper and the simulated numbers.
+/// Returns Table III in Markdown, with the paper's numbers and the simulated numbers.
 std::string table_3(const Protocol& protocol);
 /// Writes one line for each station.
 void write_stations_csv(std::ostream& out, std::span<const Station> stations);

@@ -1,4 +1,4 @@
-/// Robot messages: converts the results of a frame to ROS 2 messages.
+/// Robot messages: converts the results for a frame to ROS 2 messages.
 ///
 ///     Follower follower(options);
 ///     RobotMessenger messenger("anna");
@@ -8,17 +8,18 @@
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
 /// Coordinate frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105):
-/// - `map` is the world of the sheet file or, without a sheet file, the pattern frame with y up and
-///   the same origin.
+/// - `map` is the world frame of the sheet file or, without a sheet file, the pattern frame with y
+///   up and the same origin.
 /// - `odom` begins at the first pose of the robot.
-/// - `base_link` is the reference point of the camera file on the paper, with the robot's heading.
-///   Without a camera file, `base_link` is the point under the image centre, with x along the image
-///   x axis.
+/// - `base_link` is at the point on the paper that the reference pixel in the camera file shows,
+///   with the robot's heading. Without a camera file, `base_link` is at the point under the image
+///   centre, with x along the image x axis.
 ///
 /// `camera_optical` is the camera, with z along the optical axis and x and y along the axes of the
 /// image. Its parent is `base_link`, in which its pose is constant (`camera_mount`). With poses in
-/// space (`FollowerOptions::fits_space_pose`), its parent is `map`, and each frame gives a new
-/// pose. In that case, do not publish the mount, because a frame can have only one parent.
+/// space (`FollowerOptions::fits_space_pose`), its parent is `map`, and each image gives a new
+/// pose. In that case, do not publish the mount, because a coordinate frame can have only one
+/// parent.
 ///
 /// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
 /// robot is found again after being lost or moved by hand, and when the robot enters another plane.
@@ -73,25 +74,25 @@ struct PlanarMotion {
 
 /// Results for one camera frame, in the coordinate frame `map`.
 struct RobotUpdate {
-    std::int64_t time_ns = 0;            ///< middle of the exposure
-    std::optional<PlanarFix> fix;        ///< none if there is no fix, or if the place of the fix is
-                                         ///< unknown
+    std::int64_t time_ns = 0;  ///< middle of the exposure
+    /// None if there is no fix, or if the place of the fix is unknown.
+    std::optional<PlanarFix> fix;
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
     /// Pose of the camera in space, in `map`. None if poses in space are not fitted, or if the dots
-    /// do not exclude the second pose.
+    /// do not rule out the second pose (see SecondPose).
     std::optional<CameraInWorld> camera;
     /// Motion of the tracked camera in `map`. None if poses in space are not fitted, or while the
     /// camera is lost.
     std::optional<CameraMotion> camera_motion;
-    std::uint32_t plane = 0;      ///< TrackedPose::plane of the motion; poses in different planes
-                                  ///< are unrelated
+    /// TrackedPose::plane of the motion. Poses in different planes are unrelated.
+    std::uint32_t plane = 0;
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"
     std::string problem;          ///< reason why there is no fix, or empty
-    std::vector<KeyValue> facts;  ///< additional values of the frame, for the diagnostics
+    std::vector<KeyValue> facts;  ///< additional values for the diagnostics of the frame
 };
 
-/// Returns the results of a frame. `is_in_world` is Follower::is_in_world.
+/// Returns the results for a frame. `is_in_world` is Follower::is_in_world.
 RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t time_ns);
 
 /// Names of the coordinate frames.
@@ -108,8 +109,8 @@ struct RobotFrames {
 /// slash or contains a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
-/// Messages of one frame. `pose` is none if there is no fix. `odometry` is none while the robot is
-/// lost.
+/// Messages for one camera frame. `pose` is none if there is no fix. `odometry` is none while the
+/// robot is lost.
 struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< pose of the fix, in `map`
     std::optional<Odometry> odometry;  ///< pose of the track in `odom`, twist in `base_link`
@@ -123,7 +124,7 @@ struct RobotMessages {
     DiagnosticArray status;
 };
 
-/// Creates the messages of one robot, frame by frame.
+/// Creates the messages for one robot, frame by frame.
 class RobotMessenger {
   public:
     explicit RobotMessenger(std::string robot, RobotFrames frames = {});

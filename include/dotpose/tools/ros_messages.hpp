@@ -27,8 +27,8 @@ struct Time {
     std::uint32_t nanosec = 0;
 };
 
-/// Converts nanoseconds since 1970, or since any other epoch, to a message. Times out of range are
-/// clamped.
+/// Converts nanoseconds since 1970, or since any other epoch, to a Time message. Times out of range
+/// are clamped.
 Time ros_time(std::int64_t time_ns);
 
 /// std_msgs/Header
@@ -139,7 +139,7 @@ struct CompressedImage {
     std::vector<std::uint8_t> data;
 };
 
-/// Serialises a message in the format of ROS 2: the encapsulation header of four bytes, then CDR
+/// Serialises a message in the ROS 2 format: the encapsulation header of four bytes, then CDR
 /// (XCDR1), little endian.
 std::vector<std::uint8_t> to_cdr(const PoseWithCovarianceStamped& message);
 std::vector<std::uint8_t> to_cdr(const Odometry& message);

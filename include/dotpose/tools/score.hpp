@@ -33,10 +33,10 @@ struct Score {
     /// that could be read is located, is wrong, or has a status other than ok.
     int frames = 0;
     int unreadable = 0;
-    int located = 0;                               ///< number of correct fixes
-    int wrong = 0;                                 ///< number of wrong fixes
-    std::array<int, kStatusCount> by_status = {};  ///< number of frames with each status; `ok`
-                                                   ///< includes wrong fixes
+    int located = 0;  ///< number of correct fixes
+    int wrong = 0;    ///< number of wrong fixes
+    /// Number of frames with each status. The count for `ok` includes wrong fixes.
+    std::array<int, kStatusCount> by_status = {};
 
     // The following statistics are computed over the correct fixes, except `largest_p_wrong` and
     // `elapsed_us`.
@@ -47,7 +47,7 @@ struct Score {
     /// correct fixes, or if any of them has no covariance.
     std::array<double, 3> normalised = {};
 
-    /// Maximum p_wrong of all fixes, correct or wrong. 0 if there are no fixes.
+    /// Maximum p_wrong over all fixes, correct or wrong. 0 if there are no fixes.
     double largest_p_wrong = 0;
     Quantiles elapsed_us;  ///< time of `locate` for each readable frame
 

@@ -43,7 +43,7 @@ struct Vec2 {
     double y = 0;
 };
 
-/// Size and optics of the simulated camera. The defaults describe the device of the paper (section
+/// Size and optics of the simulated camera. The defaults describe the device in the paper (section
 /// III-A).
 struct CameraModel {
     int width_px = 188;   ///< 1 to 16384
@@ -71,7 +71,7 @@ struct CameraModel {
 /// Pose of the camera. The pattern point under the image centre is cell + fraction.
 struct CameraPose {
     Cell cell;
-    double fraction_x = 0;  ///< distance from `cell`, in grid units; usually in [0, 1)
+    double fraction_x = 0;  ///< distance from `cell` in grid units, usually in [0, 1)
     double fraction_y = 0;
     /// Angle of the image x axis at the image centre, in the pattern frame. Measured from +x
     /// towards +y, which is clockwise as seen on the paper.
@@ -97,14 +97,16 @@ struct Imperfections {
     /// displacement has its own ink. The darkest ink has `ink_reflectance`. The contrasts of the
     /// four inks are evenly spaced.
     double palest_ink = 1;
-    double vignetting = 0;  ///< relative loss of light in the image corners; it grows with r^2
-    /// Linear change of illumination across the image, relative to the illumination at the centre.
+    /// Relative loss of light in the image corners. The loss grows with r^2.
+    double vignetting = 0;
+    /// Linear change in illumination across the image, relative to the illumination at the centre.
     /// 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< direction in which the light decreases, from +u towards +v
     double blur_sigma_px = 0;
-    Vec2 motion_px;  ///< motion of the scene in the image during the exposure; the pose refers to
-                     ///< the middle of the exposure
+    /// Motion of the scene in the image during the exposure. The pose refers to the middle of the
+    /// exposure.
+    Vec2 motion_px;
     double noise_sigma = 0;  ///< standard deviation of the noise, in grey levels
     /// Standard deviation of the fixed-pattern noise, in grey levels: an offset of each pixel that
     /// is the same in every frame.
@@ -115,15 +117,16 @@ struct Imperfections {
     int dirt_blobs = 0;          ///< number of dark specks in the frame
     int graphics = 0;            ///< number of thick strokes or words in the frame
     double texture = 0;          ///< standard deviation of the paper's reflectance
-    static constexpr double kGrain_px = 3;  ///< size of the texture's grains
-    double tilt_x_rad = 0;  ///< tilt that `draw_shot` adds to the pose; `render` ignores it
+    static constexpr double kGrain_px = 3;  ///< grain size of the texture
+    /// Tilt that `draw_shot` adds to the pose. `render` ignores it.
+    double tilt_x_rad = 0;
     double tilt_y_rad = 0;
     /// Number of sub-pixels per pixel along each axis: 2, 4 or 8. With 0, the number is chosen so
     /// that the position error of every dot is at most 0.003 px. Larger numbers take longer.
     int sub_pixels = 0;
 };
 
-/// The named conditions of the accuracy tables.
+/// Named sets of conditions, as used in the accuracy tables.
 enum class Preset : std::uint8_t {
     clean,    ///< no imperfections
     nominal,  ///< a good printer and the paper's camera
@@ -154,9 +157,9 @@ struct PageArea {
 /// A printed page: a pattern, its printing errors, and its extent.
 struct Page {
     Pattern pattern;
-    /// Seed of the printing errors and of the texture of the paper. The jitter and the ink of a
-    /// dot, and whether it is missing, depend only on the seed, the section and the cell, so they
-    /// are the same in every frame.
+    /// Seed for the printing errors and the paper texture. The jitter and the ink of a dot, and
+    /// whether it is missing, depend only on the seed, the section and the cell, so they are the
+    /// same in every frame.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
     /// `columns` is 0.
@@ -198,8 +201,8 @@ class Projection {
 
   private:
     /// Returns the position, at `time`, of a scene point that is at `undistorted` when the middle
-    /// row is read. Points are in px from the image centre of the undistorted image. `time` is in
-    /// units of the readout time, from the middle row.
+    /// row is read. Points are in px from the centre of the undistorted image. `time` is in units
+    /// of the readout time, from the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
     /// Returns the displacement of the pose point in the undistorted image, along an arc, from the
     /// time of the middle row to `time`.
@@ -229,7 +232,8 @@ GreyImage render(const Pattern& pattern, const CameraModel& camera, const Camera
 /// A page in the form of an image, for example a PDF rendered at 1200 dpi. Grey levels between its
 /// pixels are interpolated linearly.
 struct PageImage {
-    ImageView image;  ///< 255 is bare paper, and 0 is solid ink; unlimited paper surrounds the page
+    /// Grey level 255 is bare paper, and 0 is solid ink. Unlimited paper surrounds the page.
+    ImageView image;
     double mm_per_px = 25.4 / 1200;
     /// Point under the image centre, relative to the upper left corner of the image: x right, y
     /// down.
@@ -281,9 +285,9 @@ struct PartialView {
 };
 
 /// Chooses the areas with dots and the edge of the paper at random, from the shot's seed. Areas are
-/// aligned either with the pattern or with the image, with equal probability. Throws BadArgument
-/// unless 0 < `min_share` <= `max_share` <= 1, if the number of islands is outside [0, 16], or if
-/// there is no room for the islands.
+/// aligned either with the pattern or with the image, with equal probability. Throws BadArgument if
+/// 0 < `min_share` <= `max_share` <= 1 does not hold, if the number of islands is outside [0, 16],
+/// or if there is no room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 /// Renders a shot.
@@ -294,16 +298,16 @@ GreyImage render(const Shot& shot);
 enum class Scene : std::uint8_t {
     black,
     white,
-    noise,            ///< no pattern; each pixel is dark with probability `density`
-    text,             ///< a page of words
-    plain_grid,       ///< dots on the intersections, not displaced
-    random_symbols,   ///< a perfect grid with random symbols
-    scattered_dots,   ///< dots at random places, `density` per grid cell
-    checkerboard,     ///< squares of two grid spacings
-    seam_vertical,    ///< two sections side by side, with the border through the image centre
-    seam_horizontal,  ///< two sections, one above the other, with the border through the image
-                      ///< centre
-    mirrored,         ///< the pattern seen from behind
+    noise,           ///< no pattern: each pixel is dark with probability `density`
+    text,            ///< a page of words
+    plain_grid,      ///< dots on the intersections, not displaced
+    random_symbols,  ///< a perfect grid with random symbols
+    scattered_dots,  ///< dots at random places, `density` per grid cell
+    checkerboard,    ///< squares of two grid spacings
+    seam_vertical,   ///< two sections side by side, with the border through the image centre
+    /// Two sections, one above the other, with the border through the image centre.
+    seam_horizontal,
+    mirrored,  ///< the pattern seen from behind
 };
 /// All values of Scene, for iteration.
 inline constexpr std::array kScenes = {

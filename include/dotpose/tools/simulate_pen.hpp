@@ -36,7 +36,7 @@ struct PenPose {
 /// look down at the paper, or is not above it.
 Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose);
 
-/// Options of simulated handwriting.
+/// Options for simulated handwriting.
 struct Handwriting {
     double x_mm = 0;  ///< place where the writing begins, in the pattern frame
     double y_mm = 0;

@@ -48,13 +48,13 @@ struct CameraInSpace {
     double x_mm = 0;  ///< position of the projection centre
     double y_mm = 0;
     double z_mm = 0;      ///< negative above the paper
-    Quaternion rotation;  ///< rotates vectors of the camera frame into the frame of the pose
+    Quaternion rotation;  ///< rotates vectors from the camera frame into the frame of the pose
 };
 
 /// A rotation as three angles in the pattern or sheet frame: the camera first looks straight at the
 /// paper, is then turned about its optical axis, and finally leans over by the tilt in the
-/// direction of the azimuth. These are the angles of a pen in the W3C's Pointer Events. The tilt is
-/// 90 degrees minus the altitude.
+/// direction of the azimuth. W3C Pointer Events use these angles for pens. The tilt is 90 degrees
+/// minus the altitude.
 struct CameraLean {
     /// Angle between the optical axis and the normal of the paper, in [0, pi].
     double tilt_rad = 0;
@@ -92,10 +92,10 @@ struct SpacePose {
     /// The second pose that explains the view, if there is one. It may be improbable.
     std::optional<SecondPose> second;
 
-    /// Maximum `SecondPose::odds_log2` at which the dots exclude the second pose. The value is low
+    /// Maximum `SecondPose::odds_log2` at which the dots rule out the second pose. The value is low
     /// because the errors of dots on bent paper are not independent.
     static constexpr double kMaxOdds_log2 = -30;
-    /// Returns true if the dots do not exclude the second pose.
+    /// Returns true if the dots do not rule out the second pose.
     bool is_ambiguous() const { return second && second->odds_log2 > kMaxOdds_log2; }
 };
 
@@ -103,18 +103,18 @@ struct SpacePose {
 /// `pinhole_of`).
 void require_focal_length(const Camera& camera);
 
-/// Fits position and rotation of `camera` to all dots of `image` by maximum likelihood. First, a
-/// preliminary pose is fitted to the dots in the trace of `fix`. The preliminary pose predicts the
-/// places of all dots in view, including dots at the image border and far from a tilted camera.
-/// These dots are measured again for the final pose.
+/// Fits the position and rotation of `camera` to all dots in `image` by maximum likelihood. First,
+/// a preliminary pose is fitted to the dots in `trace`. The preliminary pose predicts the places of
+/// all dots in view, including dots at the image border and far from a tilted camera. These dots
+/// are measured again for the final pose.
 ///
 /// The errors of the dots consist of print errors, which are foreshortened in a tilted view, and of
 /// errors of the dot centres in the image. Both variances are estimated from the residuals. Dots
 /// with residuals above four standard deviations are not used.
 ///
 /// `print` is the print scale of the sheet. `map` is the map of the page, or null. With a map, the
-/// mapped places of the dots replace their nominal places, and dots that no frame of the map has
-/// seen are ignored. Check the map with `with_print_map` first, because this function does not
+/// mapped places of the dots replace their nominal places, and dots that were not measured for the
+/// map are ignored. Check the map with `with_print_map` first, because this function does not
 /// detect a map of a different print. Returns none if there is no fix, if the spacing is unknown
 /// (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument if `camera` has
 /// neither a focal length nor a pinhole model.
@@ -131,22 +131,22 @@ struct CameraInWorld {
     double x_m = 0;
     double y_m = 0;
     double z_m = 0;
-    Quaternion rotation;  ///< rotates vectors of the camera frame into the world
+    Quaternion rotation;  ///< rotates vectors from the camera frame into the world frame
     /// Covariance of the position, in metres, and of a small rotation vector in the WORLD, in
-    /// radians: true rotation = exp(rotation vector) * `rotation`, as in the message
-    /// geometry_msgs/PoseWithCovariance of ROS. The pose of the page is assumed to be exact.
+    /// radians: true rotation = exp(rotation vector) * `rotation`, as in the ROS message
+    /// geometry_msgs/PoseWithCovariance. The pose of the page is assumed to be exact.
     SpaceCovariance covariance{};
 };
 
-/// Converts a pose in the sheet frame, with the covariance of SpacePose, to the world. `page` is
-/// the world pose of the page. If the page is at (0, 0) with yaw 0, the result is the pose in the
-/// sheet frame, but in metres, with y up and z out of the paper.
+/// Converts a pose from the sheet frame to the world frame. `covariance` is defined as in
+/// SpacePose. `page` is the world pose of the page. If the page is at (0, 0) with yaw 0, the result
+/// is the pose in the sheet frame, but in metres, with y up and z out of the paper.
 CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
                        const WorldPose& page);
 
-/// Returns the pose of a camera in the world of the sheet that contains `place`. Returns none if
-/// there is no pose or no place, if the dots do not exclude the second pose, or if the sheet has no
-/// world pose.
+/// Returns the pose of a camera in the world frame of the sheet that contains `place`. Returns none
+/// if there is no pose or no place, if the dots do not rule out the second pose, or if the sheet
+/// has no world pose.
 std::optional<CameraInWorld> certain_in_world(const std::optional<SpacePose>& pose,
                                               const std::optional<SheetPlace>& place);
 

@@ -69,7 +69,7 @@ struct SpaceTrackOptions {
     std::int64_t lost_after_us = 200'000;
 };
 
-/// Verdict of the tracker on the sighting of a frame.
+/// Verdict of the tracker on the sighting from a frame.
 enum class SpaceVerdict : std::uint8_t {
     none,             ///< there was no sighting
     accepted,         ///< the first pose was used
@@ -105,9 +105,9 @@ struct CameraMotion {
 };
 
 /// Converts a track to metres, with y up and z out of the paper. The track is in mm, with y down
-/// and z into the paper. The result is in the world if the sightings are from `world_sighting`. If
-/// they are in the pattern frame, the result is in the pattern frame with y up. Returns none while
-/// the camera is lost.
+/// and z into the paper. The result is in the world frame if the sightings were created by
+/// `world_sighting`. If the sightings are in the pattern frame, the result is in the pattern frame
+/// with y up. Returns none while the camera is lost.
 std::optional<CameraMotion> motion_of(const SpaceTrack& track);
 
 /// Implementation details of SpaceTracker: the filter state. Not part of the public API.

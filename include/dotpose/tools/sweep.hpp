@@ -19,13 +19,13 @@ namespace dotpose {
 
 /// The degraded condition, with its unit.
 enum class SweepKind : std::uint8_t {
-    noise,      ///< sensor noise, grey levels
-    blur,       ///< sigma of the lens blur, px
-    missing,    ///< dots not printed, %
-    tilt,       ///< tilt of the camera about a random axis in the image, degrees
-    spacing,    ///< grid spacing in the image, px
-    occlusion,  ///< percentage of the image covered by a dark area with a straight edge, from a
-                ///< random side
+    noise,    ///< sensor noise, grey levels
+    blur,     ///< sigma of the lens blur, px
+    missing,  ///< dots not printed, %
+    tilt,     ///< tilt of the camera about a random axis in the image, degrees
+    spacing,  ///< grid spacing in the image, px
+    /// Percentage of the image covered by a dark area with a straight edge, from a random side.
+    occlusion,
 };
 /// All values of SweepKind, for iteration.
 inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,

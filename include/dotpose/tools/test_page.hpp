@@ -1,4 +1,4 @@
-/// Test page: patches with different dot sizes and spacings, to find the best settings of a
+/// Test page: patches with different dot sizes and spacings, to find the best settings for a
 /// printer.
 ///
 /// The position of each patch encodes its settings. The cell (x, y) at its top left is
@@ -36,15 +36,15 @@ struct TestPageOptions {
     CodeVariant code = CodeVariant::anoto;
     Paper paper;
     double margin_mm = 10;
-    /// Spacings of the columns of patches, and dot diameters of the rows of patches, in 1/1200
-    /// inch. Range: 1 to 80.
+    /// Spacing in each column of patches, and dot diameter in each row of patches, in 1/1200 inch.
+    /// Range: 1 to 80.
     std::vector<int> spacings = {18, 24, 30, 36};  ///< 0.381, 0.508, 0.635, 0.762 mm
     std::vector<int> dots = {2, 3, 4, 6, 8};       ///< 0.042, 0.064, 0.085, 0.127, 0.169 mm
 };
 
 /// Lays out the patches, with a label "spacing/dot" in mm above each patch. Omits combinations in
-/// which dots would touch. Throws BadArgument if a patch does not give a valid sheet (see
-/// `make_sheet`), if a setting is outside [1, 80], or if there are no spacings or no dot diameters.
+/// which dots would touch. Throws BadArgument if a patch is not a valid sheet (see `make_sheet`),
+/// if a setting is outside [1, 80], or if there are no spacings or no dot diameters.
 PrintPage make_test_page(const TestPageOptions& options);
 
 /// Returns the settings of the patch whose first cell is nearest to `cell` on both axes, even if

@@ -1,4 +1,4 @@
-/// Truth: the known poses of frames, from the simulator or from a truth.csv.
+/// Truth: the known poses of frames, from the simulator or from a truth.csv file.
 #pragma once
 
 #include <filesystem>
@@ -30,7 +30,7 @@ struct Truth {
 /// Returns the true pose of a simulated frame.
 Truth truth_of(const Shot& shot);
 
-/// The true pose of an image, in the coordinate frame of a sheet or of the world of a sheet file.
+/// The true pose of an image, in a sheet frame or in the world frame of a sheet file.
 struct TruePlace {
     /// True for the world: y points up, and angles are counter-clockwise. False for a sheet: y
     /// points down, and angles are clockwise.
@@ -51,9 +51,9 @@ struct TruthRow {
     std::optional<TruePlace> place;
 };
 
-/// Reads a truth.csv of `dotpose simulate`, or poses measured on a sheet or in the world. Columns
-/// are identified by name and may be in any order. The column `file` is required, and one of these
-/// groups of columns:
+/// Reads a truth.csv file written by `dotpose simulate`, or a file with poses measured on a sheet
+/// or in the world. Columns are identified by name and may be in any order. The column `file` and
+/// one of these groups of columns are required:
 ///   - x_grid, y_grid or x_mm, y_mm (grid units take precedence), and theta_deg;
 ///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;
 ///   - x_m, y_m (they take precedence over places on sheets); optional sheet, and yaw_rad or
@@ -62,7 +62,7 @@ struct TruthRow {
 /// empty, the frame has no readable pattern. If a row has no spacing, its spacing is
 /// kDefaultSpacing_mm. The argument `spacing_mm`, if given, replaces the spacings of all rows.
 /// Throws Error if the file cannot be read, contains no frames, or has invalid content. The message
-/// contains the name of the file and, for an invalid line, its number.
+/// contains the name of the file and, for an invalid line, the line number.
 std::vector<TruthRow> read_truth(const std::filesystem::path& path,
                                  std::optional<double> spacing_mm = std::nullopt);
 

@@ -1,5 +1,5 @@
-// Bit lines: the bits of a block of 64 x 64 cells, stored as one 64-bit word per column and one per
-// row. Reversing a line, comparing two lines or counting the bits of a line takes only a few
+// Bit lines: the bits of a 64 x 64 block of cells, stored as one 64-bit word per column and one per
+// row. Reversing a line, comparing two lines or counting the bits in a line takes only a few
 // instructions. The decoder follows the paper (sections II-B.4 to II-B.7), but uses hard bits (0, 1
 // or not read) instead of probabilities.
 #pragma once

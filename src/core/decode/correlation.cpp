@@ -7,9 +7,9 @@
 namespace dotpose::core {
 namespace {
 
-/// The weights of a line are processed in groups of kGroup. A table contains the sum of a group for
-/// every combination of signs, so the score of a roll needs one addition per group instead of one
-/// per weight. Up to kGroups groups are added in one pass over the rolls.
+/// The weights of a line are processed in groups of kGroup. For each group, a table contains the
+/// sum of the weights for every combination of signs, so scoring a roll takes one addition per
+/// group instead of one per weight. Up to kGroups groups are added in one pass over the rolls.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;

@@ -12,8 +12,8 @@ namespace dotpose::core {
 /// Maximum number of cells along each axis of a grid.
 inline constexpr int kMaxGridSide = 256;
 
-/// The matrices P^(x) and P^(y) of the paper. They cover the columns [i0, i0 + columns) and the
-/// rows [j0, j0 + rows).
+/// The paper's matrices P^(x) and P^(y). They cover the columns [i0, i0 + columns) and the rows
+/// [j0, j0 + rows).
 struct Grid {
     std::span<GridCell> storage;
     int side = 0;  ///< `storage` has room for side * side cells

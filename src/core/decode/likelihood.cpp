@@ -42,8 +42,8 @@ std::int8_t quasi_probability(std::int32_t projection_q16) {
 
 namespace {
 
-/// Fills the grid. `point_of(dot)` returns the cell nearest the dot, and the dot's offset from the
-/// intersection of this cell.
+/// Fills the grid. `point_of(dot)` returns the cell nearest the dot, and the dot's offset from that
+/// cell's intersection.
 template <typename PointOf>
 Status assign(std::span<const DetectedDot> dots, int min_side, PointOf point_of, Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};

@@ -10,7 +10,7 @@ namespace dotpose::core {
 
 struct Orientation {
     std::array<QuarterTurn, 4> turns;  ///< most likely turn first
-    std::int32_t agreement;            ///< total score of the voting lines at the likeliest turn
+    std::int32_t agreement;            ///< total score of the voting lines at turns[0]
 };
 
 /// Ranks the four turns by a vote of columns and rows. Compares each voting line, both as read and

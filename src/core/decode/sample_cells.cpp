@@ -233,9 +233,9 @@ class Ink {
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness at the four dot positions of a cell. `reliability_q4` is a factor for the cell's
-    /// bit weights, in units of 1/16. `light_q8` is the result of `CellSampler::light_q8`, clamped
-    /// to kMaxLight_q8.
+    /// Darkness at the four dot positions of a cell. `reliability_q4` is a factor applied to the
+    /// cell's bit weights, in units of 1/16. `light_q8` is the result of `CellSampler::light_q8`,
+    /// but at most kMaxLight_q8.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;
@@ -289,13 +289,13 @@ class Ink {
     }
 
     /// Returns the weight of a bit, in [-127, 127]. The bit is 1 at two of the four dot positions,
-    /// and 0 at the other two. `one_q8` and `zero_q8` are the darkness of the darker position of
-    /// each pair.
+    /// and 0 at the other two. `one_q8` is the greater darkness at the two positions for 1, and
+    /// `zero_q8` is the greater darkness at the two positions for 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
         // The weight is proportional to the log-likelihood ratio of the bit. With constant sensor
-        // noise, this ratio is proportional to the level difference times the contrast. Both are
-        // proportional to the paper level at the cell, so the weight is proportional to the square
-        // of the paper level.
+        // noise, this ratio is proportional to the level difference times the contrast. Both
+        // factors are proportional to the paper level at the cell, so the weight is proportional to
+        // the square of the paper level.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
         // The weight is clamped, because errors in bits with high contrast are mostly not caused by

@@ -24,8 +24,8 @@ std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
     return threshold.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-/// Copies as many whole blocks of kBlock bytes as fit. Advances both pointers to the end of the
-/// last block.
+/// Copies whole blocks of kBlock bytes until fewer than kBlock bytes remain. Advances both pointers
+/// past the copied bytes.
 template <std::size_t kBlock>
 void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {
     for (; end - from >= static_cast<std::ptrdiff_t>(kBlock); from += kBlock, to += kBlock)

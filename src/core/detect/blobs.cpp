@@ -199,8 +199,8 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, threshold, list);
-        blob->last_v =
-            static_cast<std::uint16_t>(v);  // so that the other runs of this blob are skipped
+        // Marks the blob as handled, so that the other runs of this blob are skipped.
+        blob->last_v = static_cast<std::uint16_t>(v);
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }

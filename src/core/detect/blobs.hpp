@@ -39,7 +39,8 @@ struct OpenBlobs {
     std::span<Run> runs;
     int run_count = 0;
     bool newest_in_second_half = false;
-    int max_runs = INT32_MAX;  ///< maximum number of runs per image; further runs are ignored
+    /// Maximum number of runs per image. Further runs are ignored.
+    int max_runs = INT32_MAX;
     int runs_left = 0;
     std::span<OpenBlob> blobs;
     std::size_t blobs_begun = 0;       ///< number of elements of `blobs` used so far in this image

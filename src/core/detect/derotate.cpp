@@ -48,8 +48,9 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
     std::uint8_t* out = memory.data();
     for (int v = 0; v < image.height_px; ++v) {
         const float y = static_cast<float>(v) - centre_v;
-        // The first source point of a row is computed with six Newton steps. For each subsequent
-        // point, the iteration starts from an extrapolated row, so one step suffices.
+        // The source of the first point in each output row is computed with six Newton steps. For
+        // each subsequent point, the iteration starts from a source row extrapolated from the
+        // previous points, so one step suffices.
         FloatVec first = turn.seen_from({-centre_u, y}, y, 6);
         float down = 0;
         for (int u = 0; u < image.width_px; u += kStep_px) {

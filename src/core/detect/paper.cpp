@@ -35,7 +35,8 @@ std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
     return static_cast<std::uint8_t>(level);
 }
 
-/// Calls `use` with the paper level of a block and of each adjacent block.
+/// Calls `use(level)` for each block in the 3 x 3 neighbourhood of the given block, including the
+/// block itself. Skips blocks outside the image.
 template <typename Use>
 void visit_around(const PaperMap& map, int column, int row, Use use) {
     for (int r = std::max(row - 1, 0); r <= std::min(row + 1, map.rows - 1); ++r) {

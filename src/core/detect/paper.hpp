@@ -34,7 +34,7 @@ inline std::size_t block_at(const PaperMap& map, int u, int v) {
     return static_cast<std::size_t>(row * map.columns + column);
 }
 
-/// Returns the highest paper level of the block at a pixel and its adjacent blocks.
+/// Returns the highest paper level among the block at a pixel and the blocks adjacent to it.
 inline int brightest_paper_near(const PaperMap& map, int u, int v) {
     return map.brightest[block_at(map, u, v)];
 }

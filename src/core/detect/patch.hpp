@@ -34,8 +34,8 @@ bool measure_contrast(Patch& patch, DotTiles tiles = DotTiles::median);
 /// dark table beyond the sheet.
 void keep_isolated(Patch& patch);
 
-/// Returns the u coordinate of the patch middle, in image pixels. `middle_v_px` returns the v
-/// coordinate.
+/// Returns the u coordinate of the middle of the patch, in image pixels. `middle_v_px` returns the
+/// v coordinate.
 float middle_u_px(const Patch& patch);
 float middle_v_px(const Patch& patch);
 

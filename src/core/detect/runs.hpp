@@ -18,7 +18,7 @@ struct Run {
     std::uint32_t mass = 0;    ///< sum of the pixel weights (low threshold minus grey level)
     std::uint32_t sum_x = 0;   ///< sum of weight times u, modulo 2^32
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
-    OpenBlob* blob = nullptr;  ///< blob of the run, or null if there were too many blobs
+    OpenBlob* blob = nullptr;  ///< blob that contains the run, or null if there were too many blobs
 };
 
 /// Number of pixels that the search for dark pixels tests together. These pixels have the same low

@@ -1,4 +1,4 @@
-// Smooth: the image filter of the second attempt. The filter normalises the illumination, averages
+// Smooth: the image filter for the second attempt. The filter normalises the illumination, averages
 // noise over about the area of a blurred dot, and removes isolated defective pixels. Unlike the
 // paper, the second attempt filters the image before it detects dots. See
 // docs/differs-from-paper.md.
@@ -12,7 +12,7 @@
 
 namespace dotpose::core {
 
-/// State of the filter: the rows and sums for the next filtered row.
+/// State of the filter: the rows and sums from which the next filtered row is computed.
 struct Smoothing {
     std::span<std::uint16_t> lines;  ///< the five newest rows, filtered horizontally
     std::span<std::uint8_t> row;

@@ -1,5 +1,5 @@
-// Tiles: measures the mean level and the darkest pair of adjacent pixels in each tile. The
-// thresholds are computed from these two levels.
+// Tiles: measures the mean level of each tile and the level of its darkest pair of adjacent pixels.
+// The thresholds are computed from these two levels.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
-// Tuning: empirical constants of dot detection. The constants of the second attempt were determined
-// on the hard frames listed in decode/tuning.hpp. Some comments state how many frames are located
-// with other values of a constant, as printed by the command
+// Tuning: empirical constants for dot detection. The constants for the second attempt were
+// determined on the hard frames listed in decode/tuning.hpp. Some comments state how many frames
+// are located with other values of a constant, as printed by the command
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
@@ -9,7 +9,7 @@
 
 namespace dotpose::core::tuning {
 
-/// Paper level of image blocks (detect/paper).
+/// Paper levels of image blocks (detect/paper).
 namespace paper {
 /// Ratio of the shorter image side to the side of a block. A block contains enough paper if at
 /// least 8 dots are in view along the shorter image side. Larger blocks would not follow light

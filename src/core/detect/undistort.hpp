@@ -16,7 +16,7 @@ void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<Detect
 /// centre that no image point corresponds to it, the root is replaced with 0.
 FixedVec distorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 
-/// Returns the distorted image point of a plane point, in 2^-8 px. `plane.centre_q8` is used as the
+/// Maps a plane point to a distorted image point, in 2^-8 px. `plane.centre_q8` is used as the
 /// image centre.
 FixedVec distorted_point_q8(const FixedLens& lens, const PlaneFromImage& plane,
                             FixedVec plane_point_q16);

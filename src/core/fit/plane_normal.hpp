@@ -25,8 +25,8 @@ class PlaneSums {
     /// yields -1 for true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
-    std::array<Four, 3> residuals_{};  ///< sums for `FitSums::residuals`, and the sum of squared
-                                       ///< residuals
+    /// Sums for `FitSums::residuals`, followed by the sum of squared residuals.
+    std::array<Four, 3> residuals_{};
 };
 
 /// The normal equations for the parameters of `jacobian`.

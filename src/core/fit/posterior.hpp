@@ -16,15 +16,15 @@ namespace dotpose::core {
 struct DistortionPrior {
     struct Kind {
         float probability;
-        float deviation;  ///< standard deviation of each term, relative to the `unit` passed to
-                          ///< `posterior_of`
+        /// Standard deviation of each term, relative to the `unit` passed to `posterior_of`.
+        float deviation;
     };
     std::size_t first;  ///< index of the first term in `Parameters`
     std::size_t count;  ///< number of terms, 1 or 2
     std::array<Kind, 3> kinds;
 };
 
-/// Posterior mean and covariance of the whitened terms (see `posterior_of`), given the dots of one
+/// Posterior mean and covariance of the whitened terms (see `posterior_of`), given the dots in one
 /// frame. If there is only one term, all second elements are 0.
 struct Posterior {
     std::array<float, 2> mean;

@@ -7,7 +7,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Priors of perspective, shear and lens distortion. Standard deviations are in units of
+/// Priors for perspective, shear and lens distortion. Standard deviations are in units of
 /// ScaledPlane::scale(). A perspective term is the relative change in scale from the centre to the
 /// outermost dot, for example 0.01 at a tilt of 2 degrees. The lens term is the displacement of the
 /// outermost dot relative to its distance from the centre. The prior probability of lens distortion

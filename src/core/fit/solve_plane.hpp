@@ -23,14 +23,15 @@ struct PoseFit {
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// Converts a plane to single precision, as the starting point of a step. The pattern point at the
-/// plane centre is set to 0, because a float cannot represent a large position accurately.
+/// Converts a plane to single precision, as the starting point for a Gauss-Newton step. The pattern
+/// point at the plane centre is set to 0, because a float cannot represent a large position
+/// accurately.
 ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px);
 /// Returns the plane after a step. `scaled` is the result of `scaled_from_centre(plane)`.
 PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
                        const Parameters& step);
 
-/// Solves the normal equations of `fit` for one step, and shrinks the distortion terms to their
+/// Solves the normal equations in `fit` for one step, and shrinks the distortion terms to their
 /// posterior means. `distortions` contains the current distortion terms, and `unit` is
 /// `ScaledPlane::scale()`. Sets `dots`, `variance`, `squares` and `covariance` in `fit`. Sets
 /// `moved` to the squared length of the whitened step, in units of `fit.variance`. Returns false if

@@ -11,8 +11,8 @@ namespace dotpose::core {
 /// Both values are log2 in units of 2^-8.
 struct AlternativeSet {
     int alternatives_q8 = 0;  ///< upper bound on the number of combinations of places
-    /// Probability that an alternative has the same digits as the reading in one step, in all
-    /// sequences of the set. A step leads from one line to the next.
+    /// Probability that an alternative has the same digit as the reading in every sequence of the
+    /// set, for a given step from one line to the next.
     int equal_q8 = 0;
 };
 /// Sets of sequences in which the place of an alternative differs from the place of the reading:

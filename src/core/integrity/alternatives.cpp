@@ -14,7 +14,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two positions share in `anoto` and `microdots`. Two
+/// Maximum number of adjacent lines that two positions can share in `anoto` and `microdots`. Two
 /// positions that share six adjacent lines would be equal, because they would have five equal
 /// digits in each sequence, and five digits determine a place. In `libdots`, some positions share
 /// more lines. The near alternatives include these positions.
@@ -45,7 +45,7 @@ int log2_rounded_up(float sum) {
     return exponent;
 }
 
-/// Expected sums of the odds of the far alternatives. The expectation is over all places.
+/// Expected total odds of the far alternatives. The expectation is over all places.
 struct Expectation {
     float of_two;   ///< alternatives that differ in two sequences
     float of_more;  ///< alternatives that differ in three or four sequences

@@ -23,13 +23,13 @@ namespace {
 /// Number of shifts, out of 63, at which an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
 /// Upper bound on the odds of a single alternative that is not evaluated, as log2 in units of 2^-8
-/// and as a number.
+/// and as a plain value.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
 constexpr float kSingles = 741;
 
-/// Returns an upper bound on 2^(n_q8 / 256) that is about 2 % too large. Clamps exponents to at
+/// Returns an upper bound on 2^(n_q8 / 256) that is about 2 % too large. Clamps the exponent to at
 /// least -100.
 constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
@@ -55,7 +55,7 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns an upper bound on the expected odds of the far alternatives. Computes the bound of
+/// Returns an upper bound on the expected odds of the far alternatives. Computes the same bound as
 /// `far_log2_q8` in quick_alternatives.cpp with `roughly` = true, but in floating point and for all
 /// alternative sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
@@ -149,8 +149,8 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 }
 
 /// Returns an upper bound on the summed odds of all alternatives except seam alternatives. If the
-/// bound exceeds `limit` even without the single alternatives that share a line, leaves out these
-/// alternatives, because the caller rejects such a bound anyway.
+/// bound exceeds `limit` even without the single alternatives that share a line, omits them,
+/// because the caller rejects such a bound anyway.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     const float sum = far_alternatives(kernels, ratios) + sharing_none(ratios);
@@ -169,7 +169,7 @@ struct Query {
     int odds_per_bit_q8;
     int limit_log2;
     OtherCodes* others;  ///< odds of the other codes; null if not requested
-    WorkLimit* work;     ///< remaining work; null if unlimited
+    WorkLimit* work;     ///< remaining work budget; null if unlimited
 };
 
 bool is_code_in_question(const Query& query) {

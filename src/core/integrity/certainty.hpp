@@ -29,11 +29,11 @@ struct AxisBits {
 };
 
 /// Returns true if the hard bits make the position certain. If the result is false, `is_certain`
-/// may still find the position certain. This test takes a tenth of the work of `is_certain`, and is
-/// sufficient for clean frames. It compares alternatives only with the bits near the middle of the
-/// view. Ignoring all other bits can only increase the bound on the error probability. Returns
-/// false if an axis has at most kMaxShared lines. Sets `fix.bit_errors`. On success, also sets
-/// `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes. On failure,
+/// may still find the position certain. This test takes about a tenth of the time of `is_certain`,
+/// and is sufficient for clean frames. It compares alternatives only with the bits near the middle
+/// of the view. Ignoring all other bits can only increase the bound on the error probability.
+/// Returns false if an axis has at most kMaxShared lines. Sets `fix.bit_errors`. On success, also
+/// sets `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes. On failure,
 /// `fix.p_wrong_log2` is not valid.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
@@ -52,8 +52,9 @@ struct Evidence {
 std::array<Confidence, 2> compared_with_code(CodeVariant code, const Place& place,
                                              const BitBlock& block);
 
-/// Returns the evidence that consists of `bits` and the scores of the lines of a block. Cell (0, 0)
-/// of the block is at `place`. The scores are stored in `storage`, which must outlive the evidence.
+/// Returns the evidence, which consists of `bits` and the scores of the lines in a block. Cell (0,
+/// 0) of the block is at `place`. The scores are stored in `storage`, which must outlive the
+/// evidence.
 Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& place,
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
@@ -63,8 +64,8 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
 /// IntegrityOptions). Returns false if the evidence has at most kMaxShared columns, or at most
 /// kMaxShared rows. Sets `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless
 /// `others` is null, the odds of the other codes. On failure, `fix.p_wrong_log2` is not valid. If
-/// `work` is not null, it limits the work. The function returns false if the work would exceed this
-/// limit.
+/// `work` is not null, it limits the amount of computation, and the function returns false if more
+/// would be necessary.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr,
                 WorkLimit* work = nullptr);

@@ -16,7 +16,7 @@ class CodedBlock {
     CodedBlock(CodeVariant code, const Place& place, const CellsInView& view,
                const BitBlock& block);
 
-    /// Returns the bits of one axis. `confidence` must include all bits that were read, including
+    /// Returns the bits of one axis. `confidence` must cover all bits that were read, including
     /// bits outside the middle cells.
     AxisBits axis(Axis axis, const Confidence& confidence) const;
 

@@ -37,11 +37,11 @@ AnchorBytes modulo_sections(AnchorBytes offsets) {
 }
 
 /// The anchors, divided into `shared - 1` groups. An alternative that shares `shared` anchors
-/// therefore shares at least two anchors of one group.
+/// therefore shares at least two anchors in one group.
 class Groups {
   public:
     Groups(int anchors, int shared) : count_(shared - 1) {
-        // Assigns the anchors to the groups in turn, so that the anchors of a group are far apart
+        // Assigns the anchors to the groups in turn, so that the anchors in a group are far apart
         // and few alternatives share two of them.
         for (int n = 0; n < anchors; ++n)
             groups_[static_cast<std::size_t>(n % count_)] |= Anchors{1} << n;
@@ -90,7 +90,7 @@ class BytesInWords {
         }
     }
 
-    /// Returns the sum of all bytes, which must be at most 255.
+    /// Returns the sum of all bytes. The sum must be at most 255.
     int sum() const {
         return static_cast<int>((halves_[0] + halves_[1]) * 0x0101010101010101 >> 56);
     }
@@ -107,7 +107,7 @@ class BytesInWords {
     std::array<std::uint64_t, 2> halves_;
 };
 
-/// Roll offsets of every place in the four sequences, at the anchors.
+/// Roll offsets at the anchors, for every place in the four sequences.
 class AnchorOffsets {
   public:
     AnchorOffsets(const RankedLines& lines, int anchors) {
@@ -141,8 +141,8 @@ class AnchorOffsets {
 /// A place in one sequence, prepared for comparison with places in another sequence. offsets[n] is
 /// the place's roll offset at a fixed anchor, called `one`, minus its roll offset at anchor n,
 /// modulo 63. For a place in the other sequence, `Finder` computes the difference with the opposite
-/// sign. If the two differences are equal, an alternative with both places that shares `one` also
-/// shares anchor n.
+/// sign. If the two differences are equal, an alternative that has both places and shares `one`
+/// also shares anchor n.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;
@@ -216,7 +216,7 @@ class Finder {
 
   private:
     /// Upper bound on the odds of an alternative that is not evaluated line by line, as log2 in
-    /// units of 2^-8 and as a number.
+    /// units of 2^-8 and as a plain value.
     static constexpr int kSkippedOdds_q8 = -56 * 256;
     static constexpr float kSkippedOdds = 0x1p-56F;
     static constexpr int kLimit = 20;
@@ -258,8 +258,8 @@ class Finder {
         RollOffsets b;
         lines_.set_offsets(sequence_a, place_a, a);
         lines_.set_offsets(sequence_b, place_b, b);
-        // Adding 126, a multiple of 63, keeps the index of the loss positive without changing the
-        // roll offset.
+        // Adding 126, a multiple of 63, keeps the roll offsets positive without changing them
+        // modulo 63.
         const std::size_t shared = offsets_.line(anchor);
         const int base = 2 * kSections - a[shared] - b[shared];
         int lost = 0;
@@ -312,7 +312,7 @@ struct Search {
     int pairs() const {
         const int groups = shared - 1;
         const int size = anchors / groups;
-        const int larger = anchors % groups;  // number of groups with one more anchor
+        const int larger = anchors % groups;  // number of groups that have one extra anchor
         return groups * size * (size - 1) / 2 + larger * size;
     }
 };

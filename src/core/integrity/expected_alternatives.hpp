@@ -13,7 +13,7 @@ namespace dotpose::core {
 /// alternatives were at most 21 times the mean.
 inline constexpr float kMargin = 32;
 
-/// Returns the expected sum of the odds of the far alternatives that differ from the reading in
+/// Returns the expected total odds of the far alternatives that differ from the reading in
 /// `min_different` to `max_different` sequences, and share at most `max_shared` adjacent lines with
 /// the reading.
 float sum_of_expected_alternatives(const Kernels& kernels, const RankedLines& lines, int max_shared,

@@ -10,13 +10,13 @@ namespace dotpose::core {
 /// Maximum number of anchors. Anchors are the lines with the most information, which have the
 /// lowest ranks.
 inline constexpr int kMaxAnchors = 12;
-/// Maximum index n in the result of `expected_double_alternatives`. Element n does not include
-/// alternatives that share n or more anchors, because these are counted individually (see `Finder`
-/// in double_alternatives.cpp).
+/// Maximum index n in the result of `expected_double_alternatives`. Element n covers the
+/// alternatives that share fewer than n anchors. `Finder` (double_alternatives.cpp) counts all
+/// other double alternatives individually.
 inline constexpr int kMinFound = 7;
 
-/// Returns, for each n, the expected sum of the odds of all double alternatives that share fewer
-/// than n anchors. The anchors are the lines of ranks 0 to `anchors` - 1.
+/// Returns, for each n, the expected total odds of all double alternatives that share fewer than n
+/// anchors. The anchors are the lines of ranks 0 to `anchors` - 1.
 std::array<float, kMinFound + 1> expected_double_alternatives(const Kernels& kernels,
                                                               const RankedLines& lines,
                                                               int anchors);

@@ -41,7 +41,8 @@ class OddsOfBits {
     int per_bit_;  ///< log2 of the odds per bit, in units of 2^-23
 };
 
-/// Position of the first line. The roll of each line is its roll in section 0 plus `roll`.
+/// Position of the first line, and the difference between the roll of each line and its roll in
+/// section 0.
 struct PositionAndRoll {
     std::uint32_t position;
     std::size_t roll;
@@ -49,7 +50,7 @@ struct PositionAndRoll {
 
 /// Summed odds of the positions in a range, for each class and each value of
 /// `PositionAndRoll::roll`. The class of a position is the position modulo 63. The sums exclude the
-/// pair `left_out`, if it is given.
+/// position and roll in `left_out`, if given.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,

@@ -37,7 +37,7 @@ constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
 }
 
 /// Minimum distances of substrings of all lengths, indexed by the first bit of the substring. Bit i
-/// is 1 if the minimum distance for i + 1 bits is larger than for i bits. Each further bit
+/// is 1 if the minimum distance for i + 1 bits is larger than for i bits. Each additional bit
 /// increases the minimum distance by at most 1, so the minimum distance for n bits is the number of
 /// ones in the first n bits.
 constexpr auto kGrowingDistances = [] {
@@ -60,7 +60,7 @@ static_assert([] {
     return true;
 }());
 
-/// Upper bounds on log2 of `NearestSubstrings::count`, by length, in units of 2^-8.
+/// Upper bounds on log2 of `NearestSubstrings::count` for each substring length, in units of 2^-8.
 constexpr auto kLog2OfNearest = [] {
     std::array<std::uint16_t, kMaxComparedLines + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {

@@ -33,16 +33,16 @@
 
 namespace dotpose::core {
 
-/// Maximum number of adjacent lines that two positions share in the code `libdots`, whose a4 is
-/// misprinted. In the other codes, the maximum is `code::kOrder`.
+/// Maximum number of adjacent lines that two positions can share in the code `libdots`, whose
+/// sequence a4 is misprinted. In the other codes, the maximum is `code::kOrder`.
 inline constexpr int kMaxShared = 7;
 
 /// log2(62) in units of 2^-8, rounded up. 62 of the 63 possible rolls of a line differ from the
 /// roll of the reading.
 inline constexpr int kOtherRolls_q8 = 1525;
 
-/// Minimum odds: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds are replaced with
-/// 2^-64.
+/// Minimum odds: 2^-64, as log2 in units of 2^-8 and as a plain value. Smaller odds are replaced
+/// with 2^-64.
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
 
@@ -94,9 +94,9 @@ class LikelihoodRatios {
         return std::span(min_losses_)
             .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
     }
-    /// Returns the minimum loss of an alternative whose digit differs in the step from `line` to
-    /// `line` + 1. Such an alternative shares at most one of these two lines. Negative losses are
-    /// treated as 0.
+    /// Returns the minimum loss of an alternative whose digit for the step from `line` to `line` +
+    /// 1 differs from the reading's digit. Such an alternative shares at most one of these two
+    /// lines. Negative losses are treated as 0.
     int min_loss_of_step(int line) const {
         return std::max(std::min(min_loss(line), min_loss(line + 1)), 0);
     }

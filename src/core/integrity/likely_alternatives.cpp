@@ -42,7 +42,7 @@ class PlaceList {
     std::uint8_t place(std::size_t n) const { return places_[n]; }
     /// Returns the roll offsets of a place relative to the first shared line.
     const RollOffsets& offsets(std::size_t n) const { return offsets_[n]; }
-    /// Returns the changes of the roll offset across the first two gaps, combined as 64 * first +
+    /// Returns the changes in the roll offset across the first two gaps, combined as 64 * first +
     /// second.
     unsigned key(std::size_t n) const { return keys_[n]; }
 
@@ -64,7 +64,7 @@ unsigned sum_of_keys(unsigned a, unsigned b) {
     if (a % 64 + b % 64 >= kSections) sum -= kSections;
     return sum >= kKeys ? sum - kKeys : sum;
 }
-/// Returns the inverse of `key`. `sum_of_keys` of `key` and its inverse is 0.
+/// Returns the inverse of `key`: `sum_of_keys(key, opposite(key))` is 0.
 unsigned opposite(unsigned key) {
     const unsigned first = key / 64;
     const unsigned second = key % 64;
@@ -72,7 +72,7 @@ unsigned opposite(unsigned key) {
 }
 
 /// Finds the likely alternatives. Visits all sets of lines whose minimum losses add up to less than
-/// the loss limit. The lines of a set are those that an alternative does not share. For each set,
+/// the loss limit. Each set contains the lines that an alternative does not share. For each set,
 /// lists the places in each sequence at which an alternative may share all lines outside the set
 /// (see EqualPlaces). Then adds the odds of the alternatives that share exactly the lines outside
 /// the set.
@@ -96,7 +96,7 @@ class Finder {
     int min_skipped_loss() const { return min_skipped_loss_; }
 
   private:
-    /// Maximum estimated work of the search, in processor instructions.
+    /// Maximum estimated cost of the search, in processor instructions.
     static constexpr std::size_t kMaxWork = 2'000'000;
     /// A pair of places in the last two sequences is stored as kLastPlaces times the index of the
     /// first place plus the index of the second place.
@@ -115,9 +115,9 @@ class Finder {
     bool visit(int line, int lost, const PlaceSets& places, LineSet shared) {
         if (line == count_) return add_all(places, shared);
         const int loss = std::max(lines_.ratios.min_loss(line), 0);
-        // Sets of shared lines contain only lines with a positive minimum loss. Otherwise, an
-        // alternative that shares another line would be counted twice: in a set with this line, and
-        // in the same set without it.
+        // Sets of shared lines contain only lines with a positive minimum loss. If sets contained
+        // other lines, an alternative that shares one of them would be counted twice: in a set with
+        // this line, and in the same set without it.
         if (loss > 0 && !visit_shared(line, lost, places, shared)) return false;
         if (lost + loss >= loss_limit_) {
             min_skipped_loss_ = std::min(min_skipped_loss_, lost + loss);
@@ -197,9 +197,9 @@ class Finder {
     }
 
     /// Adds the odds of the alternative with the given places, at the shift where it shares the
-    /// first shared line. Adds nothing if it does not share exactly the lines passed to
-    /// `set_pattern`, or if it differs from the reading in fewer than two sequences. `indices` are
-    /// indices into the lists of places.
+    /// first shared line. Adds nothing if the alternative does not share exactly the lines passed
+    /// to `set_pattern`, or if it differs from the reading in fewer than two sequences. `indices`
+    /// are indices into the lists of places.
     void add(const std::array<std::size_t, 4>& indices) {
         const auto& [a, b, c, d] = indices;
         RollOffsets shifts;
@@ -253,9 +253,9 @@ constexpr float kTilt = 0.9F;
 /// Minimum loss limit, in bits. A smaller limit would not make the search much faster.
 constexpr float kMinBits = 24;
 
-/// Returns log2 of kMargin times the expected sum of the tilted odds of all far alternatives. The
-/// tilted odds of an alternative are its odds times 2^(kTilt * min_lost). `min_lost` is the sum, in
-/// bits, of the minimum losses of the lines that the alternative does not share.
+/// Returns log2 of kMargin times the expected total tilted odds of all far alternatives. The tilted
+/// odds of an alternative are its odds times 2^(kTilt * min_lost). `min_lost` is the sum, in bits,
+/// of the minimum losses of the lines that the alternative does not share.
 float log2_of_tilted_odds(const Kernels& kernels, const RankedLines& lines) {
     const LikelihoodRatios& ratios = lines.ratios;
     std::array<OddsByOffset, kMaxLines> storage;

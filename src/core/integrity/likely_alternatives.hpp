@@ -9,14 +9,13 @@
 
 namespace dotpose::core {
 
-/// Returns an upper estimate of the summed odds of all far alternatives. An alternative is likely
-/// if the minimum losses of the lines that it does not share add up to less than a limit. The
-/// result is the sum of two parts: the individual odds of the likely alternatives, and kMargin
-/// times an upper bound on the expected odds of all other far alternatives. The limit is the
-/// smallest value of at least 24 bits for which the second part is at most `max_rest`. If the first
-/// part exceeds `max_odds`, the search stops. The result is then incomplete, but exceeds
-/// `max_odds`. Returns nullopt if the search would take too long, or if the limit would have to be
-/// 100 bits or more.
+/// Returns an upper estimate of the summed odds of all far alternatives: the individual odds of the
+/// likely alternatives, plus kMargin times an upper bound on the expected odds of all others. An
+/// alternative is likely if the minimum losses of its unshared lines add up to less than L. L is
+/// the smallest value, at least 24 bits, for which the second term is at most `max_rest`. The
+/// search stops once the first term exceeds `max_odds`. The result is then only known to exceed
+/// `max_odds`. Returns nullopt if the search would take too long, or if L would be 100 bits or
+/// more.
 std::optional<float> sum_of_likely_alternatives(const Kernels& kernels, const RankedLines& lines,
                                                 float max_rest, float max_odds);
 

@@ -12,7 +12,7 @@
 
 namespace dotpose::core {
 
-/// Set of lines. Bit i is line i.
+/// Set of lines. Bit i represents line i.
 using LineSet = std::uint64_t;
 static_assert(kMaxLines <= 64);
 
@@ -56,8 +56,8 @@ inline void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t seq
     }
 }
 
-/// The places whose digits are equal to the digits of the reading in given steps. Two positions
-/// share two adjacent lines only if, in the step between these lines, they have the same digit in
+/// Finds the places that have the same digits as the reading at selected steps. Two positions can
+/// share two adjacent lines only if, at the step between these lines, they have the same digit in
 /// each of the four sequences.
 class EqualPlaces {
   public:
@@ -65,8 +65,8 @@ class EqualPlaces {
 
     /// All places.
     const PlaceSets& all() const { return all_; }
-    /// Removes the places whose digit differs from that of the reading in the step from line `step`
-    /// to the next line.
+    /// Considers the step from line `step` to the next line. Removes the places whose digit at this
+    /// step differs from the reading's digit.
     void keep_equal(std::size_t step, PlaceSets& places) const;
     /// Returns the number of sequences in which `places` contains a place other than that of the
     /// reading.

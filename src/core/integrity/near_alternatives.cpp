@@ -38,7 +38,7 @@ void set_sums(const RollOffsets& a, const RollOffsets& b, std::size_t lines, Rol
 }
 
 /// The places in one sequence where the digits of a run occur. A run is a group of adjacent lines,
-/// and its digits are the digits of the reading in the steps between these lines. For each place,
+/// and its digits are the digits of the reading at the steps between these lines. For each place,
 /// the class stores the roll offset of each line relative to the first line of the run, or the
 /// negated offset (see `Sign`). The first place is the place of the reading.
 class TwinPlaces {

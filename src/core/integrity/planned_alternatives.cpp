@@ -17,7 +17,7 @@ namespace {
 /// on 6 axes, and at most 9.
 constexpr float kPlanMargin = 4;
 
-/// Maximum of kPlanMargin * (expected odds of the sets that are not searched). Keeps the result
+/// Upper limit on kPlanMargin * (expected odds of the sets that are not searched). Keeps the result
 /// precise even if the caller's limit is large.
 constexpr float kMaxRest = 0x1p-31F;
 
@@ -142,7 +142,7 @@ class SetSearch {
     /// Adds the odds of the far alternatives that share all lines of `sets[n]`. Skips alternatives
     /// that share all lines of an earlier set, because they have already been added. The set must
     /// not be empty. Returns false if the search must end, because the sum exceeds `max_odds` or
-    /// because the work would exceed its limit.
+    /// because the search would exceed its work limit.
     bool add(std::span<const PlannedSet> sets, std::size_t n) {
         earlier_ = sets.first(n);
         const LineSet shared = sets[n].shared;
@@ -168,7 +168,7 @@ class SetSearch {
     static constexpr std::uint16_t kNone = kMaxPairs;
     static_assert(code::kA1.size() <= kPlaces);
 
-    /// Lists the places in all sequences. Returns false if the work would exceed its limit.
+    /// Lists the places in all sequences. Returns false if the search would exceed its work limit.
     bool list(const PlaceSets& places, const Pattern& pattern) {
         for (std::size_t k = 0; k < places.size(); ++k)
             lists_[k].list(lines_, k, places[k], pattern, k % 2 == 1);

@@ -1,5 +1,5 @@
-// Planned alternatives: sums the odds of the far alternatives in small views, with bounded work.
-// See docs/integrity.md, "Small views". likelihood_ratios.hpp defines the terms.
+// Planned alternatives: sums the odds of the far alternatives in small views, with a bounded amount
+// of computation. See docs/integrity.md, "Small views". likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,11 @@ namespace dotpose::core {
 /// each set. The search ends as soon as the second term is at most 2^-31 and at most `share` times
 /// the difference between `max_odds` and the first term. Returns nullopt if the first term exceeds
 /// `max_odds`, if the second term remains too large after all sets, if the plan is incomplete, or
-/// if the work would exceed the limit `work`.
+/// if the search would exceed its work limit `work`.
 std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, const SetPlan& plan,
                                                  float share, float max_odds, WorkLimit& work);
 
-/// Returns the estimated work, in processor instructions, until the second term of
+/// Returns the estimated cost, in processor instructions, of searching until the second term of
 /// `sum_of_planned_alternatives` is at most `max_rest`.
 float work_of_planned_alternatives(const SetPlan& plan, float max_rest);
 

@@ -13,7 +13,7 @@ namespace {
 /// odds may make the fix uncertain, but a second attempt may reduce them.
 constexpr float kAmbiguousOdds = 1e-3F;
 /// A code is ruled out by earlier frames if its odds relative to the likeliest code are at most
-/// this value. The locator makes no attempt in a code that is ruled out.
+/// this value. The locator does not try to read a code that is ruled out.
 constexpr float kRuledOutOdds = 1e-9F;
 /// Two odds are considered equal if their ratio is at most this value. Such a small difference may
 /// result from rounding errors.

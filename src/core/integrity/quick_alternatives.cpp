@@ -23,8 +23,8 @@ constexpr int kUsualLimit_q8 = -30 * 256;
 /// Upper bound on the odds of a single alternative that is not evaluated, as log2 in units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
-/// Odds in a line that an alternative does not share, as log2 in units of 2^-8. Other rolls are all
-/// rolls except the roll of the reading.
+/// Odds in a line that an alternative does not share, as log2 in units of 2^-8. An "other roll" is
+/// any roll except the roll of the reading.
 struct LineOdds {
     int best_q8;  ///< odds of the best other roll
     int sum_q8;   ///< summed odds of all other rolls
@@ -57,11 +57,11 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
 }
 
 /// Returns an upper bound on the expected odds of the alternatives in one set, as log2 in units of
-/// 2^-8. The bound treats all nonzero roll offsets as one state. In each step, at most one
-/// combination of digits leads from a given roll offset to another. The probability of this
-/// combination is at most the probability p that all digits equal those of the reading. A line
-/// that is not shared therefore multiplies the odds by at most p times the summed odds of the other
-/// rolls (`LineOdds::sum_q8`). Because the probabilities add up to at most 1, the line also
+/// 2^-8. The bound treats all nonzero roll offsets as one state. At each step, at most one
+/// combination of digits changes the roll offset from one given value to another. The probability
+/// of this combination is at most the probability p that all digits equal those of the reading. A
+/// line that is not shared therefore multiplies the odds by at most p times the summed odds of the
+/// other rolls (`LineOdds::sum_q8`). Because the probabilities add up to at most 1, the line also
 /// multiplies the odds by at most the odds of the best other roll (`LineOdds::best_q8`).
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
@@ -101,10 +101,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 /// least the sum of all minimum losses except the seven largest. The bound is the product of these
 /// factors:
 /// - the odds at this loss,
-/// - four times the number of alternatives in the largest set, because all sets together contain
-///   fewer alternatives,
-/// - the number of rolls in the first line,
-/// - the safety factor `kUnevenness` for each line,
+/// - four times the number of alternatives in the largest set, which exceeds the number in all sets
+///   together,
+/// - the number of possible rolls of the first line,
+/// - the safety factor `kUnevenness`, once per line,
 /// - 2^lines, which bounds the number of ways to choose the shared lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
@@ -141,9 +141,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
     // Each of the other four sets contains more alternatives, but these alternatives share fewer
-    // lines on average. Among the alternatives that share more than seven lines, each of the four
-    // sets has less than half the odds of the first set. The odds of all five sets together are
-    // therefore less than three times the odds of the first set.
+    // lines on average. If only alternatives that share more than seven lines are counted, the
+    // summed odds of each of these four sets are less than half the summed odds of the first set.
+    // The summed odds of all five sets are therefore less than three times those of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -281,9 +281,9 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 }
 
 /// Returns an upper bound on the odds of the single alternatives in one sequence that share a line,
-/// as log2 in units of 2^-8. Assumes that each alternative has the minimum loss of the sequence. An
-/// alternative is counted once for each shift where it shares a line, so at most `ratios.count()`
-/// times.
+/// as log2 in units of 2^-8. Assumes that each alternative has the minimum loss for the sequence.
+/// An alternative is counted once for each shift where it shares a line, so at most
+/// `ratios.count()` times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -357,8 +357,8 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // Tries table bounds first. They are larger than a sum over all places, but take much less
-        // work.
+        // Tries table bounds first. They are larger than a sum over all places, but are much faster
+        // to compute.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);

@@ -19,8 +19,8 @@ class OddsByLoss {
   public:
     explicit OddsByLoss(const LikelihoodRatios& ratios) : ratios_(ratios) { losses_.fill(kNone); }
     float operator()(int loss) {
-        // Losses of hard bits are multiples of 254. 64 consecutive multiples have different slots,
-        // because 127 is odd.
+        // Losses of hard bits are multiples of 254. 64 consecutive multiples map to different
+        // slots, because 127 is odd.
         const auto slot = static_cast<std::size_t>(loss >> 1) % losses_.size();
         if (losses_[slot] != loss) {
             losses_[slot] = loss;

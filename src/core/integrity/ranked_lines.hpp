@@ -8,15 +8,15 @@
 
 namespace dotpose::core {
 
-/// Losses and odds by line, and ranks of lines. The line with the most information has rank 0.
+/// The losses, the odds and the rank of each line. The line with the most information has rank 0.
 class RankedLines {
   public:
     explicit RankedLines(const LikelihoodRatios& ratios);
 
     int count() const { return ratios.lines.count(); }
     int rank(std::uint32_t line) const { return ranks_[line]; }
-    /// Returns the odds of an alternative in each line, by roll offset. The odds are at least
-    /// kNegligible. The last element for each line is padding and is 0.
+    /// Returns the odds of an alternative in each line, indexed by roll offset. The odds are at
+    /// least kNegligible. The last element for each line is padding and is 0.
     std::span<const OddsByOffset> odds() const {
         return std::span(odds_).first(static_cast<std::size_t>(count()));
     }

@@ -9,10 +9,10 @@
 
 namespace dotpose::core {
 
-/// Returns log2 of the summed odds in units of 2^-8, including the prior of a seam. The place of a
-/// seam alternative differs from that of the reading in one sequence, and its shift changes at a
-/// border between two lines. Includes only alternatives whose odds, without the prior, exceed 2^-8.
-/// Returns kNever_q8 if there are no such alternatives.
+/// Returns log2 of the summed odds in units of 2^-8, including the prior probability of a seam. The
+/// place of a seam alternative differs from that of the reading in one sequence, and its shift
+/// changes at a border between two lines. Includes only alternatives whose odds, without the prior,
+/// exceed 2^-8. Returns kNever_q8 if there are no such alternatives.
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios);
 
 /// Variant that uses kernels to search for the alternatives.

@@ -20,8 +20,8 @@ constexpr float kChanges = 54;
 /// Correction factors for the expected odds of alternatives that differ in two and in three
 /// sequences. The model assumes that the roll offsets in unshared lines are uniformly distributed.
 /// However, if few sequences differ, few changes of the roll are possible. On 700 axes of nominal
-/// frames, the result of `sum_of_expected_alternatives` was, on average, 10 to 17 times the result
-/// of the model for two different sequences, 2 times for three, and 0.6 times for four.
+/// frames, the ratio of the result of `sum_of_expected_alternatives` to the model was, on average,
+/// 10 to 17 for alternatives that differ in two sequences, 2 for three, and 0.6 for four.
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
 /// Probabilities that the roll offset is 0 again after a gap, for alternatives that differ in two,
@@ -96,7 +96,7 @@ float SetPlan::expected(const Node& node) const {
     return (node.shared == 0 ? kSections : 1) * node.odds * sum;
 }
 
-/// Returns the estimated work of `SetSearch::add` for the set of `node`, in processor instructions.
+/// Returns the estimated cost of `SetSearch::add` for the set of `node`, in processor instructions.
 float SetPlan::work(const Node& node) const {
     constexpr float kNever = 1e9F;
     if (node.shared == 0) return kNever;
@@ -147,7 +147,7 @@ void SetPlan::visit_shared(std::size_t n, Node node) {
 }
 
 /// Sorts the sets. The required sets come first, sorted by increasing number of lines. The other
-/// sets follow, sorted by decreasing ratio of expected odds to work.
+/// sets follow, sorted by decreasing ratio of `expected` to `work`.
 void SetPlan::sort_sets() {
     std::array<float, kMaxSets> keys;
     for (std::size_t n = 0; n < count_; ++n) {

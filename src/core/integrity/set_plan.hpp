@@ -15,7 +15,7 @@ namespace dotpose::core {
 struct PlannedSet {
     LineSet shared;
     float expected;    ///< expected odds of the far alternatives that share exactly these lines
-    float work;        ///< work of the search for these alternatives, in processor instructions
+    float work;        ///< cost of the search for these alternatives, in processor instructions
     bool is_required;  ///< true if the set must be searched because individual odds may be large
 };
 
@@ -28,7 +28,7 @@ class SetPlan {
     /// Returns false if there are too many sets. The list is then incomplete.
     bool is_complete() const { return is_complete_; }
     /// Returns the sets. The required sets come first. The other sets are sorted by decreasing
-    /// ratio of expected odds to work.
+    /// ratio of `expected` to `work`.
     std::span<const PlannedSet> sets() const { return std::span(sets_).first(count_); }
     /// Returns true if set n contains all lines of an earlier set. A search of the earlier set then
     /// also finds the alternatives of set n.
@@ -40,8 +40,8 @@ class SetPlan {
     /// The result includes all required sets. If the rest cannot be reduced to `max_rest`, returns
     /// the number of all sets.
     std::size_t count_for(float max_rest) const;
-    /// Returns the total work of searching the first n sets, in processor instructions. Covered
-    /// sets are not searched and take no work.
+    /// Returns the total cost of searching the first n sets, in processor instructions. Covered
+    /// sets are not searched and cost nothing.
     float work_of(std::size_t n) const;
 
   private:
@@ -71,7 +71,7 @@ class SetPlan {
     /// divided by kChanges.
     std::array<float, kMaxLines> mean_odds_;
     /// places_[n][k] is the expected number of places in sequence k that have the same digits as
-    /// the reading in n given steps.
+    /// the reading at n given steps.
     std::array<std::array<float, 4>, kMaxLines + 1> places_;
     /// number_[n] is the expected number of alternatives that have these digits in all four
     /// sequences, times a correction factor (see kUnevennessOfTwo).
@@ -82,7 +82,7 @@ class SetPlan {
     std::array<PlannedSet, kMaxSets> sets_;
     bool is_complete_ = true;
     float negligible_ = 0;  ///< summed expected odds of the sets that are not listed
-    std::array<float, kMaxSets + 1> rests_;  ///< results of `rest`
+    std::array<float, kMaxSets + 1> rests_;  ///< rests_[n] is the result of rest(n)
 };
 
 }  // namespace dotpose::core

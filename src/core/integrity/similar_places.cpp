@@ -6,7 +6,7 @@ namespace dotpose::core {
 namespace {
 
 /// Losses of 32 alternatives, stored as bit-sliced four-bit counters: each word contains one binary
-/// digit of all counters.
+/// digit of every counter.
 class Losses {
   public:
     explicit Losses(std::uint32_t excluded) : excluded_(excluded) {}
@@ -65,7 +65,7 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     const int part = (needed + kParts - 1) / kParts;
     // Maximum total loss of nonadjacent steps, in parts. `max_loss` is over all steps so far, and
     // `max_loss_before` excludes the latest step. Two adjacent steps have a line in common, and its
-    // loss must not count twice.
+    // loss must not be counted twice.
     int max_loss = 0;
     int max_loss_before = 0;
     for (int step = 0; step < count; ++step) {

@@ -9,19 +9,19 @@
 
 namespace dotpose::core {
 
-/// Maximum number of steps in which digits are compared. A step leads from one line to the next.
+/// Maximum number of steps at which digits are compared. A step leads from one line to the next.
 inline constexpr int kMaxSteps = 18;
 
 /// Number of parts into which the loss limit is divided. Losses are counted in these parts. A place
 /// that loses at least kLimitParts parts is excluded.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Number of steps in which the digit may differ from the digit of the reading without a loss:
-/// none, or any one step. `any_one` is for seam alternatives, which have no loss in the step across
-/// the border.
+/// Number of steps at which the digit may differ from the digit of the reading without causing a
+/// loss: none, or any one step. `any_one` is for seam alternatives, which have no loss at the step
+/// across the border.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// Steps in which digits are compared, and the loss if a digit differs from the digit of the
+/// Steps at which digits are compared, and the loss if a digit differs from the digit of the
 /// reading. An alternative with a different digit shares at most one of the two lines of the step,
 /// so it loses at least the smaller of their minimum losses.
 struct Steps {
@@ -29,15 +29,15 @@ struct Steps {
 
     int count;       ///< number of compared steps, which are centred in the view
     int first_line;  ///< first line of the first step
-    /// Lower bound on the loss in each step, rounded down. The unit is 1/kLimitParts of the loss
+    /// Lower bound on the loss at each step, rounded down. The unit is 1/kLimitParts of the loss
     /// that excludes a place. Losses of one unit are replaced with 0.
     std::array<std::uint8_t, kMaxSteps> losses;
-    /// True if the total loss in nonadjacent steps can be large enough to exclude a place.
+    /// True if the total loss at nonadjacent steps can be large enough to exclude a place.
     bool can_exclude = false;
 };
 
-/// The places in a sequence that may lose less than the loss limit of `Steps`. The place of an
-/// alternative is the index of its digit in the first step.
+/// The places in a sequence that may lose less than the loss limit of `Steps`. Here, the place of
+/// an alternative is the index, in the sequence, of its digit at the first step.
 class SimilarPlaces {
   public:
     /// `own` is the place of the reading at the first step.
@@ -51,7 +51,7 @@ class SimilarPlaces {
     struct Step {
         const std::uint32_t* places;  ///< places with the reading's digit, as a bit set
         std::uint8_t ahead;           ///< index of the step
-        std::uint8_t parts;           ///< loss in the step, as in `Steps::losses`
+        std::uint8_t parts;           ///< loss at the step, as in `Steps::losses`
     };
     const code::Secondary& sequence_;
     std::uint32_t own_;

@@ -115,13 +115,13 @@ float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& line
 
 std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines,
                                                 WorkLimit& work) {
-    // In small views, many places lose 44 to 52 bits. Evaluating all of them would take too much
-    // work, so each listed place with a minimum loss of at least kEvaluatedBits contributes
+    // In small views, many places lose 44 to 52 bits. Evaluating all of them would take too long,
+    // so each listed place with a minimum loss of at least kEvaluatedBits contributes
     // 2^-kEvaluatedBits. In views with at most 16 lines, the places that are not listed contribute
     // at most 2^-37 in total.
     constexpr int kSkippedBits = 51;
     constexpr int kEvaluatedBits = 43;
-    // Estimated work per listed place, in processor instructions. Includes the work for seam
+    // Estimated cost per listed place, in processor instructions. Includes the cost of the seam
     // alternatives.
     constexpr std::size_t kWorkPerEntry = 85;
     const LikelihoodRatios& ratios = lines.ratios;

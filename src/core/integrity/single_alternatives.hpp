@@ -13,8 +13,9 @@ namespace dotpose::core {
 /// reading. The sum includes each alternative at every shift where it shares a line.
 float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines);
 
-/// Variant with bounded work, for small views. Returns nullopt if the work would exceed the limit
-/// `work`, or if `Kernels::list_similar_places` returns false.
+/// Variant with a bounded amount of computation, for small views. Returns nullopt if the
+/// computation would exceed the work limit `work`, or if `Kernels::list_similar_places` returns
+/// false.
 std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines,
                                                 WorkLimit& work);
 

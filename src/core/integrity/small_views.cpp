@@ -10,7 +10,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Estimated work per axis for `RankedLines`, the list of single alternatives, `SetPlan`, and the
+/// Estimated cost per axis of `RankedLines`, the list of single alternatives, `SetPlan`, and the
 /// seam alternatives, in processor instructions.
 constexpr std::size_t kPreparation = 80'000;
 
@@ -28,9 +28,9 @@ class SmallView {
         : kernels_(kernels), axes_(axes), factor_(kMargin * codes), left_(max_wrong), work_(work) {}
 
     /// Adds the probabilities on axis `n` and all later axes. Calls itself for the next axis before
-    /// the search for far alternatives, because this search takes longest. The sums that take
-    /// little time are therefore complete on all axes before the first search begins. Returns false
-    /// if the sum reaches the maximum, or if the work would exceed its limit.
+    /// it searches for far alternatives, because that search takes the longest. The faster sums are
+    /// therefore complete on all axes before the first search begins. Returns false if the sum
+    /// reaches the maximum, or if the computation would exceed the work limit.
     bool add(std::size_t n) {
         if (n == axes_.size()) return add_seams();
         const LikelihoodRatios& ratios = axes_[n]->ratios();
@@ -42,9 +42,9 @@ class SmallView {
         const float share = 1 / static_cast<float>(n + 1);
         planned_work_ += work_of_planned_alternatives(plan, share * left_ / factor_);
         if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
-        // The last axis is searched first. The expected odds of the sets that are not searched may
-        // use only the fraction `share` of the remaining odds, because the earlier axes need the
-        // rest.
+        // The last axis is searched first. On each axis, the expected odds of the sets that are not
+        // searched may take up at most the fraction `share` of the remaining budget, because the
+        // earlier axes need the rest.
         const auto far = sum_of_planned_alternatives(lines, plan, share, left_ / factor_, work_);
         return far && spend(factor_ * *far);
     }
@@ -52,7 +52,7 @@ class SmallView {
     float left() const { return left_; }
 
   private:
-    static constexpr float kMargin = 1.03F;  ///< covers the error of the exponentials
+    static constexpr float kMargin = 1.03F;  ///< covers the rounding errors of the exponentials
 
     bool add_seams() {
         float sum = 0;
@@ -70,7 +70,7 @@ class SmallView {
     float factor_;
     float left_;  ///< maximum minus the sum
     WorkLimit& work_;
-    float planned_work_ = 0;  ///< estimated work of the searches for far alternatives
+    float planned_work_ = 0;  ///< estimated cost of the searches for far alternatives
 };
 
 }  // namespace

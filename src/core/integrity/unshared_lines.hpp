@@ -16,8 +16,8 @@ namespace dotpose::core {
 /// two shifts.
 enum class Sharing : std::uint8_t {
     at_one_shift,
-    on_two_sides,  ///< one shift before a border between two lines, and another shift after the
-                   ///< border
+    /// One shift before a border between two lines, and another shift after the border.
+    on_two_sides,
 };
 
 /// Lower bounds on the losses of single alternatives, by sequence. A table covers 10, 13 or 16
@@ -57,7 +57,7 @@ class UnsharedLines {
 
   private:
     /// Chooses the table, and returns the minimum losses of its lines. The table lines are in the
-    /// middle of the view, because lines have the most bits there. Returns an empty span if the
+    /// middle of the view, because the lines there have the most bits. Returns an empty span if the
     /// view has too few lines.
     std::span<const std::int16_t> choose_lines(int max_lines);
 

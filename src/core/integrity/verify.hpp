@@ -14,8 +14,8 @@
 
 namespace dotpose::core {
 
-/// Verifies a decoded position. Sets `bit_errors` and `p_wrong_log2` of the fix, and `bits` and
-/// `p_wrong_log2_q8` of the decoding. The probability covers chance matches, alternatives and seams
+/// Verifies a decoded position. Sets `fix.bit_errors`, `fix.p_wrong_log2`, `decoding.bits` and
+/// `decoding.p_wrong_log2_q8`. The probability covers chance matches, alternatives and seams
 /// between sections. `others` contains the number of possible codes. It may be null if the code is
 /// given. If `decoding.lines_are_scored` is true, `storage` must contain the line scores computed
 /// by the decoder. Error: not_certain, if the probability exceeds the limit in `options`, or if the
@@ -25,8 +25,8 @@ Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const 
               Fix& fix);
 
 /// Verifies a decoded position in integer arithmetic and in bounded time. Refuses more positions
-/// than `verify`, because it bounds the odds of alternatives only by quick_alternatives.hpp. Error:
-/// not_certain, for the same reasons as in `verify`.
+/// than `verify`, because it uses only the bound on the alternatives from quick_alternatives.hpp.
+/// Error: not_certain, for the same reasons as in `verify`.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Index of a4, the only sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Upper bound on the odds of each skipped place, as log2 in units of 2^-8 and as a number.
+/// Upper bound on the odds of each skipped place, as log2 in units of 2^-8 and as a plain value.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Limit on the summed odds. If an upper bound on the sum is at most this limit, no tighter bound
@@ -116,8 +116,7 @@ class OtherPlaces {
     /// without a shared line.
     void add_unsimilar() {
         // If the rolls are the same in both codes, the place shares all lines at `shift_here_` and
-        // no line at any other shift. `add` would leave out `shift_here_`, and therefore add
-        // nothing.
+        // no line at any other shift. `add` would skip `shift_here_`, and therefore add nothing.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }

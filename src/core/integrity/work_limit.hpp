@@ -5,17 +5,17 @@
 
 namespace dotpose::core {
 
-/// Remaining work, in estimated processor instructions.
+/// Remaining computation budget, in estimated processor instructions.
 class WorkLimit {
   public:
-    /// Maximum total work for the sums over alternatives in one frame with a small view, over all
-    /// tested places. docs/speed.md, "Small frames", compares several limits. All other steps of a
-    /// first attempt take about 200,000 instructions.
+    /// Budget for the sums over alternatives in one frame with a small view. All places tested in
+    /// the frame share this budget. docs/speed.md, "Small frames", compares several limits. All
+    /// other steps of a first attempt take about 200,000 instructions.
     static constexpr std::size_t kOfFrame = 510'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}
-    /// Subtracts `work` and returns true. If less than `work` is left, sets the remaining work to 0
-    /// and returns false.
+    /// Subtracts `work` from the budget and returns true. If less than `work` is left, sets the
+    /// budget to 0 and returns false.
     bool spend(std::size_t work) {
         const bool is_enough = work <= left_;
         left_ = is_enough ? left_ - work : 0;

@@ -224,9 +224,9 @@ struct SimilarPlaceList {
 /// Set of places in a sequence, one bit per place. Bit 0 of the first word is the first place.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// Lower bounds on the loss of an alternative in each step. A step consists of two adjacent lines.
-/// If the digit of the alternative differs from the digit of the reading in a step, the alternative
-/// shares at most one of the two lines and therefore loses at least this bound. The unit is
+/// Lower bounds on the loss of an alternative at each step. A step consists of two adjacent lines.
+/// If the digit of the alternative differs from the digit of the reading at a step, the alternative
+/// shares at most one of the two lines, and therefore loses at least this bound. The unit is
 /// 1/kLimitParts of the loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
@@ -238,8 +238,8 @@ struct StepLosses {
 /// `kAlternativeSets` in core/integrity/alternative_sets.hpp). Unused groups contain no
 /// alternatives.
 struct FarAlternatives {
-    /// For each group, the probability that an alternative has the same digits as the reading in a
-    /// step.
+    /// For each group, the probability that an alternative has the same digits as the reading at a
+    /// given step.
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};  ///< number of alternatives in each group
 };
@@ -295,7 +295,7 @@ struct Kernels {
     /// position of their cell.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
     /// Sets the bits of cells whose dots are clearly at one of the four dot positions. The first
-    /// column and the first row intersect in cell (-32, -32). A bit is invalid if two dots in a
+    /// column and the first row intersect at cell (-32, -32). A bit is invalid if two dots in a
     /// cell disagree. The bits of a cell with three or more dots may be wrong.
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
@@ -324,8 +324,8 @@ struct Kernels {
     /// mass relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
-    /// Replaces each centre with the weighted centroid of a centroid window. No threshold is
-    /// applied, because a threshold would bias the centres. `radius_px` is at most
+    /// Replaces each centre with the weighted centroid of the centroid window around it. No
+    /// threshold is applied, because a threshold would bias the centres. `radius_px` is at most
     /// kMaxCentroidRadius_px, and is reduced near the image border. Corrections of 1 px or more are
     /// not applied. Does nothing if the image is smaller than a window.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
@@ -339,14 +339,14 @@ struct Kernels {
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int dot_contrast_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
-    /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot is the moment divided by
-    /// the weight in its window, times `weight_px`. If `weight_px` is 0, the factor is estimated
-    /// from dots in the middle of the list. Returns the sums of `DotOffsets` over the remaining
-    /// dots.
+    /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot is `weight_px` times the
+    /// ratio of the moment to the weight in its window. If `weight_px` is 0, the factor is
+    /// estimated from dots in the middle of the list. Returns the sums of `DotOffsets` over the
+    /// remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
-    /// and `rows`, unless either pointer is null. The first column and the first row intersect in
+    /// and `rows`, unless either pointer is null. The first column and the first row intersect at
     /// cell (-32, -32). The lines must be empty on entry, and no cell may have two dots.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines* columns, BitLines* rows);
@@ -361,7 +361,7 @@ struct Kernels {
                             float limit, float reach_px, int side);
     /// Returns the places in a sequence where an alternative may lose less than the loss limit,
     /// which is StepLosses::kLimitParts parts. The result excludes `own`, the place of the reading.
-    /// `steps` contains a lower bound on the loss in each step.
+    /// `steps` contains a lower bound on the loss at each step.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
     /// Returns an upper bound on the expected total odds of the far alternatives in `sets`. A far
@@ -384,7 +384,7 @@ struct Kernels {
     /// Sets `sums[n]` to the sum of the n smallest losses, for n = 0 to 8. `losses` must have 8 to
     /// 16 elements. Negative losses are treated as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
-    /// Combines each of the 32 combinations of a batch with one combination of places in the other
+    /// Combines each of the 32 combinations in a batch with one combination of places in the other
     /// sequences. Returns one bit per resulting alternative, which is 1 if the alternative may lose
     /// less than `limit` (at most 255). `losses[i]` is the loss if line i is not shared.
     /// `opposite[i]` is the negated roll offset of the other combination in line i. The line is
@@ -395,8 +395,8 @@ struct Kernels {
     /// sequences `different` (one bit per sequence), and share at most `max_shared` (up to 8)
     /// adjacent lines with the reading. Assumes that the digits of the alternatives are uniformly
     /// distributed, except for the safety factor `kUnevenness`. `places` are the places of the
-    /// reading at the first line. `lines` contains the odds of an alternative in each line, by roll
-    /// offset. The odds at offset 0 are 1, and the padding is 0.
+    /// reading at the first line. `lines` contains the odds of an alternative in each line, indexed
+    /// by roll offset. The odds at offset 0 are 1, and the padding is 0.
     float (*sum_expected_alternatives)(const code::Basis& basis,
                                        const std::array<std::uint32_t, 4>& places,
                                        unsigned different, std::span<const OddsByOffset> lines,

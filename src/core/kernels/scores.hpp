@@ -32,7 +32,7 @@ struct ScoredLine {
 inline constexpr std::size_t kRollEntries = 64;
 
 /// Scores of up to kMaxLines adjacent lines, indexed by roll. A score is the number of cells that
-/// agree with the main sequence. Each line stores its scores twice in succession, so that
+/// agree with the main sequence. Each line contains two consecutive copies of its scores, so that
 /// kRollEntries consecutive scores can be loaded starting at any roll.
 struct RollScores {
     int count = 0;  ///< number of lines

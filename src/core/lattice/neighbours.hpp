@@ -13,8 +13,9 @@ namespace dotpose::core {
 
 inline constexpr int kMaxSeeds = 256;
 
-/// Element of two independent arrays that share memory. `at_q8` and `seed` belong to the array of
-/// seeds, which is sorted by bucket in row-major order. `begin` belongs to the array of buckets.
+/// One element from each of two independent arrays that share memory. `at_q8` and `seed` belong to
+/// the array of seeds, which is sorted by bucket in row-major order. `begin` belongs to the array
+/// of buckets.
 struct BucketedSeed {
     FixedVec at_q8;           ///< position relative to the corner of the first bucket
     std::uint16_t seed = 0;   ///< index of the seed

@@ -76,7 +76,7 @@ FloatPlane plane_from_waves(const Waves& waves) {
 }
 
 /// Inverse of the normal matrix for three unknowns. The elements of the normal matrix are the sums
-/// of 1, x, y, xx, xy and yy over the used dots.
+/// of 1, x, y, xx, xy and yy over the dots used in the fit.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;

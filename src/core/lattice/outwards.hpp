@@ -1,7 +1,7 @@
-// Outwards: finds the grid of a patch, starting near its middle (paper, sections II-B.2 and
-// II-B.3). The search computes a first plane from two plane waves that fit the central dots. It
-// then fits the plane repeatedly, to more and more dots. The fit includes perspective once it uses
-// dots more than four spacings from the middle.
+// Outwards: finds the grid in a patch, starting near the middle of the patch (paper, sections
+// II-B.2 and II-B.3). The search computes a first plane from two plane waves that fit the central
+// dots. It then fits the plane repeatedly, to more and more dots. The fit includes perspective once
+// it uses dots more than four spacings from the middle.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -9,10 +9,10 @@
 
 namespace dotpose::core {
 
-/// The grid of a patch, and its fit to the dots.
+/// The grid found in a patch, and how well it fits the dots.
 struct PatchGrid {
-    FloatPlane grid_from_image;  ///< maps image points that are relative to the origin of the dot
-                                 ///< coordinates
+    /// Maps image points to the grid. The points are relative to the origin of the dot coordinates.
+    FloatPlane grid_from_image;
     /// Root mean square displacement of the dots, in spacings. It is clamped to the range from
     /// kMinDisplacement to kMaxDisplacement (lattice/tuning.hpp).
     float displacement = 0;
@@ -42,10 +42,11 @@ struct PatchView {
 /// Returns the search parameters for a patch that is completely covered with dots.
 PatchView whole_view(const Patch& patch);
 
-/// Moves the origin of the dots to the densest part of the patch, for patches that the pattern
-/// covers only partly. The density around a dot is measured by the distance to its 20th nearest
-/// neighbour. Sets `view`, and sets `from_middle_px` to the new origin relative to the patch
-/// middle, in whole px. Returns false and changes nothing if there are fewer than kMinDots dots.
+/// Moves the origin of the dot coordinates to the densest part of the patch, for patches that the
+/// pattern covers only partly. The density around a dot is measured by the distance to its 20th
+/// nearest neighbour. Sets `view`, and sets `from_middle_px` to the new origin relative to the
+/// middle of the patch, in whole px. Returns false and changes nothing if there are fewer than
+/// kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, if the dots do not

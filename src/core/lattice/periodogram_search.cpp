@@ -151,7 +151,7 @@ void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,
                         max_turn_deg / tuned::kTurn_deg, tuned::kStretches},
                        [&](const Wave& w) { return near.power_of_square(w); });
-    // Searches for each direction separately, because for a tilted camera, the two directions have
+    // Searches for each direction separately. If the camera is tilted, the two directions have
     // different spacings and are not perpendicular.
     const Raster tilt{tuned::kTiltTurn_deg * kDegree_bam,
                       wave.spacing_q16 / tuned::kTiltStretchPart, tuned::kTiltSteps,

@@ -58,7 +58,7 @@ Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOp
     return found;
 }
 
-/// Point of the grid to which a dot is fitted.
+/// The point in the grid to which a dot is fitted.
 struct Target {
     bool is_used = false;
     FixedVec place_q16;

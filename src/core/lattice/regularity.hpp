@@ -1,6 +1,6 @@
 // Regularity: measures how well the dots agree with a grid that is fitted outwards, to more dots in
-// each step. The *reach* of a fit is the maximum distance between the origin and the cells of its
-// dots along each axis, in cells.
+// each step. A fit with *reach* r uses the dots whose cells are at most r cells from the origin
+// along each axis.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +39,8 @@ struct Regularity {
     /// `mean_square_q20` is the mean squared distance from the dots to their nearest intersections,
     /// in 2^-20 spacings^2. In spacings^2, the mean is 1/6 for randomly placed dots, 1/36 for
     /// displaced dots on a grid, and 0 for a plain dot grid. In a grid, at least kMin_10ths / 10 of
-    /// the dots must be near an intersection. Only half of randomly placed dots are near an
-    /// intersection.
+    /// the dots must be near an intersection. If dots are placed randomly, only half of them are
+    /// near an intersection.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;

@@ -1,4 +1,4 @@
-// Tuning: empirical constants of grid detection. The constants of the second attempt were
+// Tuning: empirical constants for grid detection. The constants for the second attempt were
 // determined on the hard frames listed in decode/tuning.hpp. Some comments state how many frames
 // are located with other values of a constant, as printed by the command
 //
@@ -11,16 +11,16 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// If at least this fraction of the dots, in units of 1/20, is near an intersection, the fit
-/// extends to farther dots without another iteration. The fraction is less than 1, because some
-/// detected dots may be dirt.
+/// Fraction of the dots, in units of 1/20, that must be near an intersection for the fit to extend
+/// to farther dots without another iteration. The fraction is less than 1, because some detected
+/// dots may be dirt.
 inline constexpr int kSettled_20th = 19;
-/// Minimum fraction of dots near an intersection in a grid, in tenths. Half of randomly placed dots
-/// are near an intersection.
+/// Minimum fraction of the dots in a grid that must be near an intersection, in tenths. If dots are
+/// placed randomly, half of them are near an intersection.
 inline constexpr int kMin_10ths = 7;
 }  // namespace regularity
 
-/// Refined grid of the second attempt (lattice/refine_grid).
+/// Grid refinement in the second attempt (lattice/refine_grid).
 namespace refine_grid {
 /// Maximum number of dots used to compute the median offset, which corrects the origin.
 inline constexpr int kMedianSample = 256;
@@ -36,7 +36,7 @@ inline constexpr int kFar_q16 = 65536 / 8;
 inline constexpr int kPlaceRounds = 2;
 }  // namespace refine_grid
 
-/// First grid of the second attempt, from the periodogram (lattice/periodogram_search).
+/// Periodogram search for the first grid in the second attempt (lattice/periodogram_search).
 namespace periodogram_search {
 /// Half-width of the central square whose dots contribute to the periodogram, in spacings. Raster
 /// searches use kNear_cells, because the periodogram of a small square has a wide peak, which a
@@ -63,7 +63,7 @@ inline constexpr int kFirstStretchPart = 80;
 inline constexpr int kFinest = 8;
 }  // namespace periodogram_search
 
-/// Grid of a patch (lattice/outwards).
+/// Grid search in a patch (lattice/outwards).
 namespace outwards {
 /// Minimum number of dots in a patch. A position needs at least six lines of six cells, which is 36
 /// dots.

@@ -31,8 +31,8 @@ class Cells {
         return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
                 rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
     }
-    /// Returns the cell nearest to a point, and the point's offset from the intersection of this
-    /// cell, in 2^-16 spacings (paper, equations 3-5).
+    /// Returns the cell nearest to a point, and the point's offset from that cell's intersection,
+    /// in 2^-16 spacings (paper, equations 3-5).
     GridPoint operator()(FixedVec from_centre_q3) const {
         const FixedVec c = rounding_plane_point_q16(from_centre_q3);
         return {{c.x >> 16, c.y >> 16}, {(c.x & 0xFFFF) - kHalf_q16, (c.y & 0xFFFF) - kHalf_q16}};

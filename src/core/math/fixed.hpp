@@ -122,7 +122,7 @@ inline constexpr int kNever_q8 = -(1 << 20);
 /// log2(1 + 2^-d) in units of 2^-8, for d = 0, 1, ..., rounded up. The first entry is 255 instead
 /// of 256 to fit in a byte, so `add_log2` adds 1. Because the function is convex, linear
 /// interpolation gives an upper bound. The table is at namespace scope, because every inlined call
-/// of `add_log2` would copy a local table.
+/// to `add_log2` would copy a local table.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
 /// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24. Uses the bound log2(1 + f)

@@ -35,8 +35,8 @@ struct FloatVec {
     float y = 0;
 };
 
-/// Returns the plane point of an image point, in spacings. `px` is relative to the plane centre.
-/// Clamps the divisor to at least 1/4, because the map folds where the divisor reaches 0.
+/// Maps an image point to the plane, in spacings. `px` is relative to the plane centre. Clamps the
+/// divisor to at least 1/4, because the map folds where the divisor reaches 0.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
 /// Returns the same plane with its centre moved to the image point `to_px`. The result is

@@ -9,7 +9,7 @@ namespace dotpose::core {
 /// A point in grid coordinates: the nearest intersection and the offset from this intersection.
 struct GridPoint {
     FixedVec cell;        ///< nearest intersection (paper, equation 4)
-    FixedVec offset_q16;  ///< in spacings, each in [-1/2, 1/2) (paper, equation 5)
+    FixedVec offset_q16;  ///< in spacings, each component in [-1/2, 1/2) (paper, equation 5)
 };
 
 /// Maximum magnitude of coordinates in 2^-16 spacings, and of slopes in 2^-24 spacings per px.

@@ -25,8 +25,8 @@ inline FourInts four_at(const std::int32_t* first) {
     return vector_at<FourInts>(first);
 }
 
-/// Adds the four elements of `a` to sums[0], of `b` to sums[1], of `c` to sums[2], and of `d` to
-/// sums[3]. Adds the elements in index order.
+/// Adds all elements of `a` to sums[0], all elements of `b` to sums[1], and so on. The elements of
+/// each vector are added in index order.
 inline void add_each(Four& sums, Four a, Four b, Four c, Four d) {
     const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);

@@ -7,7 +7,7 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the gradient of an angle, in rad, with respect to the parameters. The angle is the
-/// direction from point `from` to point `to` of `places`. `scale` is the unit of `places`, in
+/// direction from point `from` to point `to` in `places`. `scale` is the unit of `places`, in
 /// spacings.
 Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
                               std::size_t to) {

@@ -6,7 +6,7 @@
 
 namespace dotpose::core {
 
-/// A model dot fitted to a frame, with its uncertainty.
+/// A model dot fitted to the dots in a frame, with its uncertainty.
 class DotShape {
   public:
     /// Terms of the fit. `offset_u` and `offset_v` are the mean offset of the dots from their

@@ -14,7 +14,7 @@ namespace dotpose::core {
 /// the residual is about four times the standard deviation of one coordinate. Sets all members of
 /// `fit` except `surface` and `uneven`. After kMaxRoundsOfFloats iterations, returns true even if
 /// the fit has not converged. Returns false if there are fewer than kMinDots inliers, or if the
-/// inliers do not determine the plane. `plane` and `fit` must then not be used.
+/// inliers do not determine the plane. In these cases, `plane` and `fit` must not be used.
 bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, float limit,
                float displacement, FloatPlane& plane, PoseFit& fit);
 

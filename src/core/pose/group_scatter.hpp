@@ -35,7 +35,7 @@ struct GroupScatter {
     float excess() const {
         return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }
-    /// Returns the variance, along one axis, of the displacement that is common to all dots of a
+    /// Returns the variance, along one axis, of the displacement that is common to all dots in a
     /// group.
     float variance_between() const {
         return std::max(between - freedom() * variance_within(), 0.0F) / std::max(2 * dots, 1.0F);

@@ -130,7 +130,7 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
     return {sum / count, slope(sides[0], sides[1]), slope(sides[2], sides[3])};
 }
 
-/// Fits a Gaussian dot to a window by one Gauss-Newton step. The Gaussian has the sigma of the
+/// Fits a Gaussian dot to a window with one Gauss-Newton step. The Gaussian has the sigma of the
 /// window profile, and a small `offset` from the window centre. The vector d points from the window
 /// centre to a pixel. With d and `offset` in units of sigma, the model of the darkness is
 ///
@@ -140,7 +140,7 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
 /// border, the result is still unbiased.
 class DotFit {
   public:
-    /// Adds four pixels of a row. `profile` is exp(-d^2 / 2) at each pixel.
+    /// Adds four pixels from a row. `profile` is exp(-d^2 / 2) at each pixel.
     void add(Four profile, Four darkness, Four x, float y) {
         const Four square = profile * profile;
         const Four dark = profile * darkness;
@@ -177,8 +177,8 @@ class DotFit {
     }
 
   private:
-    // Sums of 1, x, y, x^2, xy and y^2, weighted by the squared profile. Sums of the darkness, the
-    // darkness times x and the darkness times y, weighted by the profile.
+    // Sums of 1, x, y, x^2, xy and y^2, weighted by the squared profile, followed by sums of the
+    // darkness, the darkness times x and the darkness times y, weighted by the profile.
     Four one_x_y_xx_{};
     Four xy_yy_dark_{};
     Four dark_y_{};

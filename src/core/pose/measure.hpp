@@ -11,7 +11,7 @@
 
 namespace dotpose::core {
 
-/// Measures the predicted dot of each cell. Overwrites `dots`, and sets `GridCell::dot` of every
+/// Measures the predicted dot of each cell. Overwrites `dots`, and sets `GridCell::dot` for every
 /// cell. The value is kNoDot if graphics hide the predicted dot, if there is no dot near the
 /// predicted position, or if `dots` is full.
 ///

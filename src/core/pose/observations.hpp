@@ -19,7 +19,7 @@ inline FixedVec nominal_place_q16(const Observation& o, std::int32_t displacemen
             o.pattern_step.y * 65536 + dy(o.symbol) * displacement_q16};
 }
 
-/// The dots of a grid, with their symbols in the code.
+/// The dots in a grid, with their symbols in the code.
 class Observations {
   public:
     /// `paper` contains the paper levels for `noise`. If `paper` is null, `noise` must not be

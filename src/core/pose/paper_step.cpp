@@ -116,7 +116,7 @@ class AffineFit {
 
     /// Returns the summed squared residuals of all coherent dots, after subtracting the map.
     float squares() const { return squares_; }
-    /// Returns by how much `squares()` decreases if a displacement of the part `beyond` is fitted
+    /// Returns the decrease in `squares()` if a displacement of the part `beyond` is fitted
     /// together with the map. Returns 0 if the dots do not determine the displacement.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
@@ -126,9 +126,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns by how much `squares()` decreases if a displacement and a rotation of the part
-    /// `beyond` are fitted together with the map. Returns 0 if the dots do not determine the
-    /// displacement.
+    /// Returns the decrease in `squares()` if a displacement and a rotation of the part `beyond`
+    /// are fitted together with the map. Returns 0 if the dots do not determine the displacement.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];

@@ -65,8 +65,8 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
 struct CentroidError {
     float px;                  ///< centroid minus true centre
     DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the shape terms
-    float slope_ratio;  ///< slope of the moment along this axis, divided by the slope of the moment
-                        ///< along u
+    /// Slope of the moment along this axis, divided by the slope of the moment along u.
+    float slope_ratio;
 };
 
 enum class Along : std::uint8_t { u, v };
@@ -170,7 +170,7 @@ WindowBias window_bias(const DotShape& shape, const AxisBias& along_u, const Axi
             error_beside(Along::v) / kBeside_px, along_v.slope_ratio()};
 }
 
-/// Expected image points of the inliers of a plane fit.
+/// Expected image points of the inliers in a plane fit.
 class ExpectedDots {
   public:
     ExpectedDots(const FloatPlane& plane, const PoseFit& fit, FloatVec centre_px,

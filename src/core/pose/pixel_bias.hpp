@@ -1,6 +1,6 @@
 // Pixel bias: corrects the centroid bias due to the sub-pixel phase of the dots. The bias averages
 // out if the phases are evenly distributed. If all dots have the same phase, the bias is computed
-// from a model dot and subtracted. The frames of the paper contain all phases, and therefore do not
+// from a model dot and subtracted. The frames in the paper contain all phases, and therefore do not
 // need this correction.
 #pragma once
 

@@ -34,8 +34,8 @@ struct SplitFit {
 
 /// Finds the most likely dividing line, and fits the plane to the side of the reference point. On
 /// entry, `split` contains the fit to all dots. Returns false if no line has a gain of at least
-/// PaperStep::kPossible, or if the dots on this side do not determine a plane. `split` must then
-/// not be used.
+/// PaperStep::kPossible, or if the dots on this side do not determine a plane. In these cases,
+/// `split` must not be used.
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 

@@ -14,7 +14,7 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn 
 
 namespace {
 
-/// Sets the pose at the centre of an affine plane.
+/// Writes the pose at the centre of an affine plane to `fix`.
 void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& place, Fix& fix) {
     // The pose is the decoded position plus the vector to the reference point, in grid units
     // (paper, equations 10-12).

@@ -1,7 +1,7 @@
-// Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
-// on the hard frames listed in decode/tuning.hpp. Some comments state the results with other values
-// of a constant: the number of located frames, and the median and 95th percentile of the position
-// errors. These results are printed by the command
+// Tuning: empirical constants for the pose fit. The constants for the second attempt were
+// determined on the hard frames listed in decode/tuning.hpp. Some comments state the results with
+// other values of a constant: the number of located frames, and the median and 95th percentile of
+// the position errors. These results are printed by the command
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
@@ -126,8 +126,8 @@ namespace uneven {
 /// Limits for the scatter between blocks. The limits apply to `GroupScatter::excess`, in standard
 /// deviations. `dotpose_tables slips` measures the fractions of flat sheets that exceed them.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
-///   The limit is low because the plane fitted to all dots absorbs most of a step, and because the
-///   dots of the second attempt are noisier than those of the other attempts.
+///   The limit is low because the plane fitted to all dots absorbs most of a step, and because dot
+///   centres measured in the second attempt are noisier than those from the other attempts.
 /// - kShared: above this limit, the mean block residuals increase the covariance. 1 in 20 flat
 ///   sheets exceeds this limit.
 /// - kSuspect: above this limit, the first and tracked attempts search for a line. The dots on the
@@ -151,9 +151,9 @@ inline constexpr float kOutlierFraction = 0.02F;
 /// into at most kFewAlong blocks.
 inline constexpr int kManyDots = 1000;
 /// Limits on the number of blocks along each image side if there are at most kManyDots dots. Within
-/// these limits, it is the largest number for which a block contains at least kDotsPerBlock dots on
-/// average. With only one or two dots per block, the scatter within blocks could not be estimated
-/// reliably, and flat sheets would seem uneven.
+/// these limits, the number is the largest for which a block contains at least kDotsPerBlock dots
+/// on average. With only one or two dots per block, the scatter within blocks could not be
+/// estimated reliably, and flat sheets would seem uneven.
 inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
 inline constexpr int kDotsPerBlock = 4;

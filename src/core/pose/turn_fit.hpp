@@ -23,7 +23,7 @@ struct TurnFit {
 /// the plane to the corrected dots. `turn` is the rotation that was removed from the image in which
 /// the dots were measured. The drift is estimated from the plane (`drift_of`) and from the
 /// curvature that drift and rotation cause together. Returns false if the dots do not determine the
-/// rotation. `dots`, `plane` and `fit` may then be changed, and must not be used.
+/// rotation. In this case, `dots`, `plane` and `fit` may have changed and must not be used.
 bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec reference_px,
               MeasuredDots& dots, FloatPlane& plane, PoseFit& fit, TurnFit& result);
 

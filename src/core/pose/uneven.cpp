@@ -21,7 +21,7 @@ int blocks_along(int dots) {
     return along;
 }
 
-/// Scatter of the residuals between and within the blocks of the image.
+/// Scatter of the residuals between and within image blocks.
 class Blocks {
   public:
     Blocks(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,

@@ -10,7 +10,7 @@ namespace dotpose::core {
 
 /// Tests the residuals of the fit for correlation. If the gain of a dividing line exceeds
 /// PaperStep::kCertain, and the dots on the reference point's side of the line are in one plane,
-/// fits the plane again to these dots. Sets `surface` and `uneven` of `fit`.
+/// refits the plane to these dots. Sets `surface` and `uneven` in `fit`.
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 

@@ -1,4 +1,4 @@
-// WebSockets: handles the commands of clients and sends messages to clients.
+// WebSockets: handles commands from clients and sends messages to clients.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -10,7 +10,7 @@
 namespace dotpose::serve {
 namespace {
 
-/// Counts a message of the client. Returns false if the client sends too many messages.
+/// Counts a message from the client. Returns false if the client sends too many messages.
 bool may_send(Client& client, Reports::Clock::time_point now) {
     const std::chrono::duration<double> elapsed = now - client.counted_at;
     client.counted_at = now;
@@ -55,8 +55,8 @@ int Server::Service::receive(lws* socket, std::string_view part) {
     return 0;
 }
 
-/// Updates a subscription, or queues any other command for the program. Returns false if the topic
-/// does not exist or the queue is full.
+/// Executes a subscription command (subscribe, unsubscribe or next) immediately, and queues all
+/// other commands for the program. Returns false if the topic does not exist or the queue is full.
 bool Server::Service::obey(Client& client, const Command& command) {
     const bool begins = command.name == "subscribe";
     const bool ends = command.name == "unsubscribe";

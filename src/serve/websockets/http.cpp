@@ -23,7 +23,7 @@ std::string header(lws* socket, lws_token_indexes name) {
     return value;
 }
 
-/// Returns a parameter of the URL, or an empty string if it is missing.
+/// Returns a URL parameter, or an empty string if it is missing.
 std::string parameter(lws* socket, std::string_view name) {
     std::array<char, kMaxTokenLength + 32> fragment{};
     for (int i = 0;
@@ -50,7 +50,7 @@ RequestHead head_of(lws* socket) {
 
 struct Refusal {
     unsigned status;
-    const char* log;     ///< reason for the user of the program
+    const char* log;     ///< reason that is reported to the user of the program
     const char* answer;  ///< text for the client
 };
 
@@ -82,7 +82,7 @@ int Server::Service::refuse(lws* socket, Verdict verdict) {
 int Server::Service::answer_request(lws* socket, const std::string& path) {
     const Verdict verdict = access_->judge(head_of(socket));
     if (verdict == Verdict::allowed_by_url) {
-        // The redirection removes the token from the address and the history of the browser.
+        // The redirection removes the token from the browser's address bar and history.
         return send(socket, HTTP_STATUS_SEE_OTHER, {.type = kText, .body = "\n"},
                     access_->set_cookie(), false);
     }

@@ -18,8 +18,8 @@ std::string hostname() {
     return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "localhost";
 }
 
-/// Headers of all answers. The page may load only its own files, no other page may show it in a
-/// frame, and no other site may read its answers.
+/// Headers sent with all answers. The page may load only its own files, no other page may show it
+/// in a frame, and no other site may read its answers.
 constexpr std::array<std::pair<const char*, const char*>, kSecurityHeaders> kHeaders = {{
     {"content-security-policy:",
      "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self'; "
@@ -154,8 +154,8 @@ int Server::Service::handle(lws* socket, lws_callback_reasons reason, void* in, 
             return 1;
         case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
             sockets_[socket] = false;
-            // Sets a timer, because libwebsockets does not limit the time of some requests, such as
-            // CONNECT.
+            // Sets a timer, because libwebsockets does not limit the duration of some requests,
+            // such as CONNECT.
             lws_set_timer_usecs(socket, kMaxHead_us);
             return 0;
         case LWS_CALLBACK_TIMER:

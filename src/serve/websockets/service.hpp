@@ -61,7 +61,7 @@ class Server::Service {
   private:
     static int callback(lws* socket, lws_callback_reasons reason, void* user, void* in,
                         std::size_t size);
-    /// Handles an event of libwebsockets. Returns a nonzero number to close the connection.
+    /// Handles an event from libwebsockets. Returns a nonzero number to close the connection.
     int handle(lws* socket, lws_callback_reasons reason, void* in, std::size_t size);
 
     // http.cpp

@@ -26,7 +26,7 @@ class Rows {
     int size() const { return PQntuples(result_.get()); }
     bool is_null(int row, int column) const { return PQgetisnull(result_.get(), row, column) != 0; }
     std::string_view text(int row, int column) const;
-    /// Returns the value as an integer. Null is returned as 0.
+    /// Returns the value as an integer, or 0 if it is null.
     std::int64_t integer(int row, int column) const;
     PGresult* get() const { return result_.get(); }
 
@@ -37,7 +37,7 @@ class Rows {
 class PostgresConnection {
   public:
     /// Connects to the server. Throws Error if the connection fails or takes too long (5 s, unless
-    /// the URL contains another limit).
+    /// the URL sets a different limit).
     explicit PostgresConnection(const std::string& url);
 
     /// Runs statements without parameters, separated by semicolons. Throws Refused.

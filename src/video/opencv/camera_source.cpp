@@ -40,7 +40,7 @@ void to_grey(const cv::Mat& picture, GreyImage& image) {
         image.pixels.insert(image.pixels.end(), grey.ptr(v), grey.ptr(v) + grey.cols);
 }
 
-/// Runs `action`. Converts exceptions of drivers and decoders to an Error with the name of the
+/// Runs `action`. Converts exceptions thrown by drivers and decoders to an Error that names the
 /// source.
 template <typename Action>
 auto guarded(const std::string& name, const Action& action) {

@@ -123,7 +123,7 @@ class H264File::Encoder {
         }
     }
 
-    /// Throws Error if `code` is an error code of FFmpeg. The message contains the reason.
+    /// Throws Error if `code` is an FFmpeg error code. The message contains the reason.
     void require(int code) const {
         if (code >= 0) return;
         char reason[AV_ERROR_MAX_STRING_SIZE] = {};

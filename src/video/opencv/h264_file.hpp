@@ -1,4 +1,4 @@
-// Writes pictures to a video file as H.264, using the libraries of FFmpeg.
+// Writes pictures to a video file as H.264, using the FFmpeg libraries.
 #pragma once
 
 #include <memory>

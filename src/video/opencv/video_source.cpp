@@ -1,4 +1,4 @@
-// Reads video files with the libraries of FFmpeg. Unlike OpenCV, they provide the timestamp of each
+// Reads video files with the FFmpeg libraries. Unlike OpenCV, they provide the timestamp of each
 // frame and report damaged frames.
 #include <algorithm>
 #include <cerrno>

@@ -65,7 +65,7 @@ inline Camera true_camera(const CameraModel& model) {
 /// Position of the image centre relative to the robot's centre, along the image axes.
 inline constexpr Vec2 kCameraOnRobot_mm{-14.5, 6.25};
 
-/// Returns the frame of a robot at a position. The image x axis points in the direction
+/// Returns a frame taken by a robot at a position. The image x axis points in the direction
 /// `theta_rad`.
 inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int index, double x_mm,
                              double y_mm, double theta_rad) {
@@ -180,7 +180,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         const double c = std::cos(lying.turn_rad);
         const double s = std::sin(lying.turn_rad);
         // If the camera is farther than this from the middle of a sheet, along either axis, it sees
-        // none of the dots of the sheet.
+        // none of the sheet's dots.
         constexpr double kTooFar_mm = kPage_mm / 2 + 12;
         if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
         if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;

@@ -58,7 +58,7 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_near_truth(result.camera, "mm_per_px_x", paper.mm_per_px_x, truth.mm_per_px);
     expect_near_truth(result.camera, "mm_per_px_y", paper.mm_per_px_y, truth.mm_per_px);
     expect_near_truth(result.camera, "skew", paper.skew, 0);
-    // Frames of a camera that looks straight down do not determine the focal length.
+    // Frames from a camera that looks straight down do not determine the focal length.
     EXPECT_FALSE(result.camera.focal_px.has_value());
     // Without a correction of the lens distortion, noise is only a small part of the residual.
     EXPECT_GT(result.residual_before_px, 3 * result.residual_px);

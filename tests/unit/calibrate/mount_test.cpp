@@ -91,7 +91,7 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// The variance of the reference point is the sum of three variances, caused by errors of the turn,
+// The variance of the reference point is the sum of three variances, caused by errors in the turn,
 // the image centre and the image axis. In the camera file, the standard deviations are 4 µm per
 // axis for the centre and 3e-4 rad for the direction of the image axis. At a distance of 15.8 mm
 // from the camera, the centre and the axis together contribute sqrt(4^2 + (15.8e3 * 3e-4)^2 / 2) =
@@ -199,7 +199,7 @@ std::string refusal(const std::function<void()>& calibrate) {
     return "not refused";
 }
 
-/// Returns frames of a robot that turns by `step_deg` and moves by `drift_mm` along x between
+/// Returns frames taken by a robot that turns by `step_deg` and moves by `drift_mm` along x between
 /// frames.
 FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     return [=](int i) {

@@ -1,4 +1,4 @@
-// Tests pen tip calibration on simulated frames of a pen with a known tip.
+// Tests pen tip calibration on simulated frames from a pen with a known tip.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -24,8 +24,8 @@ constexpr double kMaxTilt_rad = 40 * kDegree_rad;
 constexpr double kX_mm = 3000;
 constexpr double kY_mm = 2000;
 
-/// Returns frames of a pen whose tip rests at one point. `place_of(i, pose)` may change the pose of
-/// frame i before it is rendered.
+/// Returns frames from a pen whose tip rests at one point. `place_of(i, pose)` may change the pose
+/// for frame i before it is rendered.
 template <typename PlaceOf>
 std::vector<GreyImage> frames_of(int count, std::uint64_t seed, double max_tilt_rad,
                                  PlaceOf place_of) {
@@ -125,7 +125,7 @@ TEST(CalibratePivot, RefusesATipThatMoved) {
 TEST(CalibratePivot, RefusesFramesThatDoNotPivot) {
     EXPECT_THAT(error_of(frames_of(8, 5, 1 * kDegree_rad, stay)),
                 HasSubstr("tilt the pen by up to 40 degrees to all sides"));
-    // Rotations about one axis do not determine the tip along this axis.
+    // Rotations about one axis do not determine the tip position along this axis.
     const auto one_axis = [](int i, PenPose& pose) {
         pose.tilt_rad = 4 * i * kDegree_rad;
         pose.azimuth_rad = 0;

@@ -1,5 +1,5 @@
-// Tests poses and velocities that are computed from single frames of a camera with a rolling
-// shutter, and the calibration of the readout time.
+// Tests poses and velocities that are computed from single frames of a rolling-shutter camera, and
+// the calibration of the readout time.
 #include <array>
 #include <cmath>
 #include <numbers>

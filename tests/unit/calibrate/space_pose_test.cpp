@@ -1,5 +1,5 @@
-// Tests poses in space. The expected pixels come from a projection in this file: a pinhole camera
-// with the division model of equation 2 of the paper.
+// Tests poses in space. The expected pixel positions come from a projection in this file: a pinhole
+// camera with the division model (paper, equation 2).
 #include "dotpose/tools/space_pose.hpp"
 
 #include <array>
@@ -96,15 +96,15 @@ struct View {
     Matrix3 rotation{};  // camera to paper
     Vector3 position_mm{};
 
-    /// Returns the undistorted pixel of a point on the paper, relative to the optical axis.
+    /// Returns the undistorted image position of a point on the paper, in px from the optical axis.
     std::array<double, 2> straight(double x_mm, double y_mm) const {
         const Vector3 seen =
             product(transposed(rotation),
                     Vector3{x_mm - position_mm[0], y_mm - position_mm[1], -position_mm[2]});
         return {focal_px * seen[0] / seen[2], focal_px * seen[1] / seen[2]};
     }
-    /// Returns the pixel to which a lens with the distortion k maps a point on the paper, relative
-    /// to the optical axis.
+    /// Returns the image position to which a lens with the distortion k maps a point on the paper,
+    /// in px from the optical axis.
     std::array<double, 2> distorted(double x_mm, double y_mm, double k) const {
         const auto [a, b] = straight(x_mm, y_mm);
         // Solves equation 2, r_u = r_d / (1 + k r_d^2), by bisection.

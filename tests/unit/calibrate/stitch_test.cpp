@@ -25,7 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Returns a frame at the middle of one sheet.
+/// Returns a frame taken at the middle of one sheet.
 GreyImage plain_frame(const CameraModel& camera, int index) {
     return table_frame(kTable, camera, 62, index, 30, 30, 0.1 * index);
 }
@@ -98,8 +98,8 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     }
 }
 
-// A fix of the whole image belongs to only one of the two sheets, but `stitch_sheets` must also
-// find the other sheet.
+// A fix computed from the whole image belongs to only one of the two sheets, but `stitch_sheets`
+// must also find the other sheet.
 TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
     CameraModel model = wide_camera();
     model.width_px = 1000;

@@ -44,7 +44,7 @@ class ImageFileTest : public testing::Test {
     }
     GreyImage read(const Bytes& bytes) const { return read_image(write(bytes)); }
 
-    /// Returns the message of the Error, or "" if there was none.
+    /// Returns the message of the Error that `read_image` throws, or "" if it throws none.
     static std::string error_of(const std::filesystem::path& path) {
         try {
             read_image(path);
@@ -158,7 +158,7 @@ TEST_F(ImageFileTest, reads_the_pages_of_tiff) {
     EXPECT_EQ(count_pages(write(text(loop))), 2);
 }
 
-/// Returns the level of each block of 8 x 8 px. All pixels of a block must be equal.
+/// Returns the level of each block of 8 x 8 px. All pixels in a block must be equal.
 Bytes block_levels(const GreyImage& image) {
     Bytes levels;
     for (int v = 0; v < image.height_px; ++v) {
@@ -178,8 +178,8 @@ TEST_F(ImageFileTest, reads_jpeg) {
     EXPECT_EQ(block_levels(grey), kGreyLevels);
     const Raster colour{3, 1, 3, 8, {0, 128, 128, 90, 128, 128, 255, 128, 128}};
     EXPECT_THAT(block_levels(read(encode_jpeg(colour))), ElementsAre(0, 90, 255));
-    // The values are stored inverted, so 255 means no ink. The pixels have no ink, full black,
-    // partial black, and full cyan, magenta and yellow.
+    // The values are stored inverted, so 255 means no ink. The inks of the four pixels are: none,
+    // full black, partial black, and full cyan, magenta and yellow.
     const Raster cmyk{4,
                       1,
                       4,
@@ -395,7 +395,7 @@ TEST_F(ImageFileTest, survives_random_damage) {
         int refused = 0;
         for (int round = 0; round < kRounds; ++round) {
             Bytes bytes = sample.bytes;
-            // Every second round damages only the first 200 bytes, which contain the headers, where
+            // Every other round damages only the first 200 bytes, which contain the headers, where
             // damage has the largest effect.
             const std::size_t reach = round % 2 == 0 ? bytes.size() : std::size_t{200};
             for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips) {

@@ -52,7 +52,8 @@ TEST(BmpKinds, HaveFieldsOfBits) {
     EXPECT_THAT(pixels_of(bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
                                          {0xFFFF0000, 0x80000000})),
                 ElementsAre(76, 127));
-    // These pixels consist of five, six and five bits: white, and pure green.
+    // These pixels have five bits for red, six for green and five for blue. They are white and pure
+    // green.
     EXPECT_THAT(pixels_of(bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
                 ElementsAre(255, 150));
     // The file has no masks, so the fourth byte of a pixel is ignored.
@@ -66,7 +67,7 @@ TEST(BmpKinds, StartAtTheTopWhenTheHeightIsNegative) {
 }
 
 TEST(BmpKinds, HaveFewBitsAndTheHeaderOfOs2) {
-    // This image has 3 x 1 px, and two colours of three bytes each: blue and white.
+    // This image has 3 x 1 px, and a palette with two colours of three bytes each: blue and white.
     const Bytes file = Writer(false)
                            .text("BM")
                            .integers(4, {0, 0, 14 + 12 + 6, 12})

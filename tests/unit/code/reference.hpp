@@ -102,7 +102,7 @@ struct Grid {
     friend bool operator==(const Grid&, const Grid&) = default;
 };
 
-/// Displacement of a dot from its intersection, to the right and down (table of
+/// Displacement of a dot from its intersection, to the right and down (see the table in
 /// docs/position-code.md).
 struct Displacement {
     int right = 0;

@@ -1,5 +1,5 @@
-// Tests by enumeration the properties of the sequences that dotpose relies on. They are documented
-// in docs/position-code.md.
+// Uses enumeration to test the properties of the sequences that dotpose relies on. They are
+// documented in docs/position-code.md.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -31,7 +31,7 @@ Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bo
     return most;
 }
 
-/// Returns the minimum number of unshared lines between `place` and any other place of the
+/// Returns the minimum number of unshared lines between `place` and any other place in the
 /// sequence, computed in two ways. For the first number, all lines have the same shift. For the
 /// second number, the shift may change once, at a border between two lines.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {

@@ -10,8 +10,8 @@
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-#ifndef __SANITIZE_ADDRESS__  // AddressSanitizer replaces operator new and must see the allocations
-                              // of the tests
+// AddressSanitizer replaces operator new and must see the allocations made by the tests.
+#ifndef __SANITIZE_ADDRESS__
 
 namespace {
 thread_local int allocations = 0;

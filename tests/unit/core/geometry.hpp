@@ -54,7 +54,7 @@ inline DetectedDot dot_at(Vec2 centre_px, int mass = 500, int area_px = 9) {
             static_cast<std::uint16_t>(area_px)};
 }
 
-/// A grid in the image, in px: intersection (i, j) at origin + i u + j v.
+/// A grid in the image, in px. Intersection (i, j) is at origin + i u + j v.
 struct Mesh {
     Vec2 u;
     Vec2 v;
@@ -155,7 +155,7 @@ struct View {
     }
 };
 
-/// Returns all dots of the view, in the order of pattern rows.
+/// Returns all dots in the view, ordered by pattern row.
 inline std::vector<PlacedDot> pattern_dots(const View& view) {
     const auto displacement = [&](int i, int j) -> Vec2 {
         const Place at = moved(view.code, view.place, i, j);

@@ -5,8 +5,8 @@
 
 namespace dotpose::core_test {
 
-/// Returns the pattern point of an image point according to the formula of PlaneFromImage, in
-/// double precision.
+/// Returns the pattern point that an image point shows, computed in double precision with the
+/// formula in PlaneFromImage.
 inline Vec2 formula(const PlaneFromImage& plane, Vec2 p) {
     const Vec2 r = p - real(plane.centre_q8, 8);
     const Vec2 perspective = real(plane.perspective_q30, 30);

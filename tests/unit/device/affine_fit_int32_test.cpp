@@ -216,7 +216,8 @@ TEST(AffineFitInt32, PointsOnALineDetermineNothing) {
         for (int k = -40; k <= 40; ++k) {
             const FixedVec cell = fixed(k / 4.0 * along, 0);
             on_line.push_back({fixed(3.0 * k * along, 3), cell});
-            // The width of the second set of points is an eighth of its length.
+            // The points of the second set are on both sides of the line. The set is an eighth as
+            // wide as it is long.
             beside.push_back({fixed(3.0 * k * along + (k % 2 == 0 ? 15 : -15) * across, 3), cell});
         }
         PlaneFromImage plane;

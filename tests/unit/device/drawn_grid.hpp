@@ -21,7 +21,7 @@ struct Drawing {
     double missing = 0;  ///< probability that a cell is missing
 };
 
-/// A grid that contains the bits of a rectangle of a known sheet.
+/// A grid that contains the bits in a rectangle on a known sheet.
 class DrawnGrid {
   public:
     /// The upper left cell of the rectangle is at `at`.

@@ -188,8 +188,8 @@ TEST_F(MouseSensor, DesktopsLocateTheSameFramesWithTheEffortOfDevices) {
     Locator desktop(as_device);
     ASSERT_EQ(desktop.set_known({&kSheet, 1}, OtherSheets::impossible), Status::ok);
     for (std::uint64_t i = 0; i < 20; ++i) {
-        // The frames have fewer dots than the device memory has seeds, so device and desktop use
-        // the same seeds.
+        // The frames contain fewer dots than the device can store as seeds, so the device and the
+        // desktop use the same seeds.
         const GreyImage image = render(shot_on(kSheet, 36, 6.5, i));
         const Fix fix = fresh(image, 36);
         const Fix on_desktop = desktop.locate(image.view());

@@ -68,7 +68,7 @@ TEST(FindOnSheets, FindsNoOtherPlaces) {
         const DrawnGrid drawn(elsewhere, place_on(elsewhere, rng), {.columns = 7, .rows = 7}, rng);
         EXPECT_FALSE(find(drawn, CodeVariant::anoto, 4));
     }
-    // These searches use other code variants than that of the sheet.
+    // These searches use code variants other than that of the sheet.
     const DrawnGrid drawn(kSheets[2], place_on(kSheets[2], rng), {.columns = 7, .rows = 7}, rng);
     EXPECT_FALSE(find(drawn, CodeVariant::microdots, 4));
     EXPECT_FALSE(find(drawn, CodeVariant::libdots, -1));

@@ -1,4 +1,4 @@
-// Tests that the tracked attempt of devices confirms correct predictions and refuses wrong
+// Tests that the tracked attempt on devices confirms correct predictions and refuses wrong
 // predictions.
 #include "device/tracked.hpp"
 
@@ -44,7 +44,7 @@ bool is_right(const Fix& fix, const Shot& shot) {
 
 class DeviceTracked : public testing::Test {
   protected:
-    /// Locates an image with the tracked attempt of devices only.
+    /// Locates an image using only the tracked attempt on the device.
     Fix tracked(const GreyImage& image, const Prediction& prediction) {
         static_cast<void>(locator_.begin(image.width_px, image.height_px, prediction));
         for (int v = 0; v < image.height_px; ++v)

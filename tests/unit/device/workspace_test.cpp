@@ -21,7 +21,7 @@ template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
     static constexpr int kHeight_px = Height;
-    /// A fix must use more dots than this. The dots are 11 px apart.
+    /// The number of dots used in a fix must be greater than this. The dots are 11 px apart.
     static constexpr int kMinDots = MinDots;
     /// log2 of the maximum probability of a wrong position. It is larger for the smallest frames
     /// because they have too few dots for the default maximum.

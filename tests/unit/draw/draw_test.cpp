@@ -77,7 +77,7 @@ struct Mark {
     char letter = ' ';
 };
 
-/// Returns the centres of circles, in pixels of the image.
+/// Returns the centres of the circles, in pixel coordinates of the image.
 std::vector<Mark> circles(const std::string& text, const GreyImage& image) {
     const double scale = 1200.0 / std::max(image.width_px, image.height_px);
     std::vector<Mark> marks;
@@ -94,7 +94,7 @@ std::vector<Mark> circles(const std::string& text, const GreyImage& image) {
     return marks;
 }
 
-/// Returns the letters and their positions, in pixels of the image.
+/// Returns the letters and their positions, in pixel coordinates of the image.
 std::vector<Mark> letters(const std::string& text, const GreyImage& image) {
     const double scale = 1200.0 / std::max(image.width_px, image.height_px);
     std::vector<Mark> marks;

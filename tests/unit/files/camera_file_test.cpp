@@ -1,4 +1,4 @@
-// Tests camera files: their keys, errors and geometry, and camera_info files of ROS.
+// Tests camera files: their keys, errors and geometry, and ROS camera_info files.
 #include "dotpose/files/camera_file.hpp"
 
 #include <cmath>
@@ -244,8 +244,8 @@ rectification_matrix:
   data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
 )";
 
-/// Returns the pixel at which the camera of kRos sees the point (x, y, 1), with OpenCV's lens
-/// model.
+/// Returns the pixel at which the camera described by kRos sees the point (x, y, 1), with OpenCV's
+/// lens model.
 PixelPoint seen_by_ros(double x, double y) {
     const double r2 = x * x + y * y;
     const double radial = 1 - 0.25 * r2 + 0.1 * r2 * r2;
@@ -387,7 +387,7 @@ TEST(UseCamera, SetsLensAndReferenceForItsOwnSizeOnly) {
     EXPECT_THROW(use_camera(camera, 189, 120, options), BadArgument);
 }
 
-// If only part of the image is read, each pixel still shows the same point of the paper, and the
+// If only part of the image is read, each pixel still shows the same point on the paper, and the
 // reference point and the heading remain the same.
 TEST(PartOf, SeesTheSamePaper) {
     Camera camera;

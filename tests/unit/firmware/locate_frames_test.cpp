@@ -58,7 +58,7 @@ GreyImage frame(Preset preset, std::uint64_t index, int width_px = 188, int heig
     return render(draw_shot(setup, index));
 }
 
-/// Returns the expected output line of a frame, computed by `locate` from the whole image.
+/// Returns the expected output line for a frame, computed by `locate` from the whole image.
 std::string expected_line(const GreyImage& image) {
     const auto memory = std::make_unique<DeviceMemory>();
     const Fix fix = DeviceLocator(*memory).locate(image.view());

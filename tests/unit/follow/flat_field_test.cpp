@@ -1,4 +1,4 @@
-// Tests the correction of images by the flat field of a camera file.
+// Tests the correction of images with the flat field in a camera file.
 #include "dotpose/tools/flat_field.hpp"
 
 #include <array>
@@ -46,7 +46,7 @@ TEST(FlatField, BelongsToOneSizeOfImages) {
     EXPECT_THROW(correction.corrected(image.view()), BadArgument);
 }
 
-/// Returns the number of frames of an optical mouse sensor that are located on a known sheet.
+/// Returns the number of frames from an optical mouse sensor that are located on a known sheet.
 int located_frames(const FollowerOptions& options) {
     Setup setup;
     setup.preset = Preset::mouse;

@@ -199,7 +199,8 @@ TEST(Follower, LargeImagesAreReduced) {
     EXPECT_NEAR(located.fix.x_grid() - shot.pose.cell.x, shot.pose.fraction_x, 0.05);
 }
 
-/// Returns the fixes of a frame located alone and in a sequence.
+/// Returns two fixes of the same frame. The first comes from `locate`, and the second from
+/// `follow`.
 std::vector<Fix> both_fixes(const FollowerOptions& options, const GreyImage& image) {
     return {Follower(options).locate(image).fix,
             Follower(options).follow(image.view(), 0).located.fix};

@@ -10,7 +10,7 @@
 namespace dotpose::test {
 namespace {
 
-/// Side of the page. The page is so small that each dot is in several of the kFrames frames.
+/// Side length of the page. The page is so small that each dot is in several of the kFrames frames.
 constexpr double kSide_mm = 30;
 constexpr int kFrames = 100;
 
@@ -143,8 +143,8 @@ TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
 }
 
 /// The tracked attempt measures dots in windows at their nominal positions, which would pull the
-/// centres of dots with jitter towards these positions. Fixes of a sequence must be as accurate as
-/// those of single images.
+/// centres of dots with jitter towards these positions. Fixes in a sequence must be as accurate as
+/// fixes from single images.
 TEST_F(PrintMapping, FollowsAsExactlyAsItLocates) {
     FollowerOptions options;
     options.sheets = {print_->entry()};

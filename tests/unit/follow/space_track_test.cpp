@@ -1,4 +1,4 @@
-// Tests the tracker of a camera in space with simulated sightings of a known motion.
+// Tests the tracker for a camera in space with simulated sightings of a known motion.
 #include "dotpose/tools/space_track.hpp"
 
 #include <algorithm>

@@ -246,7 +246,8 @@ TEST(PosePacket, RefusesValuesThatNoPoseHas) {
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.code = static_cast<CodeVariant>(3); }));
 }
 
-// A sender may be newer than its receiver, and send statuses that the receiver does not know.
+// A sender may be newer than its receiver, and may send statuses that do not exist in the
+// receiver's version.
 TEST(PosePacket, StatusesOfNewerVersionsAreOther) {
     for (const int number : {kStatusCount, 100, 254, 255}) {
         PosePacket packet = typical();

@@ -1,4 +1,4 @@
-// Tests fixes of frames whose code variant is not given. The fixes must equal those of the same
+// Tests fixes from frames whose code variant is not given. The fixes must equal those from the same
 // frames with the code variant given.
 #include <memory>
 

@@ -11,10 +11,10 @@ namespace dotpose {
 namespace {
 
 constexpr Cell kPlace{1000, 2000};
-/// Maximum rounding error of the evidence of a place, as log2 with 8 fractional bits. Evidence is
-/// rounded down.
+/// Maximum rounding error of the evidence from one place, as log2 with 8 fractional bits. Evidence
+/// is rounded down.
 constexpr int kRounding = 24;
-/// Returns the log odds of a frame that makes `code` less likely by `log2` bits.
+/// Returns the log odds from a frame that makes `code` less likely by `log2` bits.
 CodeEvidence::LogOdds against(CodeVariant code, int log2) {
     CodeEvidence::LogOdds odds{};
     odds[static_cast<std::size_t>(code)] = -256 * log2;

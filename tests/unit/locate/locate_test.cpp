@@ -58,8 +58,8 @@ Fix pushed(const GreyImage& image, AnyLocator&& locator) {
     for (int v = 0; v < image.height_px; ++v) {
         std::copy_n(image.view().row(v), image.width_px, row.begin());
         locator.push_row(row.data());
-        std::fill(row.begin(), row.end(),
-                  std::uint8_t{0});  // the locator must not need the pixels afterwards
+        // The locator must not need the pixels after `push_row`.
+        std::fill(row.begin(), row.end(), std::uint8_t{0});
     }
     return locator.finish();
 }
@@ -315,8 +315,8 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
             const Fix fix = Locator(memory, options).locate(frame.view());
             ASSERT_EQ(fix.status, Status::ok);
-            // Pattern point of the pixel according to the camera model, in spacings from the true
-            // pose.
+            // Pattern point that the pixel shows according to the camera model, in spacings from
+            // the true pose.
             const Vec2 pixel = Vec2{93.5, 59.5} + offset;
             const Vec2 from_pose = 1 / kDefaultSpacing_mm *
                                    Projection(shot.camera, shot.pose).offset_from_pixel(pixel);

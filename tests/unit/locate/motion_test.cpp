@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint64_t kSeed = 7171;
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
 
-/// Returns the shot of a camera that has moved. The motion is a displacement in mm, along the axes
-/// of the image of `shot`, and a rotation. The noise and the light differ from those of `shot`.
+/// Returns the shot that is taken after `motion`: a displacement in mm, along the image axes of
+/// `shot`, and a rotation. The noise and the light differ from those of `shot`.
 Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
     Shot next = shot;
     CameraPose& pose = next.pose;

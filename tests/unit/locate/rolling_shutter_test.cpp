@@ -1,5 +1,5 @@
-// Tests the first attempt on frames of a rolling shutter, in which the scene moves while the rows
-// are read.
+// Tests the first attempt on frames from a rolling-shutter camera, in which the scene moves while
+// the rows are read.
 #include <algorithm>
 #include <array>
 #include <cmath>

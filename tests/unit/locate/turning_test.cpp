@@ -1,5 +1,5 @@
-// Tests frames of a rolling shutter whose scene turns while the rows are read: single frames, and
-// drives with predictions from the last fix.
+// Tests frames from a rolling-shutter camera whose scene turns while the rows are read: single
+// frames, and drives with predictions from the last fix.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -35,8 +35,8 @@ Shot turned_shot(const ShotSize& size, double turn_deg, Vec2 motion, int index) 
 
 struct Counts {
     int located = 0;
-    double squares = 0;  ///< sum of the squared errors of x and y over all located frames,
-                         ///< each divided by its variance
+    /// Sum of the squared errors of x and y over all located frames, each divided by its variance.
+    double squares = 0;
 };
 
 Counts locate_turned(const ShotSize& size, double turn_deg, Vec2 motion, int frames) {

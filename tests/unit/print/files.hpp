@@ -1,4 +1,4 @@
-/// Helpers of the print tests: temporary directories, and readers that share no code with the
+/// Helpers for the print tests: temporary directories, and readers that share no code with the
 /// writers under test.
 #pragma once
 

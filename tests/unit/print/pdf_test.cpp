@@ -65,7 +65,7 @@ TEST(labels, say_what_is_on_the_page) {
     EXPECT_THAT(content, Not(HasSubstr("(90) Tj")));
 }
 
-/// The positions of all ticks and numbers of a ruler, in mm from the corner of the page.
+/// The positions of all ticks and numbers on a ruler, in mm from the corner of the page.
 struct Marks {
     std::vector<double> ticks_x_mm;  ///< ticks of the ruler above the dots
     std::vector<double> ticks_y_mm;  ///< ticks of the ruler beside the dots
@@ -171,8 +171,8 @@ TEST(labels, stay_clear_of_the_dots) {
 TEST(labels, are_left_out_where_there_is_no_room) {
     const Sheet sheet = make_sheet(small_page(2));
     EXPECT_THAT(content_of_labels(sheet, {1, 1}, named()), Not(HasSubstr("Tj")));
-    const Sheet wider = make_sheet(small_page(5));  // with room for a single line of text, which
-                                                    // omits the command
+    // This page has room for a single line of text, which omits the command.
+    const Sheet wider = make_sheet(small_page(5));
     const std::string content = content_of_labels(wider, {1, 1}, named());
     EXPECT_THAT(content, HasSubstr("page 1 of 1"));
     EXPECT_THAT(content, Not(HasSubstr("dotpose print")));

@@ -25,8 +25,8 @@ TEST(regions, begin_a_new_line_below_the_highest_of_the_last) {
 
 TEST(make_sheets, gives_every_page_cells_of_its_own) {
     SheetOptions options;
-    options.origin = {kPositionsPerAxis - 1000,
-                      5};  // room for two regions of 394 columns side by side
+    // There is room for two regions of 394 columns side by side.
+    options.origin = {kPositionsPerAxis - 1000, 5};
     const std::vector<Sheet> sheets = make_sheets(options, 5);
     ASSERT_EQ(sheets.size(), 5U);
     for (std::size_t a = 0; a < sheets.size(); ++a) {
@@ -50,8 +50,8 @@ TEST(make_sheets, refuses_counts_and_regions_that_do_not_exist) {
     SheetOptions options;
     EXPECT_THROW(make_sheets(options, 0), BadArgument);
     EXPECT_THROW(make_sheets(options, kMaxPages + 1), BadArgument);
-    options.origin = {kPositionsPerAxis - 394,
-                      kPositionsPerAxis - 2 * 565};  // room for two regions
+    // There is room for two regions.
+    options.origin = {kPositionsPerAxis - 394, kPositionsPerAxis - 2 * 565};
     EXPECT_EQ(make_sheets(options, 2).size(), 2U);
     EXPECT_THROW(make_sheets(options, 3), BadArgument);
 }

@@ -61,8 +61,8 @@ TEST(make_sheet, keeps_the_margin_and_wastes_less_than_a_cell) {
             for (const double free : {left, right, top, bottom}) {
                 EXPECT_GE(free, margin_mm - 1e-6) << margin_mm << " " << spacing_mm;
             }
-            // Because intersections are moved to whole pixels of the printer, the first dot may be
-            // up to one pixel farther from the edge.
+            // The first intersection is moved to the centre of a printer pixel, away from the edge,
+            // so the first dot may be up to one pixel farther from the edge.
             EXPECT_LE(left, margin_mm + 25.4 / 300) << margin_mm << " " << spacing_mm;
             EXPECT_LE(top, margin_mm + 25.4 / 300) << margin_mm << " " << spacing_mm;
             EXPECT_LT(right, margin_mm + spacing_mm) << margin_mm << " " << spacing_mm;

@@ -51,7 +51,7 @@ struct Located {
         overlay = overlay_of(image.view(), locator.trace());
     }
 
-    /// Returns the pattern point at a point of the overlay, in spacings from the cell of the pose.
+    /// Returns the pattern point at a point on the overlay, in spacings from the cell of the pose.
     Vec2 pattern_point(draw::Point point) const {
         const Vec2 offset_mm =
             Projection(shot.camera, shot.pose).offset_from_pixel({point.x - 0.5, point.y - 0.5});

@@ -168,8 +168,8 @@ TEST(Dot, BlurAndMotionWidenItAsTheyShould) {
     seen.blur_sigma_px = 0.8;
     seen.motion_px = {1.8, 0};
     const Darkness dot = measure(exact_levels(one_dot_page(), camera, pose, seen), 188, 200);
-    // The variance of the image of a dot is the sum of the variances of the disc (r^2 / 4), of the
-    // lens (sigma^2), of the pixel (1/12) and of the motion (length^2 / 12).
+    // The variance of a dot's image is the sum of the variances of the disc (r^2 / 4), the lens
+    // (sigma^2), the pixel (1/12) and the motion (length^2 / 12).
     const double still = radius_px * radius_px / 4 + 0.64 + 1.0 / 12;
     EXPECT_NEAR(dot.variance_v, still, 0.005);
     EXPECT_NEAR(dot.variance_u, still + 1.8 * 1.8 / 12, 0.01);

@@ -1,4 +1,4 @@
-// Tests whole frames: noise statistics, repeatability, presets, edges of pages, and refusals.
+// Tests whole frames: noise statistics, repeatability, presets, page edges, and refusals.
 #include <algorithm>
 #include <string>
 #include <thread>
@@ -118,7 +118,7 @@ TEST(Frame, PaperTextureHasItsDeviation) {
     EXPECT_NEAR(std::sqrt(square / count - mean * mean) / mean, 0.05, 0.002);
 }
 
-// A grain of the paper must have the same level in a large frame and in a frame of one pixel.
+// A grain in the paper must have the same level in a large frame and in a frame of one pixel.
 TEST(Frame, PaperTextureBelongsToThePage) {
     Imperfections seen;
     seen.texture = 0.05;

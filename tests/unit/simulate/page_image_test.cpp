@@ -12,11 +12,11 @@ namespace {
 
 constexpr double kPageWidth_mm = 14;
 constexpr double kPageHeight_mm = 12;
-constexpr double kFirst_mm =
-    1.3;  // position of the first intersection, from the left and from the top edge
+/// Distance of the first intersection from the left edge and from the top edge.
+constexpr double kFirst_mm = 1.3;
 
-/// Returns a page with discs of solid ink. Paints them with 4 x 4 samples per pixel, without code
-/// of src/simulate.
+/// Returns a page with discs of solid ink, painted with 4 x 4 samples per pixel. Does not use code
+/// from src/simulate.
 GreyImage painted(const Page& page, double mm_per_px) {
     GreyImage image;
     image.width_px = static_cast<int>(kPageWidth_mm / mm_per_px);

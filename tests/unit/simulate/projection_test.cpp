@@ -84,7 +84,7 @@ TEST(Projection, ATurningSceneIsSeenInEachRowAtTheAngleOfItsTime) {
             const Vec2 offset_mm{kMm * still_px.x, kMm * still_px.y};
             const Vec2 seen = pixel(rolling, {}, offset_mm);
             const double time = (seen.y - kCentreV) / 120;
-            // The scene turns about a fixed point c of the image, at which the motion and the
+            // The scene turns about a fixed point c in the image, at which the motion and the
             // effect of the rotation cancel. In complex numbers, 10 + 6 i + i turn c = 0.
             const std::complex<double> i(0, 1);
             const std::complex<double> c = std::complex(10.0, 6.0) * i / radians(turn_deg);

@@ -233,8 +233,8 @@ TEST(Filter, DoesNotTrustErrorsThatAllSightingsShare) {
     EXPECT_GT(errors.normalised, 0.3);
 }
 
-/// Returns a tracker of a robot that has been at rest at x = 0 for a second. The errors of its
-/// sightings are 1 µm.
+/// Returns a tracker for a robot that has been at rest at x = 0 for a second. The sightings have
+/// errors of 1 µm.
 Tracker standing(Rng& rng) {
     Tracker tracker;
     for (int frame = 0; frame < 200; ++frame) {

@@ -32,7 +32,7 @@ class Device {
   public:
     explicit Device(const PacerOptions& options = {}) : pacer_(options) {}
 
-    /// Takes frames until `time_us`. `fix_at` returns the fix of a frame at a given time.
+    /// Takes frames until `time_us`. `fix_at` returns the fix for a frame at a given time.
     template <typename FixAt>
     void run_until(std::int64_t time_us, FixAt fix_at) {
         while (next_us_ < time_us) {

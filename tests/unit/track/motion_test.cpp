@@ -49,8 +49,8 @@ Sighting sighting_at(std::int64_t time_us, bool is_y_up, Rng& rng) {
     return sighting;
 }
 
-/// Returns the measured motion of one frame, with normally distributed errors. The displacement is
-/// along the axes of the robot before the motion.
+/// Returns the measured motion during one frame period, with normally distributed errors. The
+/// displacement is along the axes of the robot before the motion.
 MeasuredMotion odometry_until(std::int64_t time_us, bool is_y_up, Rng& rng) {
     constexpr double kSigma_mm = 0.01;
     constexpr double kSigma_rad = 0.0005;

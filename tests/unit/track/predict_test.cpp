@@ -29,7 +29,7 @@ struct Pose {
     double theta_rad = 0;
 };
 
-/// Returns the fix that `locate` gives for an image of 188 x 120 px with 11 px per spacing.
+/// Returns the fix that `locate` returns for an image of 188 x 120 px with 11 px per spacing.
 Fix fix_at(const Pose& pose) {
     constexpr double kSpacing_px = 11;
     Fix fix;

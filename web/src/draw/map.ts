@@ -17,7 +17,7 @@ export interface MapContent {
     /** Parts of the path without gaps. */
     strokes: readonly (readonly Point_mm[])[];
     now: Point_mm | null;
-    /** Direction of the x axis of the camera, from +x towards +y. Null if it is not drawn. */
+    /** Direction of the camera's x axis, from +x towards +y. Null if it is not drawn. */
     heading_rad: number | null;
     /** Corners of the camera's field of view. */
     view: readonly Point_mm[];
@@ -32,7 +32,7 @@ export interface MapFrame {
     top_mm: number;
 }
 
-/** Returns the page of a layout, in coordinates of the page. */
+/** Returns the page with a layout, in page coordinates. */
 export function paperOf(layout: SheetLayout): Paper {
     const { width_mm: x_mm, height_mm: y_mm } = layout;
     return { name: "", corners: [{ x_mm: 0, y_mm: 0 }, { x_mm, y_mm: 0 }, { x_mm, y_mm }, { x_mm: 0, y_mm }], layout };
@@ -55,7 +55,7 @@ function frameOf(content: MapContent, width: number, height: number): MapFrame {
     };
 }
 
-/** Converts a point of the plane to px on the canvas. */
+/** Converts a point on the plane to canvas coordinates, in px. */
 export type ToCanvas = (point: Point_mm) => [number, number];
 
 function trace(context: CanvasRenderingContext2D, points: readonly Point_mm[], at: ToCanvas): void {

@@ -51,7 +51,7 @@ export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
 }
 
 /**
- * Cached colours of the style sheet by name, for the light and the dark scheme. Reading a colour from the style sheet
+ * Cached colours from the style sheet by name, for the light and the dark scheme. Reading a colour from the style sheet
  * takes as long as drawing a shape.
  */
 const colours = [new Map<string, string>(), new Map<string, string>()] as const;

@@ -1,5 +1,5 @@
-// Finds the symbols of the code in view. A block of symbols around the view is cached, so small motions of the camera
-// require no new symbols.
+// Finds the symbols of the code in view. A block of symbols around the view is cached, so small camera motions do not
+// require new symbols.
 import { patternBits, patternFromImage, type Cell, type Code, type Fix } from "dotpose";
 import { kPositions } from "../page/sheet_frame.js";
 import type { CellsInView } from "./messages.js";
@@ -18,7 +18,8 @@ interface Range {
     rows: number;
 }
 
-/** Returns the cells in the view of a fix, or null if there are too many cells to draw. */
+/** Returns the cells that are visible in the frame of a fix, or null if there are too many cells to
+/** draw. */
 function rangeInView(fix: Fix, width: number, height: number): Range | null {
     const corners = [0, width - 1].flatMap((u) =>
         [0, height - 1].map((v) => patternFromImage(fix, u, v)),
@@ -46,7 +47,8 @@ async function fetchBlock(range: Range, code: Code, fix: Fix, key: string): Prom
     return { key, first, columns, rows, symbols };
 }
 
-/** Returns the symbols of the code in the view of a fix, or null if there are none to draw. */
+/** Returns the code symbols that are visible in the frame of a fix, or null if there are none to
+/** draw. */
 export async function cellsInView(fix: Fix, width: number, height: number): Promise<CellsInView | null> {
     if (!fix.ok || !(fix.spacing_mm > 0)) return null;
     const range = rangeInView(fix, width, height);

@@ -10,7 +10,7 @@ import type {
     SimulatedView,
 } from "./messages.js";
 
-/** Events of a stream of camera frames. */
+/** Events from a stream of camera frames. */
 export interface StreamEvents {
     onFrame(reading: Reading, path: LumaPath): void;
     onEnd(message: string): void;

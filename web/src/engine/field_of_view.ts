@@ -14,8 +14,8 @@ export function cornersOf(fix: Fix, width_px: number, height_px: number): Point_
 }
 
 /**
- * Converts points of the pattern to points of the page. Returns them unchanged if the sheet is
- * unknown.
+ * Converts points from pattern coordinates to page coordinates. Returns them unchanged if the sheet
+ * is unknown.
  */
 export function onPage(sheet: SheetLayout | null, points: readonly Point_mm[]): Point_mm[] {
     return points.map((point) => (sheet ? pageFromPattern(sheet, point) : point));

@@ -15,7 +15,7 @@ export interface PageCamera {
     centre_px: readonly [number, number];
 }
 
-/** Options of the locator that the page sets. */
+/** Locator options that the page sets. */
 export interface ReadOptions extends Pick<LocatorOptions, "code" | "sheets" | "only_sheets"> {
     /** The camera for which the pose in space is computed. It is ignored for images of another size. */
     camera?: PageCamera | null;
@@ -50,7 +50,7 @@ export interface SimulatedView {
     width_px: number;
     height_px: number;
     mm_per_px: number;
-    /** Point of the page at the image centre, measured from the upper left corner of the page. */
+    /** Point on the page at the image centre, measured from the upper left corner of the page. */
     x_mm: number;
     y_mm: number;
     theta_rad: number;

@@ -8,7 +8,7 @@ import type { CellsInView, Reading } from "./messages.js";
 const kDisplacement = 1 / 6;
 
 /**
- * Converts the pattern point (x, y), in spacings, to a point of the frame, in px from its upper left corner. In image
+ * Converts the pattern point (x, y), in spacings, to a point in the frame, in px from its upper left corner. In image
  * coordinates, (0, 0) is the centre of the first pixel, which is at (0.5, 0.5) in the frame.
  */
 function pixelOf({ fix }: Reading, x: number, y: number): Pixel {

@@ -27,7 +27,7 @@ const kPrint = { jitter_mm: 0.01, ink_variation: 0.03, missing: 0.002, texture: 
 /** Distance of the projection centre from the paper, relative to the width of the view. */
 const kDistancePerWidth = 2;
 
-/** Returns a frame of the simulated camera. */
+/** Returns a frame from the simulated camera. */
 export async function render(sheet: SheetChoice, view: SimulatedView): Promise<Image> {
     const layout = await layoutOf(sheet);
     const { width_px, height_px, mm_per_px, theta_rad, tilt_x_rad, tilt_y_rad } = view;

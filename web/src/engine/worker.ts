@@ -13,11 +13,11 @@ const port = self as unknown as {
     onmessage: ((event: MessageEvent<Request>) => void) | null;
 };
 
-/** The locator of the newest reading, with its options as the key. */
+/** The locator used for the newest reading, with its options as the key. */
 let current: { key: string; locator: Promise<Locator> } | undefined;
 let previous: Fix | null = null;
 
-/** Returns the options of a locator for images of this size. */
+/** Returns the locator options for images of this size. */
 function locatorOptions({ camera, ...options }: ReadOptions, width: number, height: number): LocatorOptions {
     if (!camera || !fitsCamera(camera, width, height)) return options;
     if (!camera.size_px) return { ...options, space: { focal_px: camera.focal_px } };

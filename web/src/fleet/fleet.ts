@@ -1,4 +1,4 @@
-// The page of `dotpose fleet --web`, which shows all robots of a broker, live.
+// The page of `dotpose fleet --web`, which shows all robots that publish to a broker, live.
 import { Connection, type Request, type Value } from "../live/connection.js";
 import { announcer, element, show } from "../page/dom.js";
 import { HistoryPanel } from "./history.js";
@@ -25,7 +25,7 @@ const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_
 const table = new RobotTable(connection, (id) => panel.choose(id, true));
 const fleet_map = new FleetMap(connection, (id) => panel.choose(id));
 const history = new HistoryPanel(connection, (tracks) => fleet_map.takeTracks(tracks));
-/** True while waiting for the device of `dotpose listen`, its only robot. The page chooses it as soon as it appears. */
+/** True while the page waits for the only robot of `dotpose listen`. The page chooses it as soon as it appears. */
 let awaits_device = false;
 const summary = new SummaryView(announce, (state) => {
     table.showOnly(state);

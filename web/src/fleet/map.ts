@@ -138,7 +138,7 @@ export class FleetMap {
         this.#maps.value = this.#map;
     }
 
-    /** Chooses the map of the sheet file, or else the one with the most robots. */
+    /** Chooses the sheet file's map or, if there is none, the map with the most robots. */
     #chooseMap(): void {
         const name = this.#setup?.map || this.#known[0]?.name;
         if (this.#map === "" && name) this.showMap(name);
@@ -148,7 +148,7 @@ export class FleetMap {
         return this.#setup !== null && this.#setup.map === this.#map ? this.#setup.sheets : [];
     }
 
-    /** Returns the bounds of the robots and of the sheets that touch the bounds of the robots. Without robots,
+    /** Returns the bounds of the robots and of all sheets that touch the robots' bounds. If there are no robots,
      * returns the bounds of all sheets. */
     #content(): Bounds_mm | null {
         const known = this.#known.find(({ name }) => name === this.#map);
@@ -226,7 +226,7 @@ export class FleetMap {
         });
     }
 
-    /** Returns the number of the robot nearest to a point of the canvas, or null if no robot is near. */
+    /** Returns the number of the robot nearest to a point on the canvas, or null if no robot is near. */
     #nearest(x: number, y: number): number | null {
         const positions = this.#positions;
         let [nearest, distance] = [null as number | null, kNear_px];

@@ -44,12 +44,12 @@ export class MarkPixels {
     #ground = new Uint32Array(0);
     #image: ImageData | null = null;
     #pixels = new Uint32Array(0);
-    /** The marks of the conditions and of the headings, and the square for unknown robots. */
+    /** The marks for each condition and each heading, and the square for unknown robots. */
     #marks: Mark[] = [];
     /** Scale, radius and colour for which `#marks` were drawn. */
     #look = "";
 
-    /** Sets the background of the robots. The canvas must be opaque. `scale` is the number of canvas pixels per unit
+    /** Sets the background for the robots. The canvas must be opaque. `scale` is the number of canvas pixels per unit
      * of the viewport. */
     setGround(context: CanvasRenderingContext2D, scale: number, count: number): void {
         const { width, height } = context.canvas;

@@ -1,4 +1,4 @@
-// Values of the topics of `dotpose fleet --web` (docs/fleet.md). apps/dotpose-live/fleet_values.cpp and
+// Values of the topics that `dotpose fleet --web` publishes (docs/fleet.md). apps/dotpose-live/fleet_values.cpp and
 // fleet_map_values.cpp write them.
 
 type Pair = readonly [number, number];
@@ -7,11 +7,11 @@ export const kConditions = ["moving", "still", "lost", "silent", "gone"] as cons
 export type Condition = (typeof kConditions)[number];
 
 export interface Setup {
-    /** Name of the robot of `dotpose listen`. Empty for a fleet. */
+    /** Name of the only robot if the page is served by `dotpose listen`. Empty if it shows a fleet. */
     device: string;
     /** True if the page can read stored states. */
     has_history: boolean;
-    /** Name of the map of the sheet file. Empty without a file. */
+    /** Name of the sheet file's map. Empty if there is no sheet file. */
     map: string;
     sheets: { name: string; corners_mm: Pair[] }[];
     silent_after_s: number;
@@ -140,7 +140,7 @@ interface Head {
     names?: string[];
 }
 
-/** Size of the record of a robot in the topic `positions`. */
+/** Size of a robot's record in the topic `positions`. */
 const kRecordBytes = 16;
 const kHasHeading = 1;
 const kIsUnknown = 2;
@@ -159,7 +159,7 @@ export class Positions {
     constructor(message: Uint8Array<ArrayBuffer>) {
         const { head, end } = headOf(message);
         [this.map, this.count, this.names, this.#origin_mm] = [head.map, head.count, head.names, head.origin_mm];
-        // Copies the records, because the typed arrays require alignment to words.
+        // Copies the records, because the typed arrays require word alignment.
         const records = message.slice(end, end + head.count * kRecordBytes);
         this.#bytes = records;
         this.#words = new Uint32Array(records.buffer);
@@ -199,7 +199,7 @@ export class Positions {
 
 export interface Trails {
     map: string;
-    /** Alternating x and y of each trail, by the number of the robot. */
+    /** Alternating x and y of each trail, by robot number. */
     trails_mm: Map<number, Float64Array>;
 }
 

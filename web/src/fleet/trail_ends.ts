@@ -5,12 +5,13 @@ import type { Positions, Trails } from "./messages.js";
 /** With more robots, only the newest position is kept. The ends are then too short on the screen to appear as
  * curves. */
 const kMaxRobots = 500;
-/** Maximum number of positions in an end. It limits the memory of pages that receive no trails for some time. */
+/** Maximum number of positions in the end of a trail. It limits the memory of pages that receive no trails for some
+ * time. */
 const kMaxPoints = 100;
 
 export class TrailEnds {
     #trails: Trails | null = null;
-    /** Alternating x and y from the end of the trail to the newest position, by the number of the robot. */
+    /** Alternating x and y from the end of the trail to the newest position, by robot number. */
     readonly #ends_mm = new Map<number, number[]>();
 
     get trails(): Trails | null {

@@ -6,7 +6,7 @@ const kMissing = "rgba(213, 60, 40, 0.34)";
 /** Values at the rim of the tilt drawing: the change of the scale for a lens, and the tangent of the tilt for a pen. */
 export const kMaxTilt = 0.15;
 export const kMaxLean = Math.tan((45 * Math.PI) / 180);
-/** Minimum residual that an arrow of maximum length represents. It keeps arrows short that show only noise. */
+/** Minimum residual that an arrow of maximum length represents. Arrows that show only noise therefore stay short. */
 const kMinFullScale_px = 0.05;
 
 /** Marks the parts of the frame that have not shown dots. The frame must be on the canvas. */

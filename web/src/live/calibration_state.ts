@@ -27,7 +27,7 @@ export interface LensCoverage {
     is_taken: boolean;
 }
 
-/** Mean residuals of the parts of the image, in px, as alternating u and v, row by row. */
+/** Mean residual in each part of the image, in px, as alternating u and v, row by row. */
 export interface Residuals {
     columns: number;
     rows: number;
@@ -60,7 +60,7 @@ export interface CalibrationState {
     gauges: Gauge[];
     advice: string;
     lens: LensCoverage | null;
-    /** Whether each direction of a turn, or of the tilts of a pen, has been seen. */
+    /** Whether each direction of a turn, or of a pen's tilts, has been seen. */
     directions: boolean[];
     /** Tilts of a pen. The components are tangents, to the right and down on the sheet. */
     leans: [number, number][];

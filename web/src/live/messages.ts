@@ -1,5 +1,4 @@
-// Values of the topics of `dotpose watch --web` (docs/web.md). apps/dotpose-live/web_view.cpp writes
-// them.
+// Values of the topics that `dotpose watch --web` publishes (docs/web.md). apps/dotpose-live/web_view.cpp writes them.
 import type { DrawnFrame } from "../draw/frame.js";
 import type { Quaternion } from "../page/lean.js";
 
@@ -12,7 +11,7 @@ export interface Setup {
     plane: "world" | "pattern";
     sheets: { name: string; corners_mm: Pair[] }[];
     has_sheet_file: boolean;
-    /** Address of the log of the run, or null. */
+    /** Address of the run's log, or null. */
     log: string | null;
 }
 
@@ -21,7 +20,7 @@ export function sourceText({ source }: Setup): string {
     return source === "-" ? "standard input" : source;
 }
 
-/** The keys of a line of `dotpose watch` (docs/schema/lines-1.json) that the page shows. */
+/** The keys that the page shows from a line printed by `dotpose watch` (docs/schema/lines-1.json). */
 export interface Line {
     frame: number;
     t_s: number;
@@ -42,7 +41,7 @@ export interface Line {
     vx_mm_s?: number | null;
     vy_mm_s?: number | null;
     track_sigma_mm?: number | null;
-    // Keys of `--pose space`.
+    // Keys added by `--pose space`.
     camera_z_mm?: number | null;
     camera_quaternion_xyzw?: Quaternion | null;
     camera_covariance_mm_deg?: number[] | null;

@@ -19,8 +19,9 @@ const kMeasured_ms = 4000;
 class Meter {
     readonly #canvas = new OffscreenCanvas(1, 1);
     /**
-     * Maximum steepness of edges so far. The steepness of a frame is compared with it, to show how far the focus can be
-     * improved. The sharpness is not suitable for this, because noise gives a frame without dots a high sharpness.
+     * Maximum steepness of edges so far. Each frame's steepness is compared with this maximum to show how much the
+     * focus can be improved. The sharpness is not suitable for this, because noise gives a frame without dots a high
+     * sharpness.
      */
     #best = 0;
 

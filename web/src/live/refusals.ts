@@ -38,7 +38,7 @@ export class Refusals {
         return this.#inks.get(reason)!;
     }
 
-    /** Draws one bar per second. The height of a bar is the share of refused frames. */
+    /** Draws one bar per second. The height of a bar is the fraction of refused frames. */
     redraw(): void {
         const { context, width, height } = surfaceOf(this.#canvas);
         const { seconds } = this.#history;

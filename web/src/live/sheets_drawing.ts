@@ -17,7 +17,7 @@ export interface Frame {
     height: number;
 }
 
-/** The robot on a sheet, in coordinates of the page. */
+/** The robot on a sheet, in page coordinates. */
 export interface RobotOnSheet {
     sheet: string;
     x_mm: number;

@@ -4,7 +4,7 @@ import { showAnswer, type SheetCommands } from "./sheets_commands.js";
 import { wrapped_deg } from "./sheets_geometry.js";
 import type { Answer, Sheet } from "./sheets_messages.js";
 
-/** A field with a number of the sheet. A number that the user has typed stays until it is saved. */
+/** An input field for one number of the sheet. A number that the user has typed stays until it is saved. */
 class NumberField {
     readonly #input: HTMLInputElement;
     #saved = NaN;
@@ -14,7 +14,7 @@ class NumberField {
         this.#input = element(id, HTMLInputElement);
     }
 
-    /** Shows a value of the file, unless the user has typed another one. */
+    /** Shows a value from the file, unless the user has typed another one. */
     show(value: number | null): void {
         const is_typed = this.is_typed;
         this.#saved = value ?? NaN;

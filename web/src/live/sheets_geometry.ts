@@ -13,13 +13,13 @@ export function wrapped_deg(deg: number): number {
     return turn > 180 ? turn - 360 : turn;
 }
 
-/** Converts a point on the page to a point of the world. */
+/** Converts a point on the page to world coordinates. */
 export function worldOf(pose: Pose, x_mm: number, y_mm: number): Point_mm {
     const [c, s] = [Math.cos(radians(pose.yaw_deg)), Math.sin(radians(pose.yaw_deg))];
     return { x_mm: pose.x_mm + c * x_mm + s * y_mm, y_mm: pose.y_mm + s * x_mm - c * y_mm };
 }
 
-/** Converts a point of the world to a point on the page. */
+/** Converts a point in the world to page coordinates. */
 export function pageOf(pose: Pose, point: Point_mm): Point_mm {
     const [c, s] = [Math.cos(radians(pose.yaw_deg)), Math.sin(radians(pose.yaw_deg))];
     const [x, y] = [point.x_mm - pose.x_mm, point.y_mm - pose.y_mm];

@@ -1,4 +1,4 @@
-// Shows the pose of the camera in space, from the keys of `--pose space`.
+// Shows the pose of the camera in space, from the keys added by `--pose space`.
 import { fromWorld, type Quaternion, type SpacePose } from "../page/lean.js";
 import { SpacePanel, type ShownPose } from "../page/space_panel.js";
 import type { Line } from "./messages.js";
@@ -6,8 +6,8 @@ import type { Line } from "./messages.js";
 const kDegrees = 180 / Math.PI;
 
 /**
- * Returns a pose of a line, with its covariance converted from degrees to radians. Returns null if the line does not
- * contain the pose.
+ * Returns a pose from an output line, with its covariance converted from degrees to radians. Returns null if the line
+ * does not contain the pose.
  */
 function poseOf(z_mm?: number | null, quaternion?: Quaternion | null, covariance?: number[] | null): SpacePose | null {
     if (typeof z_mm !== "number" || !quaternion || !covariance) return null;
@@ -30,7 +30,7 @@ function shownPose(line: Line): ShownPose {
 
 const panel = new SpacePanel("live");
 
-/** Shows the pose of a line. Without `--pose space`, the panel is hidden. */
+/** Shows the pose from an output line. Without `--pose space`, the panel is hidden. */
 export function showSpace(line: Line): void {
     panel.show(shownPose(line));
 }

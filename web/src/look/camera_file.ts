@@ -1,4 +1,5 @@
-// Reads the camera files of `dotpose calibrate` (docs/calibration.md): the parts that a pose in space needs.
+// Reads the camera files that `dotpose calibrate` writes (docs/calibration.md), but only the values needed for a pose
+// in space.
 import type { PageCamera } from "../engine/messages.js";
 
 type Values = Map<string, string>;
@@ -34,7 +35,7 @@ function pinholeOf(values: Values, centre_px: [number, number]): Pick<PageCamera
     return { focal_px: [focal, focal], axis_px: centre_px };
 }
 
-/** Returns the camera of a camera file. Throws an Error with the reason if the page cannot use the file. */
+/** Returns the camera described by a camera file. Throws an Error with the reason if the page cannot use the file. */
 export function cameraOfFile(text: string): PageCamera {
     const values = valuesOf(text);
     if (values.has("camera_matrix") || values.has("distortion_model"))
@@ -50,7 +51,7 @@ export function cameraOfFile(text: string): PageCamera {
     return camera;
 }
 
-/** Throws an Error for values that no camera has. The limits are those of the command-line tool. */
+/** Throws an Error for values that no camera has. The limits are the same as in the command-line tool. */
 function requireReal({ size_px, focal_px, axis_px, lens_k_per_px2, centre_px }: PageCamera & { size_px: [number, number] }): void {
     const kMaxFocal_px = 1e6;
     const kMaxCentre_px = 1000;

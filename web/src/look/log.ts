@@ -1,6 +1,6 @@
 // The log of readings, with a subset of the CSV columns of `dotpose watch --log` (docs/output.md). `dotpose replay` can
-// read the log. The page has no tracker, so the track is the fix, and the velocity is computed from the fix and the
-// previous one.
+// read the log. The page has no tracker. The track columns therefore contain the fix, and the velocity is computed from
+// the fix and the previous one.
 import type { Reading } from "../engine/messages.js";
 import { pageFromPattern } from "../page/sheet_frame.js";
 import type { KnownSheet } from "../print/known_sheets.js";
@@ -10,13 +10,13 @@ const kDegrees = 180 / Math.PI;
 interface Frame {
     reading: Reading;
     number: number;
-    /** The known sheet of the fix, or null. */
+    /** The known sheet that contains the fix, or null. */
     sheet: KnownSheet | null;
     /** The previous frame, or undefined for the first frame. */
     before: Reading | undefined;
 }
 
-/** Replaces commas, quotation marks and white space, to make a text a valid field of a CSV file. */
+/** Replaces commas, quotation marks and white space, to make a text a valid CSV field. */
 const withoutCommas = (text: string) => text.replaceAll(/[,"\s]+/g, (match) => (match.includes(",") ? "; " : " "));
 
 type Column = readonly [name: string, value: (frame: Frame) => string | number, always?: true];
@@ -50,7 +50,7 @@ const theta_deg = ({ fix }: Reading) => fix.theta_rad * kDegrees;
 
 const inDegrees = (rad: number | undefined) => (rad === undefined ? "" : (rad * kDegrees).toFixed(6));
 
-/** Columns of a line. For frames without a fix, only the columns with `always` have values. */
+/** Columns of the log. For frames without a fix, only the columns with `always` have values. */
 const kColumns: readonly Column[] = [
     ["schema", () => 1, true],
     ["frame", ({ number }) => number, true],
@@ -98,7 +98,7 @@ const kColumns: readonly Column[] = [
     ["turn_deg_s", (frame) => speed(frame, theta_deg, true)],
 ];
 
-/** Maximum number of lines of the log, about an hour at 30 frames per second. */
+/** Maximum number of lines in the log, about an hour at 30 frames per second. */
 const kMaxLines = 100_000;
 
 export class Log {
@@ -111,10 +111,7 @@ export class Log {
         return this.#lines.length;
     }
 
-    /**
-     * Adds a line. `sheet` is the known sheet of the fix, or null. Times are relative to the first
-     * line.
-     */
+    /** Adds a line. `sheet` is the known sheet that contains the fix, or null. Times are relative to the first line. */
     add(reading: Reading, sheet: KnownSheet | null): void {
         this.#first_s ??= reading.time_s;
         const timed = { ...reading, time_s: reading.time_s - this.#first_s };

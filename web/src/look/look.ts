@@ -1,4 +1,4 @@
-// The view "Look": locates the live frames of a camera of this device.
+// The view "Look": locates live frames from a camera of this device.
 import type { Code } from "dotpose";
 import { drawFrame } from "../draw/frame.js";
 import { drawMap, paperOf } from "../draw/map.js";
@@ -33,13 +33,13 @@ export class LookView implements View {
     #camera: CameraFrames | undefined;
     #is_opening = false;
     #is_frozen = false;
-    /** True if the newest reading is that of an opened picture. */
+    /** True if the newest reading is from an opened picture. */
     #is_still = false;
     #last: Reading | undefined;
     #path: Point_mm[] = [];
     readonly #sheets = new SheetControls(() => this.#readAgain(), (text) => this.#say(text));
     readonly #space = new SpaceControls(() => this.#readAgain(), (text) => this.#say(text));
-    /** The known sheet of the newest fix. */
+    /** The known sheet that contains the newest fix. */
     #sheet: KnownSheet | null = null;
 
     constructor(engine: Engine) {

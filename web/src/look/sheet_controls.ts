@@ -1,4 +1,4 @@
-// The controls of the known sheets in the view "Look".
+// Controls for the known sheets in the view "Look".
 import type { Fix } from "dotpose";
 import type { ReadOptions } from "../engine/messages.js";
 import { element, show } from "../page/dom.js";
@@ -37,7 +37,7 @@ export class SheetControls {
     get options(): ReadOptions {
         return { sheets: this.#sheets.map(({ layout }) => regionOf(layout)), only_sheets: this.#only.checked };
     }
-    /** Returns the context of a frame. `sheet` is the known sheet of its fix, or null. */
+    /** Returns the context of a frame. `sheet` is the known sheet that contains its fix, or null. */
     contextOf(sheet: KnownSheet | null): SheetContext {
         return { is_on_unknown: this.#sheets.length > 0 && sheet === null, only_sheets: this.#only.checked };
     }

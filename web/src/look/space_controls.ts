@@ -1,4 +1,5 @@
-// The controls of the pose in space in the view "Look": the camera's focal length or camera file.
+// Controls for the pose in space in the view "Look". They set the camera's focal length or load a
+// camera file.
 import { fitsCamera } from "../engine/camera_size.js";
 import type { PageCamera, Reading } from "../engine/messages.js";
 import { element, show } from "../page/dom.js";

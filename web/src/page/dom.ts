@@ -1,4 +1,4 @@
-// Helper functions for the elements of index.html.
+// Helper functions for the elements in index.html.
 
 /** Returns the element with the given id. Throws an error if it is missing or has another type. */
 export function element<T extends Element>(id: string, type: new () => T): T {

@@ -24,7 +24,7 @@ export function degrees(rad: number, digits = 2): string {
     return `${((rad * 180) / Math.PI).toFixed(digits)}°`;
 }
 
-/** Formats an upper bound of a probability as "1 in N", where N is a power of ten. */
+/** Formats an upper bound on a probability as "1 in N", where N is a power of ten. */
 export function oneIn(probability: number): string {
     const power = Math.floor(-Math.log10(probability));
     const names = ["", "thousand", "million", "billion"];

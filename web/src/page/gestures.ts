@@ -1,4 +1,4 @@
-// Gestures on a picture of a camera or a map, by mouse, touch and keyboard.
+// Mouse, touch and keyboard gestures on a camera picture or a map.
 
 export interface Gestures {
     /** Moves the picture by a number of CSS pixels. */
@@ -42,7 +42,7 @@ function listenToPointers(canvas: HTMLCanvasElement, gestures: Gestures): void {
         canvas.addEventListener(type, (event) => fingers.delete(event.pointerId));
 }
 
-/** Step sizes of the keys, in CSS pixels and degrees, and the factor for the height. */
+/** Step sizes for the keys, in CSS pixels and degrees, and the factor for the height. */
 const kStep = 12;
 const kFarStep = 120;
 const kTurn = 5;

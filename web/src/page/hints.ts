@@ -35,7 +35,7 @@ const kMinDots = 5;
 const kBlurredHint = "Sharper: hold still, let the camera focus, or move a little away.";
 const kNoDotsHint = "No dots are found: point the camera at a sheet, and let the camera focus.";
 
-/** Returns advice for a blurred picture, in which `dots` dots were found. */
+/** Returns advice for a blurred picture in which `dots` dots were found. */
 function hintOfBlur(dots: number): string {
     return dots < kMinDots ? kNoDotsHint : kBlurredHint;
 }

@@ -27,7 +27,7 @@ export interface Lean {
     turn: Angle;
 }
 
-/** Returns the rows of the rotation matrix of a quaternion. */
+/** Returns the rows of the rotation matrix for a quaternion. */
 function matrixOf([x, y, z, w]: Quaternion): [number, number, number][] {
     return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
@@ -73,7 +73,7 @@ export function leanOf({ quaternion_xyzw, covariance }: SpacePose): Lean {
 
 /**
  * Converts a pose in the world to a sheet frame with the same x axis. In the world, y points up, z points OUT of the
- * paper, lengths are in metres, and the covariance is that of a rotation vector in the WORLD.
+ * paper, lengths are in metres, and the covariance is for a rotation vector in the WORLD frame.
  */
 export function fromWorld(z_m: number, quaternion_xyzw: Quaternion, covariance: ArrayLike<number>): SpacePose {
     const [x, y, z, w] = quaternion_xyzw;

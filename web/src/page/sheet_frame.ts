@@ -1,7 +1,8 @@
-// Converts between points of a page, in mm from its upper left corner, and points of its pattern.
+// Converts between coordinates on a page, in mm from its upper left corner, and coordinates in its
+// pattern.
 import type { SheetLayout } from "../engine/messages.js";
 
-/** Number of columns and of rows of each section of the code. */
+/** Number of columns, and of rows, in each section of the code. */
 export const kPositions = 410_815_348;
 
 /** Spacing of the sheets that this page prints and simulates. */
@@ -12,7 +13,7 @@ export interface Point_mm {
     y_mm: number;
 }
 
-/** Returns the pattern point that is printed at a point of the page. */
+/** Returns the pattern point that is printed at a point on the page. */
 export function patternFromPage(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): Point_mm {
     return {
         x_mm: sheet.origin.x * kSpacing_mm + x_mm - sheet.first_x_mm,
@@ -20,7 +21,7 @@ export function patternFromPage(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): P
     };
 }
 
-/** Returns the point of the page at which a pattern point is printed. */
+/** Returns the point on the page at which a pattern point is printed. */
 export function pageFromPattern(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): Point_mm {
     return {
         x_mm: x_mm - sheet.origin.x * kSpacing_mm + sheet.first_x_mm,

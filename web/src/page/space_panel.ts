@@ -3,7 +3,7 @@ import { element, show } from "./dom.js";
 import { length } from "./format.js";
 import { leanOf, type Angle, type SpacePose } from "./lean.js";
 
-/** Points of the drawing: the point on the paper, and the centre of the view from above. */
+/** Points in the drawing: the point on the paper, and the centre of the view from above. */
 const kPaper = { x: 50, y: 88 };
 const kAbove = { x: 150, y: 50 };
 const kRadius = 40;
@@ -104,8 +104,9 @@ export class SpacePanel {
     }
 
     /**
-     * Draws the camera. Angles of SVG are clockwise on the screen, as azimuth and turn are on the paper. The view
-     * from above has the axes of the paper or of the world. The view from the side is in the plane in which the camera leans.
+     * Draws the camera. SVG angles are clockwise on the screen, like the azimuth and the turn on the paper. The view
+     * from above has the axes of the paper or of the world. The view from the side is in the plane in which the camera
+     * leans.
      */
     #draw(tilt_deg: number, azimuth_deg: number, turn_deg: number, is_in_world: boolean): void {
         const part = (name: string) => element(`${this.#id}-space-${name}`, SVGElement);

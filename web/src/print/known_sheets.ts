@@ -1,5 +1,5 @@
-// Known sheets: sheets that were printed from this page, and sheets of the sheet files that were opened. They are
-// stored in the browser.
+// Known sheets: sheets that were printed from this page, and sheets from sheet files that were opened. They are stored
+// in the browser.
 import { kCodes, type Fix, type KnownRegion } from "dotpose";
 import type { SheetLayout } from "../engine/messages.js";
 import { isOnSheet, kPositions } from "../page/sheet_frame.js";
@@ -58,8 +58,8 @@ export function remember(sheet: KnownSheet): void {
 }
 
 /**
- * Stores the sheets of a file. They replace known sheets with the same part of the code. If another known sheet has the
- * same name, a number is appended to the name of the sheet from the file.
+ * Stores the sheets from a file. They replace known sheets with the same part of the code. If another known sheet has
+ * the same name, a number is appended to the name of the sheet from the file.
  */
 export function rememberAll(sheets: readonly KnownSheet[]): void {
     const partOf = ({ layout }: KnownSheet) => JSON.stringify(regionOf(layout));

@@ -104,8 +104,8 @@ function dotContent(sheet: SheetLayout, symbols: Uint8Array): string {
 }
 
 /**
- * Rounds a length of the page as the command-line tool does, so renderers draw the same pixels for
- * both PDFs.
+ * Rounds a length on the page in the same way as the command-line tool, so renderers draw the same
+ * pixels for both PDFs.
  */
 function points(length_mm: number): number {
     return Math.round(length_mm * kPointsPerMm * 1e4) / 1e4;

@@ -1,4 +1,4 @@
-// Labels in the margins of a printed sheet, the same as those of the command-line tool: a
+// Labels in the margins of a printed sheet, identical to those that the command-line tool prints: a
 // description, and rulers in millimetres from the corner of the page.
 import type { SheetLayout } from "../engine/messages.js";
 import { kSpacing_mm } from "../page/sheet_frame.js";

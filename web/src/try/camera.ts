@@ -64,7 +64,7 @@ export class SimulatedCamera {
         return (this.conditions.turn_deg * Math.PI) / 180;
     }
 
-    /** Moves the camera to a point of the page. The position is limited to the page. */
+    /** Moves the camera to a point on the page. The position is limited to the page. */
     moveTo(x_mm: number, y_mm: number, sheet: SheetLayout): void {
         this.x_mm = Math.min(Math.max(x_mm, 0), sheet.width_mm);
         this.y_mm = Math.min(Math.max(y_mm, 0), sheet.height_mm);

@@ -22,7 +22,7 @@ const kSheet: SheetChoice = {
 };
 const kMaxPathPoints = 600;
 
-/** Image sizes by the values of their options. Small images show a smaller field. */
+/** Image sizes, keyed by option value. Small images show a smaller field. */
 const kSizes: Record<string, ImageSize> = {
     "188x120": { width_px: 188, height_px: 120, field_px: 188 },
     "376x240": { width_px: 376, height_px: 240, field_px: 188 },

@@ -75,7 +75,7 @@ static void fault(void) {
     leave(99);
 }
 
-/* Returns the last word of the command line, which is the path of the file of frames. */
+/* Returns the last word of the command line, which is the path of the frame file. */
 static const char* path_of_frames(void) {
     static char line[160];
     uint32_t arguments[2];

@@ -56,9 +56,9 @@ dotpose_status dotpose_print_map_correct(const dotpose_print_map* map,
                                          const dotpose_locator* locator, dotpose_fix* fix,
                                          dotpose_map_use* use);
 
-/* Fits the pose of the camera as dotpose_space_fit does, but with the dot positions of the map.
- * If `use` is not DOTPOSE_MAP_USED, the result is the pose of dotpose_space_fit. Returns the same
- * statuses as dotpose_space_fit. */
+/* Fits the pose of the camera as dotpose_space_fit does, but with the dot positions of the map. If
+ * `use` is not DOTPOSE_MAP_USED, the result is the pose that dotpose_space_fit would return.
+ * Returns the same statuses as dotpose_space_fit. */
 dotpose_status dotpose_print_map_fit_space(const dotpose_print_map* map,
                                            const dotpose_locator* locator,
                                            const dotpose_space_camera* camera,

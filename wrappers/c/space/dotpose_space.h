@@ -41,7 +41,7 @@ typedef struct dotpose_space_camera {
     int32_t reserved;        /* 12: zero */
     double focal_u_px;       /* 16: focal length along the image x axis */
     double focal_v_px;       /* 24: focal length along the image y axis */
-    double axis_u_px;        /* 32: pixel on the optical axis, without distortion */
+    double axis_u_px;        /* 32: image point on the optical axis, without distortion */
     double axis_v_px;        /* 40 */
     double lens_k_per_px2;   /* 48: radial distortion, negative for barrel distortion */
     double lens_centre_u_px; /* 56: distortion centre */
@@ -108,11 +108,11 @@ dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_s
 typedef struct dotpose_space_pen {
     uint32_t size;    /*  0: set by dotpose_space_pen_init */
     int32_t reserved; /*  4: zero */
-    /* Position of the tip in the camera frame: tip_mm of the camera file. */
+    /* Position of the tip in the camera frame: tip_mm in the camera file. */
     double x_mm; /*  8 */
     double y_mm; /* 16 */
     double z_mm; /* 24 */
-    /* Measured height of the tip while the pen rests on the paper: tip_rest_mm of the camera
+    /* Measured height of the tip while the pen rests on the paper: tip_rest_mm in the camera
      * file. */
     double rest_mm;     /* 32 */
     double sigma_mm[3]; /* 40: standard deviations of x_mm, y_mm and z_mm */
@@ -134,9 +134,9 @@ typedef struct dotpose_space_tip {
 /* Sets up a tip. `bytes` is the caller's sizeof(dotpose_space_tip). */
 dotpose_status dotpose_space_tip_init(dotpose_space_tip* tip, size_t bytes);
 
-/* Computes the position of the tip from a pose of dotpose_space_fit. The pose should not be
- * ambiguous. Returns OK, NO_FIX if the pose was not fitted, BAD_VALUE if a member of the pen is not
- * finite, or another misuse. The tip is written only if the status is OK. */
+/* Computes the position of the tip from a pose that dotpose_space_fit returned. The pose should not
+ * be ambiguous. Returns OK, NO_FIX if the pose was not fitted, BAD_VALUE if a member of the pen is
+ * not finite, or another misuse. The tip is written only if the status is OK. */
 dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpose_space_pen* pen,
                                     dotpose_space_tip* tip);
 

@@ -1,4 +1,4 @@
-// Poses in space for C. Exceptions of the C++ library become statuses.
+// Poses in space for C. Exceptions thrown by the C++ library become statuses.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace dotpose;
 using c::check_size;
 using c::init;
 
-/// Converts a camera. Throws BadArgument for values out of their range.
+/// Converts a camera. Throws BadArgument if a value is out of range.
 Camera camera_of(const dotpose_space_camera& given) {
     Camera camera;
     camera.width_px = given.width_px;

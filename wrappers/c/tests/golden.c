@@ -71,7 +71,7 @@ static void push_rows(dotpose_locator* locator, const image* frame, dotpose_fix*
     dotpose_finish(locator, fix);
 }
 
-/* Prints the lines for a frame and for its next frame. */
+/* Prints the lines for a frame and for the frame after it. */
 static void locate(int index, const image* frame, const image* next, dotpose_locator* large,
                    dotpose_locator* device, int by_rows) {
     const int width_px = frame->width_px;

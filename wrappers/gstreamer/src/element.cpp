@@ -17,7 +17,7 @@ namespace dotpose::gstreamer {
 namespace {
 
 struct State {
-    Settings settings;             ///< guarded by the lock of the object
+    Settings settings;             ///< guarded by the object lock
     std::optional<Stream> stream;  ///< present while the element is running
 };
 

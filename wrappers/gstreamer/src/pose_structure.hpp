@@ -1,4 +1,4 @@
-/// Converts the result of a frame to a GStreamer structure.
+/// Converts the result for a frame to a GStreamer structure.
 #pragma once
 
 #include <gst/gst.h>

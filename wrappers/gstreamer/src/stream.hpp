@@ -10,12 +10,12 @@
 
 namespace dotpose::gstreamer {
 
-/// Result of one frame.
+/// Result for one frame.
 struct Reading {
     std::uint64_t frame = 0;  ///< frame number, counted from 0
     Located located;
     std::optional<Track> track;  ///< none if each frame is located independently
-    bool is_in_world = false;    ///< true if the track is in the world of the sheet file
+    bool is_in_world = false;    ///< true if the track is in the sheet file's world frame
 };
 
 class Stream {

@@ -23,7 +23,7 @@ inline bool has_element(const char* name) {
     return true;
 }
 
-/// Returns a value of a structure as JSON, without rounding.
+/// Returns a value from a structure as JSON, without rounding.
 inline nlohmann::json json_of(const GValue* value) {
     if (G_VALUE_HOLDS_STRING(value)) return g_value_get_string(value);
     if (G_VALUE_HOLDS_DOUBLE(value)) return g_value_get_double(value);
@@ -67,7 +67,7 @@ struct Arrived {
 };
 
 struct Outcome {
-    std::vector<nlohmann::json> messages;  ///< messages of the element, in order
+    std::vector<nlohmann::json> messages;  ///< messages from the element, in order
     std::vector<Arrived> frames;
     std::string error;  ///< first error, or empty if there is none
 };

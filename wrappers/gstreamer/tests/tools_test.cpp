@@ -1,4 +1,4 @@
-// Tests the element with the tools of GStreamer and from Python.
+// Tests the element with GStreamer's tools and from Python.
 #include <cstdlib>
 #include <fstream>
 #include <string>

@@ -1,5 +1,5 @@
 /// Declarations shared by the binding files: the namespace `py`, functions that each define the
-/// classes and functions of one subject, and conversions of option values.
+/// classes and functions for one subject, and conversions of option values.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ namespace dotpose::python {
 namespace py = pybind11;
 using namespace py::literals;
 
-/// Each function defines the classes and functions of one subject in the module _dotpose. The
+/// Each function defines the classes and functions for one subject in the module _dotpose. The
 /// functions are called in this order, because signatures refer to classes that must already be
 /// defined.
 void define_errors(py::module_& module);
@@ -30,7 +30,7 @@ void define_locator(py::module_& module);
 void define_tracker(py::module_& module);
 void define_simulate(py::module_& module);
 
-/// Each function defines the classes and functions of one subject in the module _tools. The
+/// Each function defines the classes and functions for one subject in the module _tools. The
 /// functions are called in this order, for the same reason.
 void define_sheets(py::module_& module);
 void define_space(py::module_& module);

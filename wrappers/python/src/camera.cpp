@@ -1,4 +1,4 @@
-// Bindings for cameras: lens, view and mount of a camera.
+// Bindings for cameras: their lens, view and mount.
 #include "dotpose/files/camera.hpp"
 
 #include <array>

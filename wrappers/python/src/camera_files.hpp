@@ -8,7 +8,7 @@
 
 namespace dotpose::python {
 
-/// Type of `with_camera` (dotpose/tools/mounted_pose.hpp), which returns the fix of a camera that
+/// Type of `with_camera` (dotpose/tools/mounted_pose.hpp), which returns the fix for a camera that
 /// is mounted at a fixed height.
 using WithCamera = Fix (*)(const Fix& fix, const Camera& camera, const Trace& trace);
 

@@ -1,4 +1,4 @@
-// Drawing of a fix, for Fix.draw.
+// Draws a fix. Implements Fix.draw.
 #include <sstream>
 
 #include "dotpose/tools/draw.hpp"

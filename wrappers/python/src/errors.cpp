@@ -1,4 +1,4 @@
-// Translates the exceptions of the tools to Python exceptions.
+// Translates exceptions thrown by the tools to Python exceptions.
 #include <exception>
 
 #include "binding.hpp"

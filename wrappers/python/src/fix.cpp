@@ -107,7 +107,7 @@ class Bits {
     py::list list_;
 };
 
-/// Returns the numbers of the golden line of a fix (wrappers/golden). Floating-point numbers are
+/// Returns the numbers in the golden line for a fix (wrappers/golden). Floating-point numbers are
 /// returned as bytes, to let tests compare their bits.
 py::list bits(const SeenFix& self) {
     const Fix& fix = self.fix;

@@ -37,8 +37,8 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
 
     std::shared_ptr<const Stages> stages_of(std::uint64_t number) override;
 
-    /// Returns the mean time in µs of locating the same image in C++. Used to measure the overhead
-    /// of Python.
+    /// Returns the mean time, in µs, that C++ needs to locate the same image. Used to measure the
+    /// overhead of Python.
     double cpp_us(const py::object& image, int repeats);
 
     /// Returns the given code or, if the code is detected, the most likely code so far.

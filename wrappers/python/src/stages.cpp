@@ -14,7 +14,7 @@ std::vector<T> kept(std::span<const T>& shown) {
     return copy;
 }
 
-/// Returns a camera that contains only the lens of the options.
+/// Returns a camera that contains only the lens from the options.
 Camera camera_of(const FixedLens& lens, int width_px, int height_px) {
     Camera camera;
     camera.width_px = width_px;

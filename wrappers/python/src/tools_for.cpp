@@ -1,4 +1,4 @@
-// Access to the optional module of the tools.
+// Provides access to the optional module _tools.
 #include "binding.hpp"
 
 namespace dotpose::python {

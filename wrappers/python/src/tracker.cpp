@@ -1,4 +1,4 @@
-// Bindings for Tracker and Track, which follow a robot from the fixes of its frames.
+// Bindings for Tracker, which follows a robot using the fixes of its frames, and for Track.
 #include "tracker.hpp"
 
 #include <array>
@@ -129,7 +129,7 @@ py::array_t<double> covariance(const Track& track) {
     return array;
 }
 
-/// Returns a getter for a number of the pose. The result is NaN while the robot is lost.
+/// Returns a getter for a member of the pose. The result is NaN while the robot is lost.
 template <typename Get>
 auto if_seen(Get get) {
     return [get](const Track& self) { return self.is_lost ? kNaN : double{get(self.pose)}; };

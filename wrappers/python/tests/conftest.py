@@ -31,7 +31,7 @@ def bits_of(fix):
 
 
 def images_in(path):
-    """Returns the images of a file that contains a sequence of binary PGM images."""
+    """Returns the images in a file that contains a sequence of binary PGM images."""
     data = memoryview(Path(path).read_bytes())
     at = 0
     while at < len(data):

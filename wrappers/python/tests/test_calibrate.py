@@ -15,7 +15,7 @@ K_PER_PX2 = -4e-6
 
 @pytest.fixture(scope="module")
 def lens():
-    """Returns a calibration from frames of a camera with a known lens."""
+    """Returns a calibration computed from the frames of a camera with a known lens."""
     frames = dotpose.simulate(8, seed=5, section=(0, 0), k_per_px2=K_PER_PX2)
     return dotpose.calibrate(frame.image for frame in frames)
 
@@ -65,7 +65,7 @@ def test_a_locator_uses_the_camera(lens):
 
 
 def turned_and_driven():
-    """Yields images of a robot that turns about a point 2 mm to the right of the image centre."""
+    """Yields images from a robot that turns about a point 2 mm to the right of the image centre."""
     shot = dotpose.draw_shots(1, seed=31, section=(0, 0))[0]
     x_mm, y_mm = shot.x_mm, shot.y_mm
     for step in range(12):

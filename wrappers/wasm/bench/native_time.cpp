@@ -16,7 +16,7 @@
 
 namespace dotpose::core {
 
-// Replaces the function of the library, which would select the AVX2 kernels.
+// Replaces the library function, which would select the AVX2 kernels.
 const Kernels& kernels() {
     return wide_kernels();
 }

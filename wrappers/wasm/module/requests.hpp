@@ -19,7 +19,7 @@ struct SheetRequest {
     double margin_mm;
 };
 
-/// Layout of the dots of a sheet, as computed by `make_sheet`.
+/// Layout of the dots on a sheet, as computed by `make_sheet`.
 struct SheetLayout {
     double columns;
     double rows;

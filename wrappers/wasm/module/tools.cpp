@@ -1,9 +1,9 @@
 // The module dotpose-tools.wasm: sheets and the simulated camera, compiled from the sources of the
 // command-line tool.
 //
-// A function that fails sets the message of `dotpose_tools_error` and ends the instance with a
-// trap. The loader then throws the message in JavaScript and starts another instance. Because the
-// stack is not unwound, the module needs no support for exceptions.
+// A function that fails sets the message returned by `dotpose_tools_error` and ends the instance
+// with a trap. The loader then throws the message in JavaScript and starts another instance.
+// Because the stack is not unwound, the module needs no support for exceptions.
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -166,7 +166,7 @@ const double* dotpose_tools_layout() {
     return &layout.columns;
 }
 
-/// Returns the size of the result of the previous call, in bytes.
+/// Returns the size of the previous call's result, in bytes.
 std::size_t dotpose_tools_size() {
     return bytes.size();
 }
@@ -205,7 +205,7 @@ const double* dotpose_tools_dots() {
     return points_mm.data();
 }
 
-/// Renders the image of the simulated camera and returns its grey levels.
+/// Renders an image from the simulated camera and returns its grey levels.
 const std::uint8_t* dotpose_tools_render() {
     bytes =
         render(requested_page(), camera_of(request.camera), pose_of(request.camera),

@@ -17,7 +17,7 @@ export function coreModule(wasm?: WasmSource, has_space = false): Promise<WebAss
 
 /**
  * Calls a function that returns a dotpose_status. If the status is not 0, throws RangeError with
- * the message of the status. The cause is an invalid option or argument.
+ * the message for the status. The cause is an invalid option or argument.
  */
 export function callOk(core: Instance, name: string, ...args: (number | bigint)[]): void {
     const status = core.call(name, ...args);
@@ -25,8 +25,9 @@ export function callOk(core: Instance, name: string, ...args: (number | bigint)[
 }
 
 /**
- * Calls a function of dotpose-space.wasm. Exceptions of the C++ library end the instance with a trap
- * and leave their message in the module. Throws RangeError with this message.
+ * Calls a function in dotpose-space.wasm. If the C++ library throws an exception, it stores the
+ * message in the module and ends the instance with a trap. In this case, throws RangeError with the
+ * stored message.
  */
 export function callSpace(core: Instance, name: string, ...args: number[]): number {
     try {

@@ -1,4 +1,4 @@
-// The pose computed from one frame, read from a dotpose_fix of wrappers/c/dotpose.h.
+// The pose computed from one frame, read from a dotpose_fix (wrappers/c/dotpose.h).
 import { fieldsOf, kAt, type FixFields } from "./fix_fields.js";
 import { kCodes, type Cell, type Code, type MapUse, type Section } from "./names.js";
 import type { SpacePose } from "./space.js";
@@ -45,7 +45,7 @@ export interface Fix extends FixFields {
     space: SpacePose | null;
     /** How the option `print_map` was used. Always "no_map" without the option. */
     map_use: MapUse;
-    /** The bytes of this fix as a dotpose_fix of wrappers/c/dotpose.h. */
+    /** The bytes of this fix as a dotpose_fix (wrappers/c/dotpose.h). */
     bytes: Uint8Array<ArrayBuffer>;
 }
 
@@ -137,7 +137,7 @@ export function patternFromImage(
     };
 }
 
-/** Returns the image point of a pattern point. The fix must be ok. */
+/** Returns the image point at which a pattern point appears. The fix must be ok. */
 export function imageFromPattern(
     fix: Fix,
     x_mm: number,

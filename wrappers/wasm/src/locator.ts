@@ -26,8 +26,8 @@ export interface Image {
 export interface LocatorOptions {
     /**
      * Code of the sheets. The default "auto" detects the code from the frames. While the code is
-     * ambiguous, frames have the status "ambiguous_code", until further frames of the same locator
-     * resolve the ambiguity.
+     * ambiguous, frames have the status "ambiguous_code", until further frames given to the same
+     * locator resolve the ambiguity.
      */
     code?: Code | "auto";
     /** Spacing of the printed grid. Default: 0.508. */
@@ -42,8 +42,8 @@ export interface LocatorOptions {
      */
     lens_centre_offset_px?: readonly [number, number];
     /**
-     * Number of attempts. If 2, a frame that the first attempt cannot locate is filtered and
-     * located again. Default: 2.
+     * Number of attempts. If 2, a frame that the first attempt cannot locate is filtered and tried
+     * again. Default: 2.
      */
     attempts?: 1 | 2;
     /** Maximum probability that a position is wrong. Less certain positions are refused. Default:
@@ -59,14 +59,15 @@ export interface LocatorOptions {
     /** True to include the centres of the dots in the fix. This takes more time. Default: false. */
     dots?: boolean;
     /**
-     * Intrinsic parameters of the camera, to fit its pose in space to every fix (`Fix.space`). The
-     * locator then uses a larger module, `dotpose-space.wasm`, which takes more time. The options
-     * `lens_k_per_px2` and `lens_centre_offset_px` give its lens distortion. Default: none.
+     * Intrinsic parameters of the camera. If given, the camera's pose in space is computed for
+     * every fix (`Fix.space`). The locator then uses a larger module, `dotpose-space.wasm`, which
+     * takes more time. The options `lens_k_per_px2` and `lens_centre_offset_px` specify the lens
+     * distortion. Default: none.
      */
     space?: SpaceCamera;
     /**
-     * Contents of a print map file, from `dotpose calibrate --print-map`. Fixes and poses in space
-     * on its pages are corrected (`Fix.map_use`). For the highest accuracy, locate without
+     * Contents of a print map file written by `dotpose calibrate --print-map`. Fixes and poses in
+     * space on its pages are corrected (`Fix.map_use`). For the highest accuracy, locate without
      * predictions, because tracking measures the dots in windows at their nominal positions. Like
      * `space`, this option makes the locator use the larger module. Default: none.
      */
@@ -76,7 +77,7 @@ export interface LocatorOptions {
     wasm?: WasmSource;
 }
 
-/** Options of one frame. */
+/** Options for one frame. */
 export interface FrameOptions {
     /**
      * Fix of the previous frame, or the prediction of a tracker. Locating then starts at the
@@ -86,11 +87,11 @@ export interface FrameOptions {
      */
     prediction?: Fix | Prediction | null | undefined;
     /**
-     * Motion of the camera since the previous frame. If a frame alone is not certain, it is read
-     * together with the previous frames, and `frames` of the fix is the number of frames read. Give
-     * a motion with every frame of a series, including the first. A frame without a motion ends the
-     * series. If the previous frame was located, the search starts at the position that results
-     * from the motion, so a motion replaces a prediction.
+     * Motion of the camera since the previous frame. If a frame alone does not give a certain fix,
+     * it is read together with the previous frames. `Fix.frames` is then the number of frames read.
+     * Give a motion with every frame of a series, including the first. A frame without a motion
+     * ends the series. If the previous frame was located, the search starts at the position that
+     * results from the motion, so a motion replaces a prediction.
      */
     motion?: MeasuredMotion | null | undefined;
 }
@@ -178,7 +179,7 @@ export class Locator {
     }
 
     /** Sets the sheets that may be in view. The regions remain in the module's memory, because the
-     * core reads them in each frame. */
+     * core reads them for each frame. */
     #know(sheets: readonly KnownRegion[], only_sheets: boolean): void {
         const regions = this.#core.reserve(sheets.length * kRegionBytes);
         const view = this.#core.view(regions, sheets.length * kRegionBytes);
@@ -241,7 +242,8 @@ export class Locator {
         return this.#prediction;
     }
 
-    /** Returns the number of the given code or, for "auto", of the code of the last image. */
+    /** Returns the number of the given code or, for "auto", of the code in which the last image was
+     * read. */
     #codeRead(): number {
         callOk(this.#core, "dotpose_code_of", this.#locator, this.#code);
         return this.#core.view(this.#code, kCodeBytes).getInt32(0, true);

@@ -10,7 +10,7 @@ export interface MeasuredMotion {
     right_mm?: number;
     /** Displacement along the image y axis. Default: 0. */
     down_mm?: number;
-    /** Change of `theta_rad` of a fix, clockwise as seen on the paper. Default: 0. */
+    /** Change in the `theta_rad` of a fix, clockwise as seen on the paper. Default: 0. */
     turn_rad?: number;
     /**
      * Standard deviation of the displacement along each axis. The errors are assumed to be normally
@@ -21,7 +21,7 @@ export interface MeasuredMotion {
     sigma_rad: number;
 }
 
-/** Size of a dotpose_measured_motion of wrappers/c/dotpose.h, which consists of floats. */
+/** Size of a dotpose_measured_motion (wrappers/c/dotpose.h), which consists of floats. */
 export const kMotionBytes = 20;
 
 /** Writes a dotpose_measured_motion. Throws RangeError if a value is not usable. */

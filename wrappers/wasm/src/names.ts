@@ -43,7 +43,7 @@ export type Verdict = (typeof kVerdicts)[number];
 
 /** All values of `TrackEvent`, in the order of their bits in C. */
 export const kTrackEvents = ["fix", "lost", "kidnapped", "stationary", "moving"] as const;
-/** A change of the state of a robot. */
+/** A change in the state of a robot. */
 export type TrackEvent = (typeof kTrackEvents)[number];
 
 /** Section of the code, 0 to 62 per axis. Each of the 63 x 63 sections contains all cells. */

@@ -4,7 +4,7 @@ import type { Instance } from "./instance.js";
 import type { LocatorOptions } from "./locator.js";
 import { codeNumber } from "./names.js";
 
-/** Size of a dotpose_options of wrappers/c/dotpose.h, and offsets of its members. */
+/** Size of a dotpose_options (wrappers/c/dotpose.h), and offsets of its members. */
 const kOptionsBytes = 96;
 const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
 const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };

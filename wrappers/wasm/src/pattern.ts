@@ -1,9 +1,9 @@
-// The position code: symbols of a part of the pattern.
+// The position code: symbols in a part of the pattern.
 import { coreModule } from "./core.js";
 import { Instance, type WasmSource } from "./instance.js";
 import { codeNumber, type Cell, type Code, type Section } from "./names.js";
 
-/** A rectangle of the code. */
+/** A rectangle in the code. */
 export interface PatternPart {
     /** Code variant. Default: "anoto". */
     code?: Code;
@@ -34,7 +34,7 @@ export const kDisplacements: readonly {
 ];
 
 /**
- * Returns the symbols of a part of the code, row by row: 0 up, 1 left, 2 right, 3 down. Bit 0 of a
+ * Returns the symbols in a part of the code, row by row: 0 up, 1 left, 2 right, 3 down. Bit 0 of a
  * symbol is the x bit, and bit 1 is the y bit.
  */
 export async function patternBits(part: PatternPart, wasm?: WasmSource): Promise<Uint8Array> {

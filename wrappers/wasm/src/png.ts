@@ -63,7 +63,7 @@ async function deflate(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
     return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** Returns a PNG file of the raster. */
+/** Returns the raster as a PNG file. */
 export async function pngOf(raster: Raster): Promise<Uint8Array<ArrayBuffer>> {
     const parts = [
         Uint8Array.from(kSignature),

@@ -8,7 +8,7 @@ import type { Code } from "./names.js";
 export interface Prediction {
     /** Code in which the prediction was made. */
     code: Code;
-    /** A dotpose_prediction of wrappers/c/dotpose.h. */
+    /** A dotpose_prediction (wrappers/c/dotpose.h). */
     bytes: Uint8Array<ArrayBuffer>;
 }
 

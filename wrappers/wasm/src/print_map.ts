@@ -1,4 +1,4 @@
-// Print maps, applied by the functions of wrappers/c/space/dotpose_print_map.h.
+// Print maps, applied by the functions in wrappers/c/space/dotpose_print_map.h.
 import { callOk, callSpace } from "./core.js";
 import type { Instance } from "./instance.js";
 import { kMapUses, type MapUse } from "./names.js";

@@ -1,4 +1,5 @@
-// Requests of module/requests.hpp, with the same fields in the same order. Every value is a double.
+// The requests in module/requests.hpp, with the same fields in the same order. Every value is a
+// double.
 import { codeNumber, type Cell, type Code, type Section } from "./names.js";
 
 /**
@@ -12,7 +13,7 @@ export interface SheetOptions {
     section?: Section;
     /** Spacing of the printed grid. Default: 0.508. */
     spacing_mm?: number;
-    /** Distance of the centre of a dot from its intersection. Default: a sixth of the spacing. */
+    /** Distance from the centre of a dot to its intersection. Default: a sixth of the spacing. */
     displacement_mm?: number;
     /** Diameter of a dot. Default: a sixth of the spacing. */
     dot_mm?: number;
@@ -75,7 +76,7 @@ export interface Imperfections {
     palest_ink?: number;
     /** Loss of light in the corners, 0 to 1. */
     vignetting?: number;
-    /** Change of the brightness from one side of the image to the other, 0 to 2. */
+    /** Change in brightness from one side of the image to the other, 0 to 2. */
     fall?: number;
     /** Direction of decreasing brightness: angle from the image x axis towards the y axis
      * (down). */

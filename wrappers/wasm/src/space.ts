@@ -1,13 +1,13 @@
-// Poses of the camera in space, fitted by the functions of wrappers/c/space/dotpose_space.h.
+// Poses of the camera in space, fitted by the functions in wrappers/c/space/dotpose_space.h.
 import { callOk, callSpace } from "./core.js";
 import type { Instance } from "./instance.js";
 import type { LocatorOptions } from "./locator.js";
 import type { PrintMap } from "./print_map.js";
 
-/** Intrinsic parameters of the camera, as in a camera file of `dotpose calibrate`. */
+/** Intrinsic parameters of the camera, as in a camera file written by `dotpose calibrate`. */
 export interface SpaceCamera {
     /**
-     * Focal length in px, from 1 to 1,000,000. If the pixels are not square: the focal lengths along
+     * Focal length in px, from 1 to 1,000,000. For non-square pixels, give two focal lengths, along
      * the image x and y axes.
      */
     focal_px: number | readonly [number, number];
@@ -37,7 +37,7 @@ export interface SpacePose extends PoseInSpace {
     tilt_rad: number;
     /** Direction on the paper in which the camera leans, clockwise from +x. */
     azimuth_rad: number;
-    /** Angle of the image x axis on the paper after removal of the tilt, clockwise from +x. */
+    /** Angle of the image x axis on the paper after the tilt is removed, clockwise from +x. */
     turn_rad: number;
     /**
      * Covariance of the position, in mm, and of a small rotation vector in the camera frame, in
@@ -66,7 +66,7 @@ const kPoseBytes = 488;
 const kUseBytes = 4;
 const kCameraAt = { focal_u_px: 16, axis_u_px: 32, lens_k_per_px2: 48, lens_centre_u_px: 56, print_scale: 72 };
 
-/** The lens of a camera, as in the options of a locator. */
+/** The lens of a camera, as in the locator options. */
 export type Lens = Pick<LocatorOptions, "lens_k_per_px2" | "lens_centre_offset_px">;
 
 /** An image in the memory of the module. */

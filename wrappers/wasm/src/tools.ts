@@ -9,7 +9,7 @@ export type { Camera, CameraPose, Imperfections, Scene, SheetOptions } from "./r
 export type { Cell, Code, Section } from "./names.js";
 export type { Image } from "./locator.js";
 
-/** Layout of the dots of a sheet. */
+/** Layout of the dots on a sheet. */
 export interface SheetLayout {
     /** Number of columns of dots, at least 8. */
     columns: number;
@@ -107,7 +107,7 @@ export class Tools {
     }
 
     /**
-     * Returns the image of the simulated camera. The same scene gives the same bytes on every
+     * Returns an image from the simulated camera. The same scene gives the same bytes on every
      * machine.
      */
     render(scene: Scene): Image {

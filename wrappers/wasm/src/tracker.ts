@@ -39,7 +39,8 @@ export interface TrackOptions {
     min_sigma_rad?: number;
     /** Log2 of the maximum probability that an accepted fix is wrong. Default: -30. */
     max_p_wrong_log2?: number;
-    /** Log2 of the maximum `p_wrong` of a weak fix, without the prior. At most -1. Default: -10. */
+    /** Log2 of the maximum `p_wrong` of an accepted weak fix. This `p_wrong` is computed without
+     * the prior. At most -1. Default: -10. */
     max_weak_p_wrong_log2?: number;
     /** Spacing of the printed grid. Default: 0.508. */
     spacing_mm?: number;
@@ -71,7 +72,7 @@ export interface Track {
     verdict: Verdict;
     /** Changes caused by the frame. */
     events: TrackEvent[];
-    /** Upper bound of the probability that the pose is wrong, given the previous frames. */
+    /** Upper bound on the probability that the pose is wrong, given the previous frames. */
     p_wrong: number;
     /** x in the pattern, to the right. */
     x_mm: number;

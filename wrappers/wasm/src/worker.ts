@@ -8,8 +8,8 @@ export type Request = { id: number } & (
 );
 
 /**
- * The members of a worker's global object that this file uses. TypeScript's types for pages do not
- * declare them.
+ * The members of a worker's global scope that this file uses. TypeScript's DOM library (lib.dom)
+ * does not declare them.
  */
 interface Scope {
     onmessage: ((event: MessageEvent<Request>) => void) | null;

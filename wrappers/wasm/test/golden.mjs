@@ -2,7 +2,7 @@
 
 export const kSets = ["nominal", "hard", "vga"];
 
-/** Yields the images of a stream of binary PGM files. */
+/** Yields the images in a stream of binary PGM files. */
 export function* imagesOf(buffer) {
     const bytes = new Uint8Array(buffer);
     for (let at = 0; at < bytes.length; ) {
@@ -46,7 +46,7 @@ const kColumns = [
     ["float", 1, 248], // readout_turn_rad
 ];
 
-/** Returns the numbers of a fix in the format of a line of a golden file. */
+/** Returns the numbers in a fix, in the format of a golden file line. */
 function lineOf(fix) {
     const view = new DataView(fix.bytes.buffer);
     const hex = (value, digits) => value.toString(16).padStart(digits, "0");

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 
 export const kTool = process.env.DOTPOSE_TOOL;
-/** Returns the path of a file of the package. */
+/** Returns the path of a file in the package. */
 export const resolve = createRequire(join(process.env.DOTPOSE_PACKAGE, "package.json")).resolve;
 export const url = (name) => pathToFileURL(resolve(name));
 export const dotpose = await import(url("dotpose"));

@@ -1,5 +1,5 @@
 // Tests the packed and installed package in Node. The environment variable DOTPOSE_GOLDEN is the
-// folder of the golden files.
+// folder that contains the golden files.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -240,8 +240,8 @@ describe("Tracker", () => {
         assert.equal(carried.is_lost, false);
         assert.equal(carried.verdict, "none");
         assert.ok(Math.abs(carried.x_mm - x_mm(59)) < 0.1, `${carried.x_mm}`);
-        // The variance is the sum of the variances of twenty independent errors of 0.01 mm, and of
-        // the errors that result from the heading.
+        // The variance is the sum of the variances of twenty independent displacement errors of
+        // 0.01 mm and the variance due to heading errors.
         assert.ok(carried.covariance[0] > 0.9 * 20 * 0.01 ** 2 && carried.covariance[0] < 0.1 ** 2, `${carried.covariance[0]}`);
         assert.equal(lost.is_lost, true);
         assert.ok(Number.isNaN(lost.x_mm) && Number.isNaN(lost.covariance[0]));

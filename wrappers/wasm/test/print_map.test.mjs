@@ -23,7 +23,7 @@ function random(seed) {
     return () => (state = (state * 48271) % 0x7fffffff) / 0x7fffffff;
 }
 
-/** Returns the CRC-32 of IEEE 802.3, which ends a map file. */
+/** Returns the CRC-32 (IEEE 802.3), with which a map file ends. */
 function crc32(bytes) {
     let crc = 0xffffffff;
     for (const byte of bytes) {
@@ -56,7 +56,7 @@ describe("print map", () => {
     let options;
     let locator;
 
-    /** Returns a frame of a print whose dots have errors of 20 um. */
+    /** Returns a frame of a print whose dots have random position errors of 20 um. */
     const render = (pose, seed, page_seed = 5) =>
         tools.render({
             ...{ sheet: kSheet, page_seed, camera: kCamera, seed },
@@ -90,7 +90,7 @@ describe("print map", () => {
     test("fixes are those of the tool, and more accurate than without the map", async () => {
         const without = await dotpose.Locator.create({ ...options, print_map: undefined });
         // In all poses, the page fills the frame. Outside the page, the results would differ,
-        // because only the tool removes what is outside.
+        // because only the tool removes the area around the page.
         const next = random(2);
         let [squares, squares_without] = [0, 0];
         for (let k = 0; k < 6; ++k) {
@@ -164,7 +164,7 @@ describe("print map", () => {
         const newer = print_map.slice();
         newer[8] = 99;
         await refused(newer, /^it has version 99, and this program reads versions 1 to \d+/);
-        // The number of dots of the page is 2^32, which does not fit into the integers of the module.
+        // The number of dots on the page is 2^32, which does not fit into the integers of the module.
         const huge = print_map.slice();
         const columns = columnsAt("page");
         new DataView(huge.buffer).setUint32(columns, 65536, true);

@@ -1,4 +1,4 @@
-// Receives the pose packets of a device on a serial line and prints the poses. Uses the C
+// Receives pose packets from a device over a serial line and prints the poses. Uses the C
 // interface, dotpose.h.
 #include <dotpose.h>
 

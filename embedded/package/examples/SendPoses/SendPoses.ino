@@ -1,5 +1,5 @@
 // Sends the pose of every camera frame over the serial line. On a computer, `dotpose listen
-// /dev/ttyUSB0` prints the poses. board.cpp implements the three functions of the board.
+// /dev/ttyUSB0` prints the poses. board.cpp implements the three functions declared in board.hpp.
 #include <dotpose_device.hpp>
 
 #include "pose_sender.hpp"

@@ -1,4 +1,4 @@
-// Tests the rotation and the decoding of blocks of bits. The blocks are made with `symbol_at`.
+// Tests the rotation and the decoding of blocks of bits. The blocks are generated with `symbol_at`.
 #include "core/decode/bit_lines.hpp"
 
 #include <gtest/gtest.h>

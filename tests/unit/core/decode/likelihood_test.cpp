@@ -38,8 +38,8 @@ DetectedDot dot_in(int i, int j, Vec2 offset) {
     return dot_at(kMesh.at(i + offset.x, j + offset.y));
 }
 
-/// Returns one dot in the first cell and one in the last cell of `columns` x `rows` cells from (i0,
-/// j0). The two dots determine the extent of the grid.
+/// Returns two dots in opposite corners of a block of `columns` x `rows` cells whose first cell is
+/// (i0, j0). The two dots determine the extent of the grid.
 std::vector<DetectedDot> corners(int i0, int j0, int columns, int rows) {
     return {dot_in(i0, j0, {0, -1 / 6.0}), dot_in(i0 + columns - 1, j0 + rows - 1, {0, -1 / 6.0})};
 }

@@ -16,7 +16,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 22;
 
-/// Maximum and rms error of the centroid of a dot. The error occurs because the threshold omits
+/// Maximum and rms error of a dot's centroid, in px. The error occurs because the threshold omits
 /// whole pixels at the rim of the dot.
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;

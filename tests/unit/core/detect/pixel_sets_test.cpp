@@ -141,8 +141,8 @@ TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
 }
 
 TEST(PixelSets, RunsBeginAndEndAtAnyColumn) {
-    // Eight rows of bars for each length. The rows begin at eight successive columns, and the bars
-    // of a row are separated by one pixel.
+    // Draws eight rows of bars for each length. The rows begin at eight successive columns, and the
+    // bars in a row are separated by one pixel.
     for (int length = 2; length <= 26; ++length) {
         GreyImage image = blank(200, 140);
         std::size_t bars = 0;

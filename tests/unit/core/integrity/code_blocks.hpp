@@ -57,8 +57,8 @@ struct Verdict {
     Fix fix;
 };
 
-/// Returns the number of bits of an axis that disagree with the code if the lines of the axis have
-/// these rolls.
+/// Returns the number of bits along an axis that disagree with the code if the lines of this axis
+/// have the given rolls.
 inline int contradictions(const Block& block, bool is_x, const std::vector<int>& rolls) {
     int wrong = 0;
     for (int row = 0; row < block.rows; ++row) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 4021;
 
-/// The cells around cell (0, 0), which is at a given place of the code. The first column and the
+/// The cells around cell (0, 0), which is at a given place in the code. The first column and the
 /// first row have the index kFirst.
 struct Seen {
     static constexpr int kFirst = -20;

@@ -91,7 +91,7 @@ double random_agreement(int bits, int wrong) {
     return sum;
 }
 
-/// Returns the sum of the odds of all places of a sheet except `best`. The odds are relative to
+/// Returns the sum of the odds of all places on a sheet except `best`. The odds are relative to
 /// those of `best`.
 double other_odds(const core::BitBlock& block, const KnownRegion& sheet,
                   const core::KnownPlace& best) {

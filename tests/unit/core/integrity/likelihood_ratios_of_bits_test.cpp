@@ -211,7 +211,7 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     EXPECT_GT(doubtful, 100);
 }
 
-/// If the table states a minimum loss for the alternatives in a sequence, each of these
+/// If the table contains a minimum loss for the alternatives in a sequence, each of these
 /// alternatives must lose at least as much.
 TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
     Rng rng(10);

@@ -27,7 +27,7 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns the sum of the odds of all other places of one sequence. A place is counted once for
+/// Returns the sum of the odds of all other places in one sequence. A place is counted once for
 /// each shift at which it shares a line with the reading.
 double sum_of_singles(const RatiosCase& c) {
     const auto texts = code_test::secondary_texts(c.code);

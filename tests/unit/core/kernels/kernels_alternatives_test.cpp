@@ -86,8 +86,8 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
         const auto sequences = static_cast<unsigned>(whole(rng, 1, 15));
         if (!kernels.list_similar_places(places.basis, places.own, sequences, lines, enough, list))
             return;
-        std::set<std::array<int, 3>>
-            found;  // sequence, place, and the shift at which the place shares a line
+        // Elements: sequence, place, and the shift at which the place shares a line.
+        std::set<std::array<int, 3>> found;
         for (const auto& [k, place, line, loss] :
              std::span(list.places).first(static_cast<std::size_t>(list.count)))
             found.insert({k, place, places.offset(k, place, line)});

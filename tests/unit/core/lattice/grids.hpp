@@ -1,4 +1,4 @@
-// Makes first estimates of grids with random errors, and checks the grids that a stage computes
+// Creates first estimates of grids with random errors, and checks the grids that a stage computes
 // from these estimates.
 #pragma once
 

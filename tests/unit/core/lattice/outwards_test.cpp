@@ -1,4 +1,4 @@
-// Tests the growth of grids from dots of tilted planes, and from dots that do not form a grid. The
+// Tests the growth of grids from dots on tilted planes, and from dots that do not form a grid. The
 // positions of the dots are computed in double precision.
 #include "core/lattice/outwards.hpp"
 
@@ -19,7 +19,7 @@ constexpr std::uint64_t kSeed = 75;
 struct Trouble {
     double missing = 0;
     double extra = 0;      ///< number of false dots at random positions per true dot
-    double jitter_px = 0;  ///< standard deviation of the positions of dots, per axis
+    double jitter_px = 0;  ///< standard deviation of the dot positions, per axis
     double displacement = 1 / 6.0;
 };
 

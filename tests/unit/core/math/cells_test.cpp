@@ -1,4 +1,4 @@
-// Tests the computation of the cells of points in 32-bit arithmetic against double precision.
+// Tests the computation of each point's cell in 32-bit arithmetic against double precision.
 #include "core/math/cells.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Cells, PlanePointsAreThoseOfTheFormula) {
         const Cells cells(plane);
         const auto reach = static_cast<std::int32_t>(4 * side);
         for (int j = 0; j < 200; ++j) {
-            // The first points are the corners.
+            // The first four points are the corners.
             const auto coordinate = [&](int corner) {
                 if (j < 4) return corner != 0 ? reach : -reach;
                 return static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(2 * reach))) -

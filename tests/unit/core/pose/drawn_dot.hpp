@@ -35,7 +35,7 @@ struct DrawnDot {
     std::vector<double> darkness;
 };
 
-/// Returns the fraction of the light of a point that reaches one pixel after a Gaussian blur. The
+/// Returns the fraction of the light from a point that reaches one pixel after a Gaussian blur. The
 /// point is `offset_px` from the middle of the pixel.
 inline double collected(double offset_px, double blur_px) {
     const double scale = blur_px * std::numbers::sqrt2;

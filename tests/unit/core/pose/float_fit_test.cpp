@@ -18,8 +18,8 @@ constexpr std::uint64_t kSeed = 78;
 constexpr double kDisplacement = 1 / 6.0;
 constexpr int kReach_px = 95;
 
-/// Adds the dots of the plane that are in an image of 188 x 120 px. A fraction `wrong` of the dots
-/// is displaced by up to 4 px per axis.
+/// Adds the dots on the plane that are visible in an image of 188 x 120 px. A fraction `wrong` of
+/// the dots is displaced by up to 4 px per axis.
 void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng, OwnedDots& owned) {
     for (int j = -14; j <= 14; ++j) {
         for (int i = -14; i <= 14; ++i) {

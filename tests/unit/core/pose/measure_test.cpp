@@ -46,7 +46,7 @@ void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int
     ASSERT_EQ(reading.status, Status::ok);
     const Nominal nominal(reading.grid(), view.code, reading.truth());
     PlaneFromImage pose = upright_plane(reading.plane, reading.turn);
-    // The pose of the first attempt has an error of a few hundredths of a spacing.
+    // The pose from the first attempt has an error of a few hundredths of a spacing.
     const Vec2 off{rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03)};
     pose.at_centre_q16 = fixed(real(pose.at_centre_q16, 16) + off, 16);
     std::vector<DetectedDot> measured(1000);

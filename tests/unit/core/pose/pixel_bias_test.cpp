@@ -1,4 +1,4 @@
-// Tests the correction of the pixel bias. The dots of a frame have equal sub-pixel phases. They are
+// Tests the correction of the pixel bias. All dots in a frame have equal sub-pixel phases. They are
 // drawn with the shape of the dot model, and with other shapes.
 #include "core/pose/pixel_bias.hpp"
 
@@ -21,7 +21,7 @@ constexpr double kContrast = 0.85;
 constexpr double kNoise = 3;
 constexpr double kBlur_px = 0.3;
 
-/// Error of the mean of the measured centres before and after the correction, in px.
+/// Error of the mean measured centre before and after the correction, in px.
 struct MeanError {
     Vec2 before;
     Vec2 after;
@@ -162,8 +162,8 @@ TEST(PixelBias, IsTakenFromSmallAndLargeDiscs) {
     }
 }
 
-/// An oblique motion blur tilts the image of a dot. If the dot is off the centre of its window
-/// along one axis, its centroid is then also shifted along the other axis.
+/// An oblique motion blur tilts the image of a dot. If the dot is not centred in its window along
+/// one axis, its centroid is then also shifted along the other axis.
 TEST(PixelBias, IsTakenFromObliquelyMovingDots) {
     const DotAt moving = [](Vec2 phase) { return moving_dot(disc(1), phase, kBlur_px, {1, -0.7}); };
     const MeanError error = typical_error(moving, 1.15F);

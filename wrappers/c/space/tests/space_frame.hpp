@@ -1,4 +1,4 @@
-/// A frame of a tilted camera, and the C objects that locate it.
+/// A frame from a tilted camera, and the C objects that locate it.
 #pragma once
 
 #include <fstream>
@@ -21,7 +21,7 @@ struct Destroy {
 };
 using CLocator = std::unique_ptr<dotpose_locator, Destroy>;
 
-/// A frame of a camera that leans by 20 degrees towards +x.
+/// A frame from a camera that leans by 20 degrees towards +x.
 class SpaceInC : public testing::Test {
   protected:
     void SetUp() override {
