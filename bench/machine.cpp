@@ -23,6 +23,7 @@ std::string value_in(const char* path, std::string_view name) {
     return "unknown";
 }
 
+/// Returns the sizes of the data caches. Virtual machines may hide them.
 std::string caches() {
     std::string text;
     for (const auto& cache : benchmark::CPUInfo::Get().caches) {
@@ -30,7 +31,7 @@ std::string caches() {
         text +=
             fmt::format("{}L{} {} KB", text.empty() ? "" : ", ", cache.level, cache.size / 1024);
     }
-    return text;
+    return text.empty() ? "caches unknown" : text;
 }
 
 }  // namespace
