@@ -166,7 +166,7 @@ void print_protocol(const AccuracyOptions& accuracy, TableRun& run) {
 bool accuracy_table(TableRun& run) {
     AccuracyOptions options;
     std::string folder = "accuracy-out";
-    run.seed = 404;  // not used by any test or for parameter tuning
+    run.seed = 404;  // no test uses this seed, and no parameter was tuned with it
     run.command.add_option("FOLDER", folder, "Folder of tables and figures")->capture_default_str();
     run.command.add_flag("--quick", options.is_quick, "A tenth of the frames: not exact");
     run.add_update();

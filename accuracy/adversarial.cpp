@@ -70,7 +70,8 @@ struct AdversaryTally {
     }
 };
 
-/// Source of the code variant: the options of the frame, or detection by the locator.
+/// How the code variant is determined: taken from the options of the frame, or detected by the
+/// locator.
 enum class Code : std::uint8_t { given, automatic };
 
 /// Locates a frame. If the code variant is detected, stores it in the options of the frame.

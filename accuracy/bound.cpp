@@ -111,7 +111,7 @@ Shot shot_of(const BoundFrames& frames, std::uint64_t seed, int index) {
                                     frames.motion_px * std::sin(kMotionDirection_rad)};
     shot.imperfections.fall = frames.fall;
     shot.imperfections.fall_direction_rad = rng.uniform(0, 2 * std::numbers::pi);
-    shot.imperfections.sub_pixels = 8;  // fine, because errors of 0.0005 px matter
+    shot.imperfections.sub_pixels = 8;  // fine sampling, because errors of 0.0005 px matter
     return shot;
 }
 

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace calibrate_test;
 
-/// Writes frame_at(0) to frame_at(frames - 1) to a folder.
+/// Writes frame_at(0), ..., frame_at(frames - 1) to a folder.
 template <typename FrameAt>
 void write_frames(const fs::path& folder, int frames, FrameAt frame_at) {
     fs::create_directories(folder);

@@ -52,7 +52,7 @@ struct LensTally {
     Numbers residual;     ///< residual divided by the residual with the true parameters
     Errors located;       ///< position errors with the calibrated camera, um per axis
     Errors undistorted;   ///< position errors with a distortion-free lens, um per axis
-    int not_located = 0;  ///< number of frames without a fix, with the calibrated camera
+    int not_located = 0;  ///< number of frames that are not located with the calibrated camera
     int not_good = 0;
     int wrong_kind = 0;
 

@@ -12,8 +12,8 @@ namespace dotpose::tables {
 using TakeFrame =
     std::function<void(int index, const test::DriveState& truth, const Followed& followed)>;
 
-/// Processes every `step`-th frame of the drive and corrects the positions with `map`, unless it is
-/// empty. Ctrl-C ends the run early.
+/// Processes every `step`-th frame of the drive. If `map` is not empty, corrects the positions with
+/// it. Ctrl-C ends the run early.
 void follow_drive(const test::Drive& drive, const test::DriveCamera& camera, int step,
                   const TakeFrame& take, const PrintMap& map = {});
 

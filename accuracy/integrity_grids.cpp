@@ -56,8 +56,8 @@ struct Noise {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// Returns the expected information in one of the two bits of a cell, in bits, averaged over
-    /// all weights. A missing cell contains no information.
+    /// Returns the expected information in each of a cell's two bits, in bits, averaged over all
+    /// weights. A missing cell contains no information.
     double information() const {
         double sum = 0;
         for (int weight = min_weight; weight <= 127; ++weight)
@@ -66,7 +66,7 @@ struct Noise {
     }
 };
 
-/// Draws random odds of a correct bit at which a reading with this number of cells is doubtful.
+/// Draws random odds of a correct bit, which make a reading with this number of cells doubtful.
 /// Along one axis, there are 2^36.6 combinations of position, section and turn. The decoder needs
 /// 36.6 bits to distinguish them, and about 30 more bits to make a wrong position unlikely. The
 /// number of bits is drawn from a range around this sum.
@@ -142,7 +142,7 @@ bool is_right(const Reading& reading, const Decoding& decoding) {
     return true;
 }
 
-/// Returns the information in the bits of one axis, in bits, computed from the odds per bit that
+/// Returns the mean information per axis, in bits. It is computed from the odds per bit that
 /// `verify` estimates. The more information, the smaller p_wrong.
 double apparent_information(const core::Grid& grid, const Decoding& decoding,
                             const core::Nominal& nominal) {

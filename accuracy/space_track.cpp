@@ -47,9 +47,9 @@ struct TrackErrors {
     std::uint64_t count = 0;
     double position = 0;             ///< sum of the squared errors, mm^2
     double rotation = 0;             ///< sum of the squared errors, rad^2
-    double normalised = 0;           ///< sum of the normalised squares of the six coordinates
+    double normalised = 0;           ///< sum of the normalised squared errors per coordinate
     double velocity = 0;             ///< sum of the squared errors, mm^2/s^2
-    double normalised_velocity = 0;  ///< sum of the mean normalised squares of the three axes
+    double normalised_velocity = 0;  ///< sum of the normalised squared errors per axis
 
     void add(const CameraInSpace& camera, const SpaceCovariance& covariance,
              const TrueSpacePose& truth) {

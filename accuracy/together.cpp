@@ -1,5 +1,5 @@
 // Measures how many frames are needed to locate a moving camera if a single view is too small for a
-// fix. The bits of successive frames are joined. Prints a table in Markdown.
+// fix. The bits of successive frames are combined. Prints a table in Markdown.
 //
 //   dotpose_tables together [--series N] [--seed S]
 //
@@ -22,8 +22,8 @@ constexpr std::size_t kLength = 8;
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 1024}, 393, 564};
 constexpr std::uint32_t kMargin = 60;
 
-/// Size of the views in a series, and standard deviation of the measured motion between consecutive
-/// views.
+/// A kind of series: the spacing and size of its views, whether they are on a known sheet, and the
+/// standard deviations of the measured motion between consecutive views.
 struct SeriesKind {
     double spacing_px;
     int side_px;

@@ -25,7 +25,7 @@ constexpr std::array kOffsets{Offset{0, 0},   Offset{0.1, 0}, Offset{0.2, 0}, Of
                               Offset{0, 4},   Offset{0, 5},   Offset{0, 6},   Offset{0.3, 2},
                               Offset{0.5, 3}, Offset{0.6, 4}, Offset{0.9, 6}};
 
-/// Returns the prediction based on a fix, displaced by the offset in a random direction.
+/// Returns the prediction from a fix, displaced by `offset` in a random direction.
 Prediction displaced(const Fix& fix, const Offset& offset, Rng& rng) {
     const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double sign = rng.below(2) == 0 ? 1 : -1;

@@ -32,8 +32,8 @@ namespace dotpose::tables {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
-/// Side length, in spacings, of the part of the page from which the true pose of a view is
-/// determined. This part contains about 1500 dots.
+/// Side length, in spacings, of the part of the page that determines a view's true pose. This part
+/// contains about 1500 dots.
 constexpr double kSurroundings_grid = 40;
 /// Number of views whose combined evidence is expected to identify the code.
 constexpr int kFirstViews = 50;

@@ -23,8 +23,8 @@ struct Along {
 
 using Places = std::array<std::uint32_t, 4>;
 
-/// Returns the maximum number of lines whose rolls at two places in a secondary sequence differ by
-/// the same amount. A constant difference between the rolls is equivalent to another section.
+/// Returns the maximum number of lines whose rolls differ by the same amount between two places in
+/// a secondary sequence. A constant difference between the rolls is equivalent to another section.
 int shared_lines(const code::Secondary& sequence, std::uint32_t place, std::uint32_t other,
                  int lines) {
     std::array<int, kSections> counts{};
@@ -56,8 +56,7 @@ std::uint8_t section_of(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
-/// Returns the section in which the largest number of the lines starting at `position` have the
-/// given rolls.
+/// Returns the section in which the lines starting at `position` match the most of the given rolls.
 std::uint8_t likest_section(CodeVariant code, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {
     std::vector<std::uint8_t> there(rolls.size());

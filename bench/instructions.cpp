@@ -44,8 +44,8 @@ extern "C" [[gnu::noinline]] void count_frame_in_code(const ImageView& image, Lo
 
 namespace {
 
-/// Locates the frame twice, without and with the given code, and returns true. If the first attempt
-/// with the first code does not locate the frame, counts nothing and returns false.
+/// Locates the frame twice, first without and then with a given code, and returns true. Counts
+/// nothing and returns false if the first attempt does not locate the frame in the code `anoto`.
 bool compare_codes(const ImageView& image, Locator& locator) {
     const auto is_settled = [](const CodeReading& reading) {
         return reading.fix.status == Status::ok && reading.fix.attempt == Attempt::first &&

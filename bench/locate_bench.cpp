@@ -40,7 +40,7 @@ const std::vector<CameraModel>& sizes() {
     return all;
 }
 
-/// Returns cameras with the same image size and decreasing spacings, whose frames therefore contain
+/// Returns cameras with the same image size and decreasing spacings. Their frames therefore contain
 /// increasing numbers of dots.
 const std::vector<CameraModel>& spacings() {
     static const std::vector<CameraModel> all = [] {

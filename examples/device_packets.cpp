@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kFrameTime_us = 20'000;
 
-// The complete memory of the locator: 13 KB. The heap is not used.
+// All the memory that the locator uses: 13 KB. It allocates nothing on the heap.
 dotpose::DeviceMemory memory;
 
 }  // namespace

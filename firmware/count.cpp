@@ -122,10 +122,10 @@ using Markers = std::array<Marker, 3>;
 // The markers are the instructions mov r10, r10; mov r11, r11; mov r12, r12.
 constexpr Markers kThumbMarkers = {
     {{0x46D2, 2, on_resume}, {0x46DB, 2, on_pause}, {0x46E4, 2, on_end_frame}}};
-// The markers are the instructions sltiu $0, $0, 0x1b1 to 0x1b3 in microMIPS.
+// The markers are the microMIPS instructions sltiu $0, $0, N, where N is 0x1b1, 0x1b2 or 0x1b3.
 constexpr Markers kMipsMarkers = {
     {{0x01B1B000, 4, on_resume}, {0x01B2B000, 4, on_pause}, {0x01B3B000, 4, on_end_frame}}};
-// The markers are the instructions slti x0, x0, 0x1b1 to 0x1b3.
+// The markers are the instructions slti x0, x0, N, where N is 0x1b1, 0x1b2 or 0x1b3.
 constexpr Markers kRiscVMarkers = {
     {{0x1B102013, 4, on_resume}, {0x1B202013, 4, on_pause}, {0x1B302013, 4, on_end_frame}}};
 const Markers* markers = &kThumbMarkers;

@@ -38,9 +38,9 @@ struct FrameHeader {
     Prediction prediction;
 };
 
-/// Reads the next number in a header and the character after it. Returns false if there is no
-/// number, if its absolute value exceeds INT32_MAX, or if the character is neither a blank nor a
-/// newline.
+/// Reads the next number in a header, and the character that follows the number. Returns false if
+/// there is no number, if its absolute value exceeds INT32_MAX, or if the character is neither a
+/// blank nor a newline.
 bool read_number(std::int32_t& number) {
     char byte = 0;
     do {

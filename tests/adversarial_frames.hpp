@@ -1,5 +1,5 @@
-/// Frames designed to provoke wrong fixes, with the poses that are acceptable for each frame. A
-/// frame is determined by its adversary, seed and index.
+/// Frames designed to provoke wrong fixes, and the acceptable poses for each frame. A frame is
+/// determined by its adversary, seed and index.
 #pragma once
 
 #include <array>
@@ -87,8 +87,8 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
 }
 
 /// Returns true if the pattern was printed in a code other than `frame.options.code`, but also
-/// matches that code at the fix. A match means that at least three quarters of the bits around the
-/// fix, according to `frame.options.code`, equal the printed bits around the first answer.
+/// matches that code at the fix. The pattern matches if at least three quarters of the bits that
+/// `frame.options.code` has around the fix equal the bits printed around the first answer.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();
@@ -203,8 +203,8 @@ inline void render_part(Adversary adversary, Shot shot, Rng& rng, AdversarialFra
     const int reach = reach_cells(shot);
     const bool has_few = adversary == Adversary::few_lines;
     std::uint32_t lines = has_few ? 5 + rng.below(4) : kFar;
-    // A few lines may be anywhere in the view. A half-empty pattern has its border near the middle
-    // of the view.
+    // A pattern of a few lines may be anywhere in the view. The border of a half-empty pattern is
+    // near the middle of the view.
     const int spread = has_few ? reach : reach / 3;
     const auto offset = static_cast<int>(rng.below(static_cast<unsigned>(2 * spread + 1))) - spread;
     const bool is_vertical = rng.below(2) == 0;

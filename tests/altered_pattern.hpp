@@ -30,8 +30,8 @@ inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::ui
     return make_symbol(x_bit(symbol) ^ flip_x, y_bit(symbol) ^ flip_y);
 }
 
-/// Renders the shot like `render(shot)`, but displaces the dots by `displacement_of`, in units of
-/// the nominal displacement.
+/// Renders the shot like `render(shot)`, but displaces each dot by the result of `displacement_of`,
+/// in units of the nominal displacement.
 inline GreyImage render_dots(const Shot& shot, const simulate::DisplacementOf& displacement_of) {
     const Imperfections& seen = shot.imperfections;
     const simulate::View view(shot.camera, shot.pose, seen);

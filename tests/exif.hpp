@@ -7,7 +7,7 @@
 
 namespace dotpose::test {
 
-/// Tags of the EXIF directory, a second directory to which the first one refers.
+/// Tags of the EXIF directory. An entry of the first TIFF directory points to it.
 enum ExifTag : std::uint16_t {
     exposure_time = 33434,
     f_number = 33437,
@@ -17,7 +17,7 @@ enum ExifTag : std::uint16_t {
     file_source = 41728,
 };
 
-/// Returns a TIFF structure. Its first directory contains a camera maker, and refers to a second
+/// Returns a TIFF structure whose first directory contains a camera maker and points to an EXIF
 /// directory with these tags. The first directory also describes an image of one pixel, so the
 /// structure is a valid TIFF file.
 inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endian) {

@@ -57,8 +57,8 @@ inline double covered_share(Shot shot) {
     return static_cast<double>(dark) / static_cast<double>(image.pixels.size());
 }
 
-/// Adds dirt or graphics in steps of `step` until they cover a fraction of the frame between `from`
-/// and `to`. If a step exceeds `to`, starts again with another seed.
+/// Adds dirt or graphics in steps of `step` until the covered fraction of the frame is between
+/// `from` and `to`. If the fraction exceeds `to`, starts again with another seed.
 inline void cover(Shot& shot, int Imperfections::*count, int step, double from, double to) {
     for (std::uint64_t trial = 0;; ++trial) {
         shot.seed = Rng(shot.seed, trial).bits();
@@ -80,7 +80,7 @@ inline void add_light(std::vector<Limit>& limits) {
                               constexpr double kLeft = 0.3;
                               Imperfections& worse = shot.imperfections;
                               worse.fall = 2 * (1 - kLeft) / (1 + kLeft);
-                              // The lighter side keeps the original paper level.
+                              // The lighter side keeps the paper level of the original shot.
                               worse.paper_level /= 1 + worse.fall / 2;
                               worse.vignetting = vignetting;
                           }});

@@ -57,8 +57,8 @@ class MappedPrint {
     const SheetEntry& entry() const { return entry_; }
     const MappedPrintOptions& options() const { return options_; }
 
-    /// Returns the displacement of a dot due to the wave. Dots are displaced along y, the direction
-    /// of paper feed, and along x with a tenth of the amplitude.
+    /// Returns the displacement of a dot due to the wave. The wave displaces dots along y, the
+    /// direction of paper feed, and by a tenth of that amplitude along x.
     Vec2 wave(Vec2 at_mm) const {
         const double phase = 2 * std::numbers::pi * at_mm.y / options_.wavelength_mm;
         return {0.1 * options_.wave_mm * std::cos(phase), options_.wave_mm * std::sin(phase)};
@@ -116,11 +116,11 @@ class PlaceErrors {
     }
     std::size_t count() const { return places_.size(); }
 
-    /// Returns the rms error per axis after subtraction of a fitted offset, scale and rotation.
+    /// Returns the rms error per axis after subtracting a fitted offset, rotation and scale.
     double absolute_um() const { return left_um(4, 0); }
-    /// Returns the rms error per axis, excluding errors that vary slowly over the page. First adds
-    /// `wave_share` times the wave of the print to each error, because a displaced dot moves the
-    /// fix in the opposite direction. Then subtracts a fitted cubic polynomial.
+    /// Returns the rms error per axis, excluding errors that vary slowly over the page. A displaced
+    /// dot moves the fix in the opposite direction, so the function first adds `wave_share` times
+    /// the wave of the print to each error. Then it subtracts a fitted cubic polynomial.
     double repeatability_um(double wave_share) const { return left_um(20, wave_share); }
     double sigma_um() const {
         return 1000 * std::sqrt(variance_ / static_cast<double>(places_.size()));

@@ -32,7 +32,7 @@ struct SeamShot {
 
     double seam_px = 0;        ///< distance from the image centre to the seam
     double direction_rad = 0;  ///< direction from the image centre to the seam, in the image
-    double along_px = 0;       ///< position of the far side's centre of rotation, along the seam
+    double along_px = 0;       ///< position of the far side's rotation centre along the seam
     double turn_rad = 0;       ///< rotation of the far side
     double shift_x_px = 0;     ///< shift of the far side
     double shift_y_px = 0;
@@ -54,7 +54,7 @@ struct SeamShot {
     }
 };
 
-/// Ink coverage of an image and of a border around it, which the blur needs.
+/// Ink coverage of an image, including a border around the image that the blur needs.
 class InkMap {
   public:
     InkMap(int width_px, int height_px)

@@ -19,7 +19,7 @@
 namespace dotpose::test {
 
 inline constexpr double kSpaceDistance_mm = 25;
-inline constexpr double kSpaceFps = 10;  ///< frames per second of the runs
+inline constexpr double kSpaceFps = 10;  ///< frame rate at which the tests play the frames
 /// Tilts of the frames. The camera leans towards +x.
 inline constexpr std::array kSpaceTilts_rad = {0.1, 0.25, 0.4, 0.55};
 
@@ -66,8 +66,8 @@ inline Eigen::Quaterniond true_space_rotation(std::size_t frame) {
                               Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
 }
 
-/// Expects that the position and rotation of a geometry_msgs/Pose or Transform are the true pose of
-/// a frame, and that the error is consistent with `covariance`.
+/// Expects that the position and rotation of a geometry_msgs/Pose or Transform match the true pose
+/// of a frame, and that the error is consistent with `covariance`.
 inline void expect_true_space_pose(std::size_t frame, const nlohmann::json& position,
                                    const nlohmann::json& rotation,
                                    const nlohmann::json& covariance) {

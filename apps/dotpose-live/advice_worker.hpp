@@ -1,5 +1,5 @@
-/// Determines why a frame was refused. The analysis runs in a separate thread, because it takes up
-/// to a second.
+/// Determines why a frame was refused. The analysis can take up to a second, so it runs in a
+/// separate thread.
 #pragma once
 
 #include <condition_variable>
@@ -25,16 +25,16 @@ class AdviceWorker {
         Record record;
     };
 
-    /// `take` is called in the worker thread after each analysis. Its argument is the reason why
-    /// the frame was refused (see `reason` in locate_record.hpp), including the advice.
+    /// The worker thread calls `take` after each analysis. The argument is the reason why the frame
+    /// was refused (see `reason` in locate_record.hpp), including advice for the user.
     explicit AdviceWorker(std::function<void(const std::string&)> take);
     /// Waits until the running analysis has finished.
     ~AdviceWorker();
     AdviceWorker(const AdviceWorker&) = delete;
     AdviceWorker& operator=(const AdviceWorker&) = delete;
 
-    /// Queues a refused frame for analysis. Replaces a frame that is still waiting, so at most one
-    /// frame waits.
+    /// Queues a refused frame for analysis. The queue holds one frame: a new frame replaces one
+    /// that is still waiting.
     void ask(Job job);
 
   private:

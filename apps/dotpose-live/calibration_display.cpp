@@ -37,7 +37,7 @@ TextLines captions_of(const CalibrationStatus& status) {
     append_wrapped(taken_text(status) + "; " + status.now, kPanelColumns, lines);
     append_wrapped("next: " + next_text(status), kPanelColumns, lines);
     if (!status.remark.empty()) append_wrapped(status.remark, kPanelColumns, lines);
-    // The number of lines is constant, which keeps the drawings below the captions in place.
+    // A constant number of lines keeps the drawings below the captions in place.
     lines.resize(kCaptions - 1);
     lines.emplace_back("q ends");
     return lines;

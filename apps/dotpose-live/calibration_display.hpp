@@ -1,6 +1,6 @@
 /// Display for `dotpose calibrate --live` while frames are being captured: a window or, if no
-/// window can be opened, the terminal. If standard error is not a terminal, each change is printed
-/// as a line.
+/// window can be opened, the terminal. If standard error is not a terminal either, prints a line
+/// for each change.
 #pragma once
 
 #include <atomic>

@@ -18,9 +18,9 @@ using namespace std::chrono_literals;
 
 /// Minimum time between two frames that are copied for the calibration thread.
 constexpr std::chrono::milliseconds kOfferPeriod = 50ms;
-/// Maximum number of queued jobs. While the queue is full, commands from the page are ignored.
+/// Maximum number of queued jobs. While the queue is full, commands from the web page are ignored.
 constexpr std::size_t kMaxJobs = 8;
-/// Number of consecutive frames without a fix after which the page advises the user to keep the
+/// Number of consecutive frames without a fix after which the web page advises the user to keep the
 /// camera over the dots.
 constexpr int kManyLost = 10;
 
@@ -286,7 +286,8 @@ void CalibrationGuide::solve() {
             state.result = std::move(result);
         });
     } catch (const Error& error) {
-        if (cancels_) return;  // the next job is the command that cancelled the step
+        // The command that cancelled this step runs next and resets the state.
+        if (cancels_) return;
         fail(error.what());
     }
     collector_.reset();
@@ -311,7 +312,7 @@ GuideResult CalibrationGuide::lens_result() {
     return result;
 }
 
-/// Computes the result of a step. Throws Error if its frames do not determine a result.
+/// Computes the result of a step. Throws Error if the collected frames are not sufficient.
 GuideResult CalibrationGuide::result_of(GuideStep step) {
     if (step == GuideStep::lens) return lens_result();
     // `guided_` can be read without locking the mutex, because the main thread adds no frames while

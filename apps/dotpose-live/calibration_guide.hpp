@@ -1,9 +1,9 @@
 /// Calibrates the camera of a running `dotpose watch` in five steps:
 /// - the lens,
-/// - the mount of the camera, from a turn on the spot,
+/// - the camera mount, from a turn on the spot,
 /// - the forward direction, from a straight drive,
 /// - the readout time, from a fast drive, and
-/// - the tip of a pen, from pivoting.
+/// - the tip of a pen, from pivoting the pen about it.
 ///
 /// The main thread passes frames and commands to the guide. These calls return immediately and copy
 /// only the frames that are needed. A low-priority thread selects the frames for the lens, computes
@@ -44,7 +44,7 @@ enum class GuidePhase {
     collecting,  ///< frames are being collected
     solving,     ///< the calibration is being computed
     solved,      ///< the result is ready to be saved
-    failed,      ///< the step failed for the reason in `GuideState::problem`
+    failed,      ///< the step failed; `GuideState::problem` is the reason
     saved        ///< the result has been saved in the camera file
 };
 const char* name(GuidePhase phase);
@@ -63,8 +63,8 @@ struct GuideResult {
     Camera camera;
     std::string report;                           ///< report as printed by `dotpose calibrate`
     bool is_good = true;                          ///< false if the verdict is a warning
-    std::optional<ResidualField> residuals = {};  ///< for the step `lens` only
-    std::vector<SpinStation> stations = {};       ///< for the step `spin` only
+    std::optional<ResidualField> residuals = {};  ///< set only by the step `lens`
+    std::vector<SpinStation> stations = {};       ///< set only by the step `spin`
     std::vector<std::string> improvements = {};   ///< ways to improve the result with more frames
 };
 
@@ -74,15 +74,15 @@ struct GuideState {
     int frames = 0;  ///< number of collected frames
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what the user should do now
-    std::optional<CalibrationStatus> lens;  ///< coverage, for the step `lens` only
-    /// One flag for each direction of the turning robot or of the pen's tilt: true if enough frames
-    /// in this direction have been collected.
+    std::optional<CalibrationStatus> lens;  ///< coverage, set only by the step `lens`
+    /// One flag for each heading of the turning robot, or for each direction in which the pen is
+    /// tilted: true if enough frames have been collected for this direction.
     std::vector<bool> directions;
     std::vector<PenLean> leans;      ///< tilts of the pen
-    std::vector<std::string> needs;  ///< unmet requirements, for all steps except `lens`
+    std::vector<std::string> needs;  ///< unmet requirements; not used in the step `lens`
     std::string problem;             ///< reason why the step failed or the file was not written
     std::optional<GuideResult> result;
-    std::optional<Camera> camera;  ///< the given camera, or the camera that was saved last
+    std::optional<Camera> camera;  ///< newest saved camera; initially the given camera
 };
 
 class CalibrationGuide {
@@ -95,14 +95,14 @@ class CalibrationGuide {
 
     /// Starts `step`. Cancels the current step if there is one.
     void start(GuideStep step);
-    /// Computes the result of the step from the frames collected so far. The step fails if they do
-    /// not determine a result.
+    /// Computes the result of the step from the frames collected so far. The step fails if these
+    /// frames are not sufficient.
     void finish();
     void cancel();
     /// Saves the result of the current step in the camera file. Does nothing if there is no result.
     void save();
 
-    /// Sets the sheets for all calibrations that are started later.
+    /// Sets the sheets for calibrations that are started after this call.
     void set_sheets(std::vector<SheetEntry> sheets);
 
     /// Collects a frame if the current step needs it. `image` is the image that was located.

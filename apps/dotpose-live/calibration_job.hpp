@@ -1,4 +1,4 @@
-/// Calibrates a lens in a background thread, so that camera frames can be displayed meanwhile.
+/// Calibrates a lens in a background thread, so the program can continue to display camera frames.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ class CalibrationJob {
     using Frames = std::vector<std::shared_ptr<const GreyImage>>;
 
     explicit CalibrationJob(const CalibrateOptions& options);
-    /// Stops a running calibration after its current frame or fit, and waits for it.
+    /// Stops a running calibration after its current frame or fit, and waits until it has stopped.
     ~CalibrationJob();
     CalibrationJob(const CalibrationJob&) = delete;
     CalibrationJob& operator=(const CalibrationJob&) = delete;

@@ -1,4 +1,4 @@
-/// Progress of a lens calibration, for the window, the terminal and the page.
+/// Progress of a lens calibration, as displayed in the window, the terminal and the web page.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace dotpose::cli {
 
 /// Tilt of the camera in one frame, along the u and v axes of the image. Each component is the
-/// relative change of the image scale over half the image diagonal along that axis.
+/// relative change of the image scale along its axis, over a distance of half the image diagonal.
 struct FrameTilt {
     double u = 0;
     double v = 0;

@@ -15,7 +15,8 @@
 
 namespace dotpose::cli {
 
-/// Provides the times in Now. A single thread must call `observe`, but any thread may call `now`.
+/// Clock that returns the current time as a Now. Only one thread may call `observe`. Any thread may
+/// call `now`.
 class WatchedClock {
   public:
     WatchedClock();
@@ -35,7 +36,7 @@ struct FleetInputOptions {
     publish::MqttOptions mqtt;
     ShareArguments share;
     ConditionLimits limits;
-    std::string log;  ///< CSV file for all states, or empty for none
+    std::string log;  ///< path of a CSV file for all states, or empty for none
 };
 
 /// Maintains the state of the fleet. The subscriber calls `take` in its own thread.

@@ -1,4 +1,4 @@
-/// Values of the map topics for the page of `dotpose fleet --web`: positions and trails of the
+/// Values of the map topics for the web page of `dotpose fleet --web`: positions and trails of the
 /// robots in the part of the map that a client displays. The values are binary, because clients
 /// receive positions up to 30 times per second. docs/fleet.md describes the format.
 #pragma once

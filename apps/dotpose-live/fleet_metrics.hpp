@@ -17,8 +17,8 @@ struct FleetServices {
     std::optional<store::QueueStatus> store;  ///< none if there is no database
 };
 
-/// Returns the metrics as text. `robots` is the result of `fleet.robots`. In robot names,
-/// characters that the format reserves are escaped.
+/// Returns the metrics as text. `robots` is the result of `fleet.robots`. Reserved characters in
+/// robot names are escaped.
 std::string metrics_text(const FleetState& fleet, const FleetRobots& robots, const FleetMap& map,
                          const FleetServices& services);
 

@@ -18,7 +18,7 @@ struct ScreenSize {
 
 class FleetPage {
   public:
-    /// Scrolls, or changes the sort order. Ignores Key::quit.
+    /// Handles a key: scrolls or changes the sort order. Ignores Key::quit.
     void take(Key key);
 
     /// Returns exactly `size.rows` lines: a header, the visible robots, the summary, and the scroll

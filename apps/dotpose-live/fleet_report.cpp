@@ -166,8 +166,8 @@ draw::Map drawing_of(const FleetState& fleet, const std::string& map_id, const F
             if (elsewhere++ < kMaxNotes) drawing.notes.push_back(note_of(name, robot, map));
             continue;
         }
-        // Copies one path at a time and releases the lock in between, because no messages can be
-        // received while the lock is held.
+        // Copies one path at a time and releases the lock between copies, because no messages can
+        // be received while the lock is held.
         std::vector<draw::Point> path_mm = fleet.path_mm(name);
         if (!path_mm.empty()) {
             drawing.robots.push_back(drawn_robot(name, robot, std::move(path_mm)));

@@ -36,9 +36,9 @@ using FleetRobots = std::vector<FleetEntry>;
 /// file, the map of the first robot that has one. Returns an empty string if there is no map.
 std::string shown_map(const FleetMap& map, const FleetRobots& robots);
 
-/// Returns a rank that orders the robots by the attention that they need, most urgent first: 0 for
-/// silent, 1 for lost, 2 for moving or still on an unknown map or sheet, 3 for moving or still on a
-/// known map and sheet, and 4 for gone.
+/// Returns a rank that orders the robots by how urgently they need attention, most urgent first: 0
+/// for silent, 1 for lost, 2 for moving or still on an unknown map or sheet, 3 for moving or still
+/// on a known map and sheet, and 4 for gone.
 int attention_rank(const FleetRobot& robot, const FleetMap& map);
 
 /// Sorts the robots by `attention_rank`. The sort is stable.
@@ -47,8 +47,8 @@ void sort_by_attention(FleetRobots& robots, const FleetMap& map);
 /// Columns of the table. `narrow` fits in 80 characters and omits the message counts.
 enum class Layout { wide, narrow };
 
-/// Return the header and a row of the table, without a line break. Their width is not limited,
-/// because the place and the reason are not truncated.
+/// Return the header and a row of the table, without a line break. The place and the reason are not
+/// truncated, so a row may have any width.
 std::string table_header(Layout layout);
 std::string table_row(const std::string& name, const FleetRobot& robot, const FleetMap& map,
                       Layout layout, Delivery delivery);

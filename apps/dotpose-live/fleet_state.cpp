@@ -129,7 +129,7 @@ void LatencyHistogram::add(double latency_s) {
 
 /// Adds the frames between two consecutive reports from a robot to the totals. Adds nothing if
 /// there is no previous report or the robot was restarted. A decrease in the number of frames, or
-/// an increase by more than a million, is considered a restart. Each report is compared only with
+/// an increase by more than a million, is treated as a restart. Each report is compared only with
 /// the previous report, so counting resumes after a restart.
 void FleetState::count_frames(const CameraReport& report,
                               const std::optional<CameraReport>& previous) {

@@ -28,7 +28,7 @@ namespace dotpose::cli {
 struct Now {
     std::int64_t system_us = 0;  ///< microseconds since 1970
     /// Time in microseconds on a monotonic clock. The clock stops while there is no connection to
-    /// the broker, so robots do not become silent during that time.
+    /// the broker, so a lost connection does not make robots `silent`.
     std::int64_t watched_us = 0;
 };
 
@@ -74,7 +74,7 @@ struct LatencyHistogram {
     void add(double latency_s);
 };
 
-/// Camera frame counts since this program was started, summed over all robots.
+/// Camera frame counts since the start of this program, summed over all robots.
 struct CameraTotals {
     std::uint64_t frames = 0;
     RefusedFrames refused{};

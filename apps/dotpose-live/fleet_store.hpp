@@ -23,12 +23,12 @@ struct StoreArguments {
     void add_to(Command& command);
 };
 
-/// Returns the form in which the name of a robot, map or sheet is stored. It contains only
-/// printable characters, which makes it safe to display in any program.
+/// Returns the name of a robot, map or sheet as it is stored. The stored name contains only
+/// printable characters, so any program can safely display it.
 std::string stored_name(std::string_view name);
 
-/// Converts received states to the form in which the database stores them. Equal names share
-/// memory.
+/// Converts received states to the form in which the database stores them. States with the same
+/// names share one copy of the names.
 class StoredStates {
   public:
     /// Converts a state. The result contains the robot's time stamp or, if that differs from the

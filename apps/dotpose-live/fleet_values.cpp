@@ -45,7 +45,7 @@ bool contains(std::string_view text, std::string_view part) {
     return std::ranges::search(text, part, {}, lower).begin() != text.end() || part.empty();
 }
 
-/// Selects and sorts the rows of a table.
+/// Selects and sorts the robots for the rows of a table.
 class RowChoice {
   public:
     RowChoice(const serve::Command& request, const FleetMap& map)
@@ -267,7 +267,7 @@ std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Deli
                         const serve::Command& request) {
     const std::vector<const FleetEntry*> chosen = RowChoice(request, map).rows_of(snapshot.robots);
     const std::size_t count = count_in(request, "rows", kMaxTableRows);
-    // If the requested range extends past the end of the table, returns the last `count` rows.
+    // If the requested rows extend past the end of the table, the last `count` rows are returned.
     const std::size_t last = chosen.size() - std::min(chosen.size(), count);
     const std::size_t first = count_in(request, "first", last);
     nlohmann::json rows = nlohmann::json::array();

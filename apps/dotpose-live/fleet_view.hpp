@@ -29,8 +29,8 @@ class FleetView {
     bool take_keys(const FleetState& fleet, const Now& now);
 
     /// Updates the table if standard output is a terminal. Also draws the map, but spends at most a
-    /// tenth of the time on drawing: if a drawing took time t, the next one starts at least 9 t
-    /// later.
+    /// tenth of the time on it: after a drawing that took a time t, waits at least 9 t before the
+    /// next one.
     void refresh(const FleetState& fleet, const Now& now);
 
     /// Displays the final table and draws the final map. On a terminal, only the first page of the

@@ -64,7 +64,7 @@ void FleetWeb::run() {
     serve::run_in_background();
     Clock::time_point next = Clock::now();
     while (!ends_) {
-        // Skips ticks that were missed.
+        // Skips missed ticks instead of catching up.
         next = std::max(next + kTick, Clock::now());
         std::this_thread::sleep_until(next);
         const Clock::time_point now = Clock::now();

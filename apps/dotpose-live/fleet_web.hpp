@@ -1,5 +1,5 @@
-/// The web page of `dotpose fleet --web` and `dotpose listen --web`, and its metrics. docs/fleet.md
-/// describes the topics.
+/// Serves the web page and the metrics of `dotpose fleet --web` and `dotpose listen --web`.
+/// docs/fleet.md describes the topics.
 #pragma once
 
 #include <atomic>
@@ -55,7 +55,7 @@ class FleetWeb {
     /// Returns true if the topic's period has passed and a client is ready for a new value. If so,
     /// starts the next period.
     static bool is_due(TimedTopic& timed, Clock::time_point now);
-    /// Returns the current robots. All topics share one snapshot per tick.
+    /// Returns the current robots. All topics published in the same tick use the same snapshot.
     const Snapshot& snapshot();
     void note_alerts(Clock::time_point now);
     void publish_lists(Clock::time_point now);

@@ -12,8 +12,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Minimum distance between two collected frames of a straight drive. A drive of kWantedLength_mm
-/// then has at most 40 steps.
+/// Minimum distance between successive collected frames of a straight drive. It limits a drive of
+/// kWantedLength_mm to 40 steps.
 constexpr double kStep_mm = 1.5;
 /// Required length of a straight drive. Over this length, an error of 0.01 mm at one end changes
 /// the direction by 0.01 degrees.
@@ -25,8 +25,8 @@ constexpr std::size_t kMinRun = 15;
 /// Minimum motion between two consecutive frames of a fast drive, in spacings.
 constexpr double kMinMotion = 0.5;
 
-/// The step with a pivoting pen ends after kWantedPivots frames if all requirements are met, and
-/// after kMaxPivots frames in any case.
+/// The pivoting step ends after kWantedPivots frames if all requirements are met, and after
+/// kMaxPivots frames in any case.
 constexpr std::size_t kWantedPivots = 30;
 constexpr std::size_t kMaxPivots = 80;
 /// Minimum distance between the tilts (PenLean) of two collected frames. A frame whose tilt is

@@ -24,8 +24,8 @@ struct GuidedFrame {
     ImageView image;
 };
 
-/// Collects the frames of one calibration step while the user moves the robot as the page
-/// instructs.
+/// Collects the frames of one calibration step while the user moves the robot as instructed on the
+/// web page.
 class GuidedFrames {
   public:
     using Images = std::vector<std::shared_ptr<const GreyImage>>;

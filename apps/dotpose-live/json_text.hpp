@@ -1,4 +1,4 @@
-/// JSON text for the pages of dotpose-live.
+/// JSON text for the web pages of dotpose-live.
 #pragma once
 
 #include <string>

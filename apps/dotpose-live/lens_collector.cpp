@@ -17,14 +17,14 @@ namespace {
 /// Maximum number of collected frames. More frames would increase the computing time without
 /// improving the result.
 constexpr std::size_t kMaxFrames = 50;
-/// A camera is steady if the image moves more slowly than this, in px/s. During an exposure or
-/// readout of up to 1/30 s, the image then moves by less than one pixel.
+/// Image speed in px/s below which a camera is considered steady. At this speed, the image moves by
+/// at most one pixel during an exposure or readout of up to 1/30 s.
 constexpr double kSteady_px_s = 30;
-/// Time without a steady frame after which frames of a moving camera are also accepted, in case the
-/// robot never stops.
+/// Time without a steady frame after which frames from a moving camera are also accepted, in case
+/// the robot never stops.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// Minimum number of new image blocks for a frame of a known place. The frame is accepted only if
-/// its dots cover at least this number of blocks that no collected frame covers.
+/// Minimum number of new image blocks in a frame that shows a known place. The frame is accepted
+/// only if its dots cover at least this many blocks that no collected frame covers.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {
@@ -158,9 +158,8 @@ std::optional<Camera> LensCollector::lens() const {
 /// Returns true if a new calibration is likely to be better than the last one. Normally, the number
 /// of frames must have doubled since the last calibration, because each calibration takes longer
 /// than the previous one. If only the accuracy of the lens is insufficient, a smaller increase may
-/// suffice. Standard deviations are inversely proportional to the square root of the number of
-/// frames, so the required factor is the square of the ratio of the current to the wanted standard
-/// deviation.
+/// suffice. The standard deviation is inversely proportional to the square root of the number of
+/// frames, so the required factor is (current / wanted standard deviation)^2.
 bool LensCollector::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();

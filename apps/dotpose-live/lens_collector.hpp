@@ -79,8 +79,8 @@ class LensCollector {
     /// Returns true if the maximum number of frames has been collected.
     bool is_full() const;
 
-    /// Calibrates with all frames, if there are enough, and waits for the result. Meanwhile, calls
-    /// `goes_on` repeatedly. If it returns false, stops waiting and returns false.
+    /// Calibrates with all frames, if there are enough, and waits for the result. While waiting,
+    /// calls `goes_on` repeatedly. If `goes_on` returns false, stops waiting and returns false.
     bool finish(const std::function<bool()>& goes_on);
 
     /// Returns the last calibration. Must be called after `finish`. If the frames are not
@@ -91,11 +91,11 @@ class LensCollector {
     /// Returns the unmet requirements. At least one frame must have been taken.
     std::vector<CalibrationNeed> needs() const { return coverage_->missing(lens()); }
 
-    /// Sets the bit rate of the source (capture/frame_source.hpp), which may appear in advice.
+    /// Sets the bit rate of the source (capture/frame_source.hpp), which is used for advice.
     void set_bits_per_px(double bits_per_px) { bits_per_px_ = bits_per_px; }
 
   private:
-    /// Frame counts, which explain why too few frames were accepted.
+    /// Frame counts, used to explain why too few frames were accepted.
     struct Tally {
         std::int64_t seen = 0;
         std::int64_t located = 0;
@@ -121,7 +121,7 @@ class LensCollector {
     int height_px_ = 0;
     NewPlaces places_;
     ImageMotion motion_;
-    std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, or of the first frame
+    std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, initially of the first frame
     Tally tally_;
     GreyImage failed_;  ///< newest frame without a fix; not updated after the first fix
     Status failure_ = Status::ok;

@@ -1,4 +1,4 @@
-// The page of `dotpose listen --web`: the page of a fleet with the device as its only robot.
+// The web page of `dotpose listen --web`: the fleet page with the device as its only robot.
 #include <memory>
 #include <string>
 

@@ -1,4 +1,4 @@
-/// The option --calibrate-to, which names the camera file to which the page of `dotpose watch
+/// The option --calibrate-to. It specifies the camera file to which the web page of `dotpose watch
 /// --web` may save a calibration.
 #pragma once
 
@@ -19,8 +19,8 @@ class PageCalibrationArguments {
     /// Adds --calibrate-to. `command` must outlive this object.
     void add_to(Command& command);
 
-    /// Uses the file given to --calibrate-to as the camera file of the run if it exists and
-    /// --camera is not given. Throws Error if it is not a camera file.
+    /// If the file given to --calibrate-to exists and --camera is not given, uses this file as the
+    /// camera file of the run. Throws Error if it is not a camera file.
     void use_replaced_camera(FollowerArguments& follower) const;
 
     /// Throws BadArgument if --calibrate-to is given without --web.

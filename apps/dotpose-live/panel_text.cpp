@@ -20,8 +20,8 @@ struct Shown {
     double angle_rad = 0;
 };
 
-/// Returns the pose to display. This is the place on the sheet if it is known and the track is not
-/// in the world frame. Otherwise, it is the pose of the track, or none if the robot is lost.
+/// Returns the pose to display: the place on the sheet if it is known and the track is not in the
+/// world frame, and the pose of the track otherwise. Returns none if neither is available.
 std::optional<Shown> shown_pose(const Reading& reading) {
     const std::optional<SheetPlace>& place = reading.record.place;
     const TrackedPose& pose = reading.track.pose;

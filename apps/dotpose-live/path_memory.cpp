@@ -6,8 +6,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Converts a point on a page, in mm, to the coordinates of `plane`. For the world plane, the page
-/// must have a world pose.
+/// Converts a point on a sheet, in mm, to the coordinates of `plane`. For the world plane, the
+/// sheet must have a world pose.
 draw::Point in_plane(const SheetEntry& entry, Plane plane, double x_mm, double y_mm) {
     const Sheet& sheet = entry.sheet;
     if (plane == Plane::pattern) {

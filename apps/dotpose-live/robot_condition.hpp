@@ -29,7 +29,7 @@ inline bool is_fine(Condition condition) {
 
 struct ConditionLimits {
     std::int64_t silent_after_us = 5'000'000;
-    std::int64_t gone_after_us = 60'000'000;  ///< at least `silent_after_us`
+    std::int64_t gone_after_us = 60'000'000;  ///< must be at least `silent_after_us`
 };
 
 /// Returns the condition of a robot. `newest` is its newest state, `presence` the state of its

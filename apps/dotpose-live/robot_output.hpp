@@ -1,4 +1,5 @@
-/// Outputs the readings of `dotpose watch` as ROS 2 messages, to an MCAP file and over DDS.
+/// Converts the readings of `dotpose watch` to ROS 2 messages. Writes the messages to an MCAP
+/// file and publishes them over DDS.
 #pragma once
 
 #include <cmath>
@@ -47,7 +48,7 @@ class RobotOutput {
     /// Throws Error if the file or the publisher cannot be opened.
     explicit RobotOutput(const RobotOutputOptions& options);
 
-    /// Outputs the messages for a frame. Throws Error on failure.
+    /// Writes and publishes the messages for a frame. Throws Error on failure.
     void take(const capture::Frame& frame, const Reading& reading);
 
     /// Replaces the camera. Its mount is sent with the next frame.

@@ -54,13 +54,13 @@ class SheetEdits {
     /// removal appends the sheet to the file, without the keys that are unknown to dotpose.
     void remove(const Target& target);
 
-    /// Replaces the places and print scales of several sheets with the values in `measured`, as a
-    /// single edit. `targets` are the sheets, with their revisions at the start of the measurement.
+    /// Replaces the places and print scales of several sheets with the values in `measured`, in one
+    /// edit. `targets` lists the sheets with their revisions at the start of the measurement.
     void change_all(const std::vector<Target>& targets, const std::vector<SheetEntry>& measured,
                     const std::string& what);
 
-    /// Marks a sheet as no longer reserved, because its page now exists. This change cannot be
-    /// undone.
+    /// Marks a sheet as no longer reserved. Must be called after the PDF of the sheet has been
+    /// created. This change cannot be undone.
     void confirm(const std::string& name);
 
     /// Returns a description of the edit that `undo` or `redo` would apply, such as "move 'table'",

@@ -1,4 +1,4 @@
-/// Values of the topics about sheets. docs/web.md describes the topics.
+/// Values of the sheet topics. docs/web.md describes the topics.
 #pragma once
 
 #include <deque>
@@ -11,7 +11,7 @@
 
 namespace dotpose::cli {
 
-/// Answer to a command from a page.
+/// Answer to a command from a web page.
 struct SheetAnswer {
     std::string id = {};  ///< identifier that the page chose for the command
     bool is_ok = false;

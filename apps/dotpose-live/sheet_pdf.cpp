@@ -34,7 +34,7 @@ class TemporaryFolder {
 }  // namespace
 
 void require_printable(const Sheet& sheet) {
-    constexpr std::int64_t kMaxDots = 8'000'000;  // an A0 page has 4 million
+    constexpr std::int64_t kMaxDots = 8'000'000;  // an A0 page has 4 million dots
     if (std::int64_t{sheet.columns} * sheet.rows <= kMaxDots) return;
     throw Error(
         fmt::format("{} x {} dots are too many for the page: use dotpose print or dotpose sheets "

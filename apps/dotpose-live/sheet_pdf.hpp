@@ -8,8 +8,7 @@
 
 namespace dotpose::cli {
 
-/// Throws Error if the page has more than 8 million dots, because writing its PDF would take
-/// minutes.
+/// Throws Error if the page has more than 8 million dots. Writing such a PDF would take minutes.
 void require_printable(const Sheet& sheet);
 
 /// Returns the PDF that `dotpose sheets reprint` would write for a sheet. Calls `goes_on`

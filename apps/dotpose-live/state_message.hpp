@@ -60,7 +60,7 @@ using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
 struct CameraReport {
     double rate_hz = 0;  ///< mean frame rate since the previous report
     std::uint64_t frames = 0;
-    RefusedFrames refused{};  ///< frames without a fix; the element for Status::ok is 0
+    RefusedFrames refused{};  ///< numbers of frames without a fix; the element for Status::ok is 0
 };
 
 /// Conversion factor from metres (used in messages) to millimetres (used in reports).

@@ -13,7 +13,8 @@ namespace dotpose::cli {
 struct StateCounts {
     std::int64_t messages = 0;
     std::int64_t missed = 0;  ///< number of missing states, based on gaps in the sequence numbers
-    std::int64_t late = 0;    ///< number of states that arrived after newer ones; not in `missed`
+    /// Number of states that arrived after newer states. They are not included in `missed`.
+    std::int64_t late = 0;
     /// Number of states received more than once. With QoS 1, some states are sent again after the
     /// connection breaks.
     std::int64_t repeated = 0;
@@ -31,7 +32,7 @@ class StateNumbers {
     /// - `news`: any other state. A lower number than before means that the robot was restarted.
     ///
     /// Late states in ascending order of time indicate that the clock of the robot was set back.
-    /// The fifth consecutive state of this kind is `news`, and becomes the newest state.
+    /// The fifth consecutive such state is classified as `news` and becomes the newest state.
     Arrival take(const RobotState& state, StateCounts& counts);
 
   private:

@@ -17,7 +17,7 @@ class TerminalScreen {
     static bool is_available();
 
     /// Switches to the alternate screen of the terminal. If standard input is a terminal, also
-    /// starts to read keys from it without echo. Ctrl-C still sends SIGINT. The destructor restores
+    /// starts reading keys from it without echo. Ctrl-C still sends SIGINT. The destructor restores
     /// the terminal.
     TerminalScreen();
     ~TerminalScreen();

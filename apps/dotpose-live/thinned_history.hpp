@@ -1,4 +1,4 @@
-/// Stored states of a robot, reduced to a limited number of time spans for display on a page.
+/// Stored states of a robot, reduced to a limited number of time spans for display on a web page.
 #pragma once
 
 #include <array>

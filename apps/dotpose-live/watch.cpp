@@ -156,8 +156,8 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
     return images > 0 ? images : source.length();
 }
 
-/// Uses the current sheets for the following frames if the page or another program has changed the
-/// sheets.
+/// If the web page or another program has changed the sheets, uses the changed sheets for the
+/// following frames.
 void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     std::optional<std::vector<SheetEntry>> sheets = outputs.take_changed_sheets();
     if (!sheets) return;
@@ -171,7 +171,7 @@ void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     outputs.use_sheets(was_in_world);
 }
 
-/// If a camera was calibrated on the page, uses it for the following frames.
+/// If a camera was calibrated on the web page, uses it for the following frames.
 void use_calibrated_camera(WatchOutputs& outputs, Follower& follower) {
     const std::optional<Camera> camera = outputs.take_camera();
     if (!camera) return;

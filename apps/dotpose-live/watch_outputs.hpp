@@ -24,14 +24,14 @@ namespace dotpose::cli {
 struct OutputOptions {
     LineArguments lines;
     // An output with an empty path is not written.
-    std::string log;              ///< path of a CSV file with all frames
+    std::string log;              ///< path of a CSV file with one line per frame
     std::string map;              ///< path of an SVG drawing of the robot's path
     std::string packets;          ///< path of a file or device for pose packets
     RobotOutputOptions messages;  ///< ROS messages
     PublishArguments publish;     ///< the MQTT broker and the name of the robot
     std::string sheets;           ///< path of the sheet file
     video::ScreenOptions screen;
-    std::optional<WebOptions> web;  ///< none if there is no page
+    std::optional<WebOptions> web;  ///< options of the web page; none if no web page is served
 };
 
 /// Writes pose packets to a file or serial device.
@@ -60,14 +60,14 @@ class WatchOutputs {
     /// be written.
     bool take(const capture::Frame& frame, const Reading& reading, const SourceState& source);
 
-    /// Returns the camera that was calibrated on the page since the previous call, or none.
+    /// Returns the camera that was calibrated on the web page since the previous call, or none.
     std::optional<Camera> take_camera();
 
     /// Writes the map, finishes the recording and sends the last states. Throws Error on failure.
     void finish();
 
-    /// Returns the sheets if they were changed, on the page or by another program, since the
-    /// previous call. Returns none otherwise, or if there is no page.
+    /// Returns the sheets if the web page or another program has changed them since the previous
+    /// call. Returns none otherwise, or if no web page is served.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
     /// Displays the follower's new sheets. `was_in_world` is true if the earlier poses are in world
     /// coordinates. If the plane of the poses changes, a new path is started.

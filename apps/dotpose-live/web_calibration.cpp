@@ -112,7 +112,7 @@ std::string sigma_text(const Camera& camera, const char* key, double factor, int
     return sigma == camera.sigma.end() ? "" : plus_minus(factor * sigma->second, digits);
 }
 
-/// Describes the lens. Returns an empty string for a lens that was not calibrated, which has
+/// Describes the lens. Returns an empty string if the lens was not calibrated, that is, if it has
 /// neither distortion nor standard deviations.
 std::string lens_text(const Camera& camera) {
     constexpr std::array kSigmas = {"k_per_px2", "centre_u_px", "centre_v_px"};

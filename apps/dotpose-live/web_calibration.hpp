@@ -1,4 +1,4 @@
-/// The page `/calibration` of `dotpose watch --web`: the topic `calibration`, and its commands.
+/// The page `/calibration` of `dotpose watch --web`: its topic `calibration` and its commands.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ class WebCalibration {
     /// and reports such commands at most once every 10 s.
     void obey(const serve::Command& command);
 
-    /// Uses these sheets in later calibrations.
+    /// Uses these sheets for later calibrations.
     void set_sheets(std::vector<SheetEntry> sheets);
 
     /// Offers a frame to the current step, and publishes the state if it has changed. `image` is

@@ -29,7 +29,7 @@ struct HistoryRequest {
     double last_s = 0;
     double from_s = 0;
     double to_s = 0;
-    double ask = 0;  ///< changed by the page to read the same time span again
+    double ask = 0;  ///< the page changes this number to read the same time span again
     bool operator==(const HistoryRequest&) const = default;
 };
 
@@ -43,7 +43,7 @@ constexpr std::size_t kMaxRobotName = 400;
 constexpr double kMaxSpan_s = 31 * 86'400.0;
 /// Maximum time in a request, in seconds since 1970 (the end of 2099).
 constexpr double kMaxTime_s = 4.1e9;
-/// Maximum number of states that a query reads, equal to 23 days of states from one robot at 10 Hz.
+/// Maximum number of states that a query reads. At 10 Hz, a robot sends this number in 23 days.
 constexpr std::int64_t kMaxReadStates = 20'000'000;
 
 double seconds_of(const serve::Command& request, std::string_view key, double max) {

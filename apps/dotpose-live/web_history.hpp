@@ -1,4 +1,5 @@
-/// The topic `history` on the page of `dotpose fleet --web --store`: the stored states of a robot.
+/// The topic `history` of the web page of `dotpose fleet --web --store`: the stored states of a
+/// robot.
 ///
 /// A low-priority thread reads the database through its own connection, so the live values on the
 /// page are not delayed.

@@ -1,5 +1,5 @@
-/// Recordings that are started and stopped on the page of `dotpose watch --web`. Each recording
-/// consists of a CSV log and an MCAP file.
+/// Recordings that the user starts and stops on the web page of `dotpose watch --web`. Each
+/// recording consists of a CSV log and an MCAP file.
 #pragma once
 
 #include <chrono>
@@ -17,8 +17,8 @@ namespace dotpose::cli {
 
 class WebRecordings {
   public:
-    /// `messages` describes the robot. Its MCAP file and its DDS publisher are ignored. `empty` is
-    /// a record without a fix, whose fields determine the columns of the log.
+    /// `messages` describes the robot. Its members `mcap` and `dds` are ignored. `empty` is a
+    /// record without a fix, whose fields determine the columns of the log.
     WebRecordings(std::filesystem::path folder, RobotOutputOptions messages, Record empty);
 
     /// Starts a recording unless one is already running. Creates new files, which are named after

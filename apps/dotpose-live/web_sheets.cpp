@@ -290,7 +290,7 @@ void WebSheets::measure(bool is_on) {
         const std::lock_guard lock(mutex_);
         std::swap(job, job_);
     }
-    job.reset();  // waits for the thread of the job, which may still be publishing
+    job.reset();  // waits for the job's thread, which may still be publishing
     publish_measurement(nullptr);
     if (!is_on) return;
     edits_.refresh();
@@ -343,7 +343,7 @@ void WebSheets::answer(SheetAnswer answer) {
     server_.publish(topics_.answers, [text = text_of(answers_message(answers_))] { return text; });
 }
 
-/// Publishes the sheets to the pages, and makes them available to the thread that follows the
+/// Publishes the sheets to the web pages, and makes them available to the thread that follows the
 /// robot.
 void WebSheets::publish_sheets() {
     server_.publish(topics_.sheets,

@@ -1,7 +1,8 @@
-/// The sheets on the page of `dotpose watch --web`. docs/web.md describes the topics and commands.
+/// Sheet management on the web page of `dotpose watch --web`. docs/web.md describes the topics and
+/// commands.
 ///
 /// A separate thread reads and changes the sheet file and creates PDFs. These tasks may take
-/// seconds, because another program may hold the lock on the file and pages may be large.
+/// seconds, because another program may hold the lock on the file and printed pages may be large.
 #pragma once
 
 #include <atomic>
@@ -25,11 +26,11 @@ namespace dotpose::cli {
 
 struct WebSheetsOptions {
     std::string path;       ///< path of the sheet file
-    bool may_edit = false;  ///< true if pages may change the sheet file and print sheets
+    bool may_edit = false;  ///< true if web pages may change the sheet file and print sheets
     std::optional<Camera> camera;
 };
 
-/// Topics about sheets. They exist even without a sheet file, because pages always subscribe to
+/// Topics about sheets. They exist even without a sheet file, because web pages always subscribe to
 /// them.
 struct SheetTopics {
     /// Adds the topics to the server. Must be called before the server is started.
@@ -56,14 +57,14 @@ class WebSheets {
     /// Uses this camera in later measurements.
     void set_camera(const Camera& camera);
 
-    /// Executes a command from a page. Returns false if the command is not about sheets.
+    /// Executes a command from a web page. Returns false if the command is not about sheets.
     bool obey(const serve::Command& command);
 
     /// Offers a frame to a running measurement. `image` is the image that was located.
     void take(const Reading& reading, ImageView image);
 
-    /// Returns the sheets if a page or another program has changed them since the previous call,
-    /// and none otherwise.
+    /// Returns the sheets if a web page or another program has changed them since the previous
+    /// call, and none otherwise.
     std::optional<std::vector<SheetEntry>> take_changed();
 
   private:

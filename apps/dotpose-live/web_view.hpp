@@ -1,4 +1,4 @@
-/// The page of `dotpose watch --web`. docs/web.md describes the topics.
+/// The web page of `dotpose watch --web`. docs/web.md describes the topics.
 #pragma once
 
 #include <chrono>
@@ -30,8 +30,8 @@ struct WebOptions {
     std::string recordings = ".";      ///< folder for recordings that are started on the page
     std::string log;                   ///< path of the log to offer for download, or empty
     RobotOutputOptions messages;       ///< description of the robot for recordings
-    WebSheetsOptions sheets;           ///< the path is empty if there is no sheet file
-    /// Options for the calibration on the page, or none if the page must not calibrate.
+    WebSheetsOptions sheets;           ///< its path is empty if there is no sheet file
+    /// Options for calibration on the web page, or none to disable calibration.
     std::optional<GuideOptions> calibration;
 };
 
@@ -55,7 +55,7 @@ class WebView {
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
     /// Displays the follower's new sheets.
     void use_sheets();
-    /// Returns the camera that was calibrated on the page since the previous call, or none.
+    /// Returns the camera that was calibrated on the web page since the previous call, or none.
     std::optional<Camera> take_camera();
 
     /// Finishes a running recording.
@@ -114,7 +114,7 @@ class WebView {
     SheetTopics sheet_topics_;
     std::optional<WebSheets> sheet_view_;  ///< none without a sheet file
     WebCalibration calibration_;
-    AdviceWorker adviser_;  ///< destroyed before the server, which its thread uses
+    AdviceWorker adviser_;  ///< destroyed before the server, because its thread uses the server
 };
 
 }  // namespace dotpose::cli

@@ -89,9 +89,9 @@ Series series_of(const CalibrateArguments& arguments) {
     return series;
 }
 
-/// Calls `work(frame_count, frame_at, options)` for the frames from the sources and returns its
-/// result. Meanwhile, shows a progress line. If the camera has a flat field, `frame_at` corrects
-/// the frames with it.
+/// Calls `work(frame_count, frame_at, options)` with the frames from the sources and returns its
+/// result. Shows a progress line while `work` runs. If the camera has a flat field, `frame_at`
+/// applies the flat-field correction.
 template <typename Work>
 auto with_progress(const CalibrateArguments& arguments, Sources& sources,
                    const std::optional<Camera>& camera, const std::string& what, Work work) {
@@ -118,8 +118,8 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources,
     }
 }
 
-/// Returns the path of the spin calibration picture: the path given to --draw, with "-spin" before
-/// the extension if the lens picture is also drawn.
+/// Returns the path of the spin calibration picture: the path given to --draw. If the lens picture
+/// is also drawn, "-spin" is inserted before the extension.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;
@@ -128,8 +128,8 @@ std::string spin_picture_of(const CalibrateArguments& arguments) {
     return (lens.parent_path() / system::path_of(name)).string();
 }
 
-/// Writes the camera file to `out`, the path given to -o, where "-" means standard output. Writes
-/// nothing if `out` is empty.
+/// Writes the camera file to `out`, the value of -o. "-" means standard output. Writes nothing if
+/// `out` is empty.
 void write_result(const std::string& out, const Camera& camera) {
     if (out.empty()) return;
     const DocumentOutput output(out, ".yaml");

@@ -21,8 +21,9 @@ void add(std::string& text, fmt::format_string<Values...> format, Values&&... va
     text += '\n';
 }
 
-/// Returns how far undistortion moves the farthest image corner away from the distortion centre, as
-/// a percentage of the corner's distance from this centre.
+/// Returns the radial displacement of the farthest image corner due to undistortion, as a
+/// percentage of the corner's distance from the distortion centre. It is positive if the corner
+/// moves outwards.
 double corner_displacement(const Camera& camera) {
     const PixelPoint corner = farthest_corner(camera);
     const PixelPoint straight = undistorted(camera, corner);
@@ -183,8 +184,7 @@ std::string print_scale_text(double scale, double sigma) {
                        is_scale_known(sigma) ? "" : " (UNKNOWN)");
 }
 
-/// Appends the print scales of the sheets and the reference for these scales, which is a sheet or
-/// the camera.
+/// Appends the print scales of the sheets, and the sheet or camera to which the scales refer.
 void add_print_scales(std::string& text, const Stitching& stitching) {
     bool are_all_scales_known = true;
     std::string fixed;

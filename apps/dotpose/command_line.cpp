@@ -103,9 +103,9 @@ std::pair<std::string, std::string> split(const std::string& text, std::string_v
     return {text.substr(0, at), text.substr(at + separator.size())};
 }
 
-/// Returns a user-friendly message for a CLI11 error, to replace the original message, which
-/// contains type names and counts. Parses the original message to extract the option and its value,
-/// because CLI11 does not provide them separately.
+/// Returns a user-friendly message for a CLI11 error. The original message contains type names and
+/// counts. The function parses it to extract the option and its value, because CLI11 does not
+/// provide them separately.
 std::string message_of(const CLI::ParseError& error) {
     const std::string text = error.what();
     if (text == "A subcommand is required") return "no command given";

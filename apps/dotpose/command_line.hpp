@@ -1,4 +1,4 @@
-/// Commands and their options: a thin wrapper around CLI11 that uses the same names.
+/// Commands and their options: a thin wrapper around CLI11 that keeps its names.
 ///
 /// Only command_line.cpp includes the CLI11 header, because the header adds ten seconds to the
 /// compile time of a source file.

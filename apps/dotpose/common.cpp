@@ -44,8 +44,8 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, cons
     return {(*numbers)[0], (*numbers)[1]};
 }
 
-/// Requires a positive number. CLI11 has an equivalent check, but its message contains an upper
-/// limit of 309 digits.
+/// Requires a positive number. CLI11 has an equivalent check, but its error message prints the
+/// upper limit with 309 digits.
 std::string require_positive(const std::string& text) {
     double value = 0;
     if (parse_number(text, value) && value > 0 && std::isfinite(value)) return {};
@@ -243,8 +243,8 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 }
 
 void refuse_non_finite_numbers(Command& app) {
-    // Option types whose values are text, even if a value could be parsed as a number: a file may
-    // be called "nan".
+    // Types of options whose values are text. Such a value may look like a number: a file may be
+    // called "nan".
     const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "FILE|-|DIR", "NAME", "PART",
                                          "RANGE", "SCAN", "SOURCE", "TEXT",       "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {

@@ -70,7 +70,7 @@ struct EvaluateArguments {
     std::optional<Preset> preset;
     std::optional<SweepKind> sweep;
     bool protocol = false;
-    ReportArguments report;  ///< `out` is a folder with --sweep or --protocol
+    ReportArguments report;  ///< with --sweep or --protocol, `out` is a folder
     std::optional<int> frames;
     Setup setup;
     DeviceOptions options;
@@ -300,8 +300,8 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // With --sweep or --protocol, --preset sets the conditions. Otherwise, --preset is a job of its
-    // own.
+    // With --sweep or --protocol, --preset only sets the conditions. Otherwise, --preset is itself
+    // the job.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

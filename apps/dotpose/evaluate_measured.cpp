@@ -31,8 +31,8 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
 
 /// Returns true if the true places are in the world, and false if they are on sheets. Throws Error
 /// if a place is given only in the pattern frame, if its sheet is unknown or not specified, or if
-/// places on several sheets would have to be aligned. Also throws Error if the places are in the
-/// world and no sheet has a world pose.
+/// the places to be aligned are on several sheets. Also throws Error if the places are in the world
+/// but no sheet has a world pose.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;

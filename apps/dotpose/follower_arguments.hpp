@@ -18,9 +18,9 @@ struct FollowerArguments {
     bool is_inverted = false;
     FollowerOptions options;  ///< options that do not depend on the contents of the files
 
-    /// Adapts the camera file to the frames from `sources` (SourceArguments::fit_to). With a camera
-    /// file, --reference is a pixel position in the full frame, so it is also converted if --roi
-    /// selects a region.
+    /// Adapts the camera file to the frames from `sources` (SourceArguments::fit_to). If --roi
+    /// is given and the camera file describes full frames, also converts --reference from the full
+    /// frame to the region.
     void fit_to(SourceArguments& sources);
 
     /// Registers the input files that these options name.

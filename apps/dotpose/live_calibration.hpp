@@ -1,5 +1,5 @@
-/// Live calibration (`dotpose calibrate --live`). `dotpose` and dotpose-live implement
-/// `calibrate_live` differently, because only dotpose-live can open a window.
+/// Live calibration (`dotpose calibrate --live`). `calibrate_live` is implemented differently in
+/// `dotpose` and dotpose-live, because only dotpose-live can open a window.
 #pragma once
 
 #include <string>
@@ -16,10 +16,10 @@ struct LiveCalibrationOptions {
 };
 
 /// Captures frames while the user moves the camera, displays the unmet requirements, and calibrates
-/// the lens. Ends when there are enough frames, when the source ends, or when the user stops it. In
-/// `dotpose`, replaces this process with dotpose-live. Throws Error if the source fails, or if
-/// there are too few frames for the verdict `good`. In the latter case, the message lists the unmet
-/// requirements.
+/// the lens. Stops capturing when there are enough frames, when the source ends, or when the user
+/// stops it. In `dotpose`, replaces this process with dotpose-live. Throws Error if the source
+/// fails, or if there are too few frames for the verdict `good`. In the latter case, the message
+/// lists the unmet requirements.
 LensCalibration calibrate_live(const SourceArguments& arguments, Sources& sources,
                                const CalibrateOptions& calibration,
                                const LiveCalibrationOptions& options);

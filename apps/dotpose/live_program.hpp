@@ -9,8 +9,8 @@ namespace dotpose::cli {
 /// with the value of errno.
 int become_live();
 
-/// Returns the end of an error message such as "--web needs ...": the name of the program
-/// dotpose-live and the reason why it cannot be started.
+/// Returns the second part of an error message such as "--web needs ...": the name dotpose-live and
+/// the reason why the program cannot be started.
 std::string live_program_text(int error_number);
 
 }  // namespace dotpose::cli

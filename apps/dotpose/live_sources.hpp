@@ -1,5 +1,5 @@
-/// Access to cameras and videos. `dotpose` and dotpose-live define these functions differently,
-/// because only dotpose-live loads the video module.
+/// Access to cameras and videos. The functions are implemented differently in `dotpose` and
+/// dotpose-live, because only dotpose-live loads the video module.
 #pragma once
 
 #include <memory>

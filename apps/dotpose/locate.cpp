@@ -92,8 +92,8 @@ class ImageLocator {
         return record;
     }
 
-    /// Returns the record for an image that, according to its header, is too large. The pixels of
-    /// such an image are not read.
+    /// Returns the record for an image whose size, according to its header, exceeds the limit. The
+    /// pixels of such an image are not read.
     Record too_large(const std::string& name, const ImageTooLarge& image) const {
         Record record = empty_record(follower_);
         record.file = name;
@@ -170,8 +170,8 @@ class LocateRun {
           frames_(sources.open(options_of(arguments))),
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
-        // If the names of the images come from a pipe, signals are not caught, because a signal
-        // must end the tool immediately even while it waits for a name. No line is lost, because
+        // If a pipe delivers the image names, signals are not caught, because a signal must
+        // terminate the tool immediately even while it waits for a name. No line is lost, because
         // each line is flushed.
         if (!sources.has_pipe()) catch_interrupts();
     }
@@ -210,7 +210,7 @@ class LocateRun {
     capture::SourceOptions options_of(const LocateArguments& arguments,
                                       std::function<bool(Outcome)> pass_on) {
         capture::SourceOptions options = arguments.sources.options;
-        // Reduces large images, unless a camera file specifies the image size.
+        // Large images are reduced unless a camera file specifies the image size.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
         options.tell = tell;
         options.stop = interrupted;

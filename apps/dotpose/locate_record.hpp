@@ -46,7 +46,8 @@ Record record_of(const Located& located, const Follower& follower);
 
 /// Length of the array that `warnings` returns.
 inline constexpr std::size_t kWarnings = 5;
-/// Returns the warnings for a frame, each of which may be empty. In this order, they state that
+/// Returns the warnings for a frame. A warning that does not apply is empty. In order, the warnings
+/// report that
 /// - a code other than the given code explains the frame,
 /// - the place is not on any sheet of the sheet file,
 /// - the spacing according to the camera file differs from the spacing of the sheet,

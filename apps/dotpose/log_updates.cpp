@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// Column names of a pose and its covariance. `units` contains factors for x, y and the angle,
-/// which convert them to metres and radians with y up. The factors for y and the angle are negative
-/// if y points down in the log.
+/// Column names of a pose and its covariance. `units` contains the factors that convert x, y and
+/// the angle to metres and radians with y up. The factors for y and the angle are negative if y
+/// points down in the log.
 struct PoseColumns {
     const char* x;
     const char* y;
@@ -91,7 +91,7 @@ struct SpaceColumns {
     std::string_view unit;  ///< suffix of the column names of x, y and z
     std::string_view rotation;
     std::string_view covariance;
-    double angle_rad;  ///< unit of angles in the covariance, in radians
+    double angle_rad;  ///< angle unit of the covariance, in radians
 };
 
 constexpr SpaceColumns kSpaceInWorld = {"m", "quaternion_world_xyzw", "covariance_m_rad", 1};
@@ -173,8 +173,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // In a row without a plane, the robot is lost. If such a row has a value for x_m, its fix is on
-    // a sheet with a world pose.
+    // The plane is empty while the robot is lost. In this case, a value for x_m shows that the fix
+    // is on a sheet with a world pose.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

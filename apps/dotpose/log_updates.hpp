@@ -1,4 +1,4 @@
-/// Converts rows of a log written by `dotpose watch --log` to robot states for ROS messages.
+/// Converts the rows of a log written by `dotpose watch --log` to robot states for ROS messages.
 #pragma once
 
 #include "dotpose/tools/robot_messages.hpp"

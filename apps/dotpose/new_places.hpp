@@ -18,7 +18,8 @@ class NewPlaces {
     /// - the direction, by 15 degrees, or
     /// - the distance from the paper, by 10 %.
     ///
-    /// Each call to `thin_out` doubles these differences. Returns false for a frame without a fix.
+    /// Each call to `thin_out` doubles these minimum differences. Returns false for a frame without
+    /// a fix.
     bool take(const Fix& fix, ImageView image);
 
     std::size_t count() const { return places_.size(); }

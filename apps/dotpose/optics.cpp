@@ -24,7 +24,7 @@ constexpr const char* kOpticsExamples =
 
 struct OpticsArguments {
     Optics optics;
-    CameraModel size;  ///< image size: only the width and the height are used
+    CameraModel size;  ///< only the width and the height are used
     bool is_paper = false;
     double exposures_per_s = 7684;
 };
@@ -56,7 +56,7 @@ int run(OpticsArguments& arguments) {
                r.block_fits_anywhere ? "fit at any angle and place"
                : r.block_fits        ? "fit at any angle"
                                      : "do not fit at every angle");
-    // The speeds are upper limits, so they are rounded down.
+    // Rounds the speeds down, because they are upper limits.
     fmt::print("exposure      1/{:.0f} s: blur under {:g} px up to {:.0f} mm/s, or {:.0f} rpm\n",
                1 / o.exposure_s, o.largest_blur_px, std::floor(r.fastest_mm_s),
                std::floor(r.fastest_turn_rpm));

@@ -19,8 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Adds -o. Calls `choose` to select the format if the file name ends with `ending` and the option
-/// `format` is not given. `format` must already have been added, because it must be parsed before
-/// -o.
+/// `format` is not given. `format` must be added first, because it must be parsed before -o.
 void add_out_option(Command& command, std::string& out, const std::string& help,
                     const Option* format, const char* ending, const std::function<void()>& choose) {
     command

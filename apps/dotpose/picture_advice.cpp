@@ -129,7 +129,7 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             const GreyImage straight = stretched_middle(image, kMiddle_px, stretch);
             const Fix fix = Locator(scratch, once).locate(straight.view());
             if (fix.status != Status::ok) continue;
-            // Maps an offset in the original image, in px, to an offset in cells: first the
+            // Maps an offset in the original image, in px, to an offset in cells. Applies the
             // stretch, then the fitted plane.
             const double c = std::cos(stretch.angle_rad);
             const double s = std::sin(stretch.angle_rad);
@@ -143,8 +143,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             };
             const auto a = seen(1, 0);
             const auto b = seen(0, 1);
-            // The singular values of the matrix (a b) are the side lengths of a pixel on the paper,
-            // in cells, along the tilt and across it.
+            // The singular values of the matrix (a b) are the length and width, in cells, of the
+            // area that one pixel covers on the paper: along the tilt and across it.
             const double sum = a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1];
             const double area = std::abs(a[0] * b[1] - a[1] * b[0]);
             const double root = std::sqrt(std::max(sum * sum - 4 * area * area, 0.0));
@@ -155,10 +155,10 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
     return std::nullopt;
 }
 
-/// Returns the mean squared second difference of the grey levels. A second difference is the
-/// difference between a pixel and the mean of the two pixels at a distance of `step_px` on opposite
-/// sides of it. The contribution of noise is the same for all distances, and linear brightness
-/// gradients contribute nothing.
+/// Returns the mean squared second difference of the grey levels. The second difference at a pixel
+/// is the difference between the pixel and the mean of its two neighbours at distance `step_px` on
+/// opposite sides. Noise contributes equally at all distances, and linear brightness gradients
+/// contribute nothing.
 double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
     for (int v = step_px; v + step_px < image.height_px; ++v) {
@@ -173,12 +173,12 @@ double second_difference(ImageView image, int step_px) {
     return static_cast<double>(squares) / (4 * samples);
 }
 
-/// Returns true if the image contains only coarse details. Compares the fine details, measured by
-/// the second difference over 2 px, with the coarse details, measured by the larger of the second
-/// differences over 8 and 16 px. The second difference over 1 px is an estimate of the noise and is
-/// subtracted from both. The ratio of fine to coarse details is at least 1/6 in a focused picture,
-/// even at a tilt of 70 degrees, and below 1/20 if the dots are too blurred to be read. Returns
-/// false if the image is too small for this test.
+/// Returns true if the image contains only coarse details, as in a picture that is out of focus.
+/// The measure of fine details is the second difference over 2 px. The measure of coarse details is
+/// the larger of the second differences over 8 and 16 px. The second difference over 1 px estimates
+/// the noise and is subtracted from both measures. The ratio of fine to coarse details is at least
+/// 1/6 in a focused picture, even at a tilt of 70 degrees, and below 1/20 if the dots are too
+/// blurred to be read. Returns false if the image is too small for this test.
 bool is_out_of_focus(ImageView image) {
     constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;
@@ -245,9 +245,9 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Returns the advice to specify the code if the position is certain in one of the codes. Returns
-/// an empty string otherwise. Without a given code, a position may be uncertain merely because
-/// places in all codes are possible.
+/// Returns the advice to specify the code if the position is certain in one of the codes, and an
+/// empty string otherwise. Without a given code, a position may be uncertain merely because places
+/// in all codes are possible.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {

@@ -10,7 +10,7 @@
 
 namespace dotpose::cli {
 
-/// The result of `locate` for a picture, and settings on which the advice depends.
+/// The result of `locate` for a picture, and other facts on which the advice depends.
 struct PictureFacts {
     Status status = Status::ok;  ///< result of `locate` with `options`
     DeviceOptions options;

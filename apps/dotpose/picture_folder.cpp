@@ -33,7 +33,7 @@ PictureFolder::PictureFolder(fs::path path, const RunFiles& files)
     : path_(std::move(path)), files_(files) {
     if (is_picture_name(path_)) return;
     std::error_code error;
-    // Creates only the last folder of the path. If its parent is missing, the path is probably
+    // Creates only the last folder of the path. If its parent does not exist, the path is probably
     // mistyped.
     fs::create_directory(path_, error);
     if (!fs::is_directory(path_)) {

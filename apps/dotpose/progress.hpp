@@ -10,9 +10,9 @@ namespace dotpose::cli {
 /// Ignores SIGPIPE. Writing to a closed output then fails instead of terminating the program.
 void ignore_broken_pipes();
 
-/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of terminating the program, which can
-/// then remove its temporary files. A second signal terminates the program if it arrives more than
-/// half a second after the first.
+/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of terminating the program. The
+/// program can then remove its temporary files. A second signal terminates the program if it
+/// arrives more than half a second after the first.
 void catch_interrupts();
 bool interrupted();
 
@@ -20,8 +20,8 @@ bool interrupted();
 /// resets `interrupted`, which makes the next signal the first.
 bool take_ctrl_c();
 
-/// Formats a duration, rounded up, with at most two units, such as "12 s", "3 min 05 s" or "2 h 10
-/// min".
+/// Formats a duration with at most two units, rounded up, such as "12 s", "3 min 05 s" or
+/// "2 h 10 min".
 std::string duration_text(double seconds);
 
 /// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". It appears
@@ -29,9 +29,9 @@ std::string duration_text(double seconds);
 /// hides the line until the next update. Only one progress line may exist at a time.
 class ProgressLine {
   public:
-    /// `out` is the file to which the command writes its output lines, where empty or "-" means
-    /// standard output. If these lines appear on a terminal, they already indicate the progress,
-    /// and the progress line is not shown.
+    /// `out` is the file to which the command writes its output lines. An empty path or "-" means
+    /// standard output. The progress line is not shown if the output lines appear on a terminal,
+    /// because they already indicate the progress.
     ProgressLine(std::string what, const std::string& out);
     explicit ProgressLine(std::string what);
     ~ProgressLine();

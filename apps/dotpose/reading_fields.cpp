@@ -29,8 +29,8 @@ PlanePose plane_pose(const TrackedPose& pose) {
 }
 
 /// Returns the fields for the velocities and their standard deviations. With `Units::mm`, also
-/// returns the standard deviations of the pose. `is_flipped` is true if y points down in the track
-/// and up in the output. The y velocity and the turn rate are then negated.
+/// returns the standard deviations of the pose. If `is_flipped` is true, y points down in the track
+/// and up in the output, so the y velocity and the turn rate are negated.
 std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_flipped) {
     const double sign = is_flipped ? -1 : 1;
     const double vx_mm_s = static_cast<double>(pose.vx_mm_s);
@@ -93,7 +93,7 @@ std::vector<Field> fields(const Reading& reading, Units units) {
         {"frame", fmt::format("{}", reading.index)},
         {"t_s", decimal(static_cast<double>(reading.time_us) * 1e-6, 6)},
     };
-    all.insert(all.begin() + 1, time.begin(), time.end());  // after the schema version
+    all.insert(all.begin() + 1, time.begin(), time.end());  // `all` begins with the schema version
     append(all, track_fields(reading.track, reading.plane, units));
     if (!reading.record.has_space) return all;
     append(all, space_track_fields(reading.space_track.value_or(SpaceTrack{}),

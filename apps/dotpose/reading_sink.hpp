@@ -1,6 +1,6 @@
-/// Publishes readings through an MQTT broker or on a web page. `dotpose` and dotpose-live define
-/// the functions that open a sink differently, because only dotpose-live can connect to brokers and
-/// serve pages.
+/// Publishes readings through an MQTT broker or on a web page. The functions that open a sink are
+/// implemented differently in `dotpose` and dotpose-live, because only dotpose-live can connect to
+/// brokers and serve web pages.
 #pragma once
 
 #include <memory>

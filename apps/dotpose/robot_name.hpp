@@ -1,5 +1,5 @@
-/// Options for the name of a robot and for the prefix of its coordinate frames, which appear in
-/// MQTT topics and in ROS names.
+/// Options for the name of a robot, which appears in MQTT topics and ROS names, and for the prefix
+/// of its coordinate frames in ROS.
 #pragma once
 
 #include <string>

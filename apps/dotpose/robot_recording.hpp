@@ -33,7 +33,7 @@ class RobotRecording {
 
     /// Records the messages for a frame. Throws Error on failure.
     void take(const ros::RobotMessages& messages, std::int64_t time_ns);
-    /// Record the camera mount, or an image.
+    /// Record the camera mount or an image. Throw Error on failure.
     void take_mount(const ros::TransformStamped& mount, std::int64_t time_ns);
     void take_image(const ros::CompressedImage& image, std::int64_t time_ns);
 

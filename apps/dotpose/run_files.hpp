@@ -24,9 +24,9 @@ enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 Content content_of(RecordFormat format);
 Content content_of(const ReportArguments& report);
 
-/// Identity of a file. All paths to a file have the same identity, even if they contain links or
-/// different folders. New files whose names differ only in case also have equal identities, because
-/// some file systems ignore case.
+/// Identity of a file. All paths to a file have the same identity, even if they go through links or
+/// different folders. New files in the same folder whose names differ only in case also have the
+/// same identity, because some file systems ignore case.
 struct FileIdentity {
     std::uint64_t device = 0;
     std::uint64_t file = 0;  ///< number of the file or, if the file does not exist, of its folder
@@ -47,13 +47,13 @@ class RunFiles {
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
     /// Registers an output. Rejects the file extension of an image or video if it does not match
-    /// `content`. Without this check, `-o frames/*.png` with a forgotten output name would
-    /// overwrite a frame, because the shell expands the glob to the names of the frames. The path
-    /// "-" means standard output for `-o`, and is rejected for other options.
+    /// `content`. Otherwise, `-o frames/*.png` without an output name would overwrite a frame,
+    /// because the shell replaces the glob with the names of the frames. The path "-" means
+    /// standard output for `-o` and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
-    /// Registers the output of lines: the file given to `-o`, or standard output if `-o` is not
-    /// given.
+    /// Registers the destination of the output lines: the file given to -o, or standard output if
+    /// -o is not given.
     void writes_lines(const std::string& path, Content content);
 
     /// Registers a file that is read, changed and rewritten, or created if it does not exist.

@@ -121,9 +121,9 @@ std::optional<LogCells> LogReader::next_row() {
     return LogCells(columns_, std::move(cells));
 }
 
-/// Converts a JSON line to the cells of a CSV row. The elements of a 3 x 3 or 6 x 6 matrix become
-/// cells whose names end in the row and column indices. The components of a quaternion become cells
-/// whose names end in x, y, z and w.
+/// Converts a JSON line to the cells of a CSV row. Each element of a 3 x 3 or 6 x 6 matrix becomes
+/// a cell whose name ends in the row and column indices. Each component of a quaternion becomes a
+/// cell whose name ends in x, y, z or w.
 LogCells LogReader::row_of_json(const std::string& line) {
     const nlohmann::json object = files::parse_json(line);
     if (!object.is_object()) throw Error("it is not an object");
@@ -199,7 +199,7 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const double step_s = row.t_s - before.t_s;
         if (row.state == "stationary") {
             run.stationary_s += step_s;
-            continue;  // ignore the measured motion of a stationary robot, which is only noise
+            continue;  // the measured motion of a stationary robot is only noise
         }
         moving_s += step_s;
         run.distance_mm += std::hypot(*row.x_mm - *before.x_mm, *row.y_mm - *before.y_mm);

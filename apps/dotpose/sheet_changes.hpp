@@ -1,5 +1,5 @@
 /// Changes entries of a sheet file. Lengths and angles are in mm and degrees, the units of the user
-/// interface. Used by `dotpose sheets` and by the page of `dotpose watch --web`.
+/// interface. Used by `dotpose sheets` and by the web page of `dotpose watch --web`.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ SheetEntry placed(SheetEntry entry, const std::optional<PagePose>& pose);
 /// Returns the world pose of an entry, or none if it is unknown.
 std::optional<PagePose> page_pose(const SheetEntry& entry);
 
-/// Names of the directions in which a length on a page can be measured, as option values.
+/// Option values for the directions in which a length on a page can be measured.
 inline const std::vector<std::string> kDirections = {"x", "y", "both"};
 
 /// A length measured on a printed page.
@@ -38,7 +38,7 @@ struct MeasuredLength {
 /// Returns the entry with the print scale that a measured length implies.
 SheetEntry scaled(SheetEntry entry, const MeasuredLength& length);
 
-/// Returns the entry with all dots shifted by the same amount, such that the first intersection is
+/// Returns the entry with all dots shifted by the same amount. The first intersection is then
 /// `right_mm` to the right of the top left corner of the page and `below_mm` below it.
 SheetEntry with_offset(SheetEntry entry, double right_mm, double below_mm);
 

@@ -36,8 +36,8 @@ class SheetEntryArguments {
                  std::optional<SheetReservation>& reservation) const;
 
     /// Adds a page and its print settings to the file. Places the page in the next free region
-    /// unless the user gave --origin. `print.command` must not contain --origin, which this
-    /// function appends. Returns the sheet with its new origin.
+    /// unless the user gave --origin. `print.command` must not contain --origin, because this
+    /// function appends it. Returns the sheet with its new origin.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page, SheetPrint print) const;
 
     /// Returns `command` with --origin appended. The result reprints the page with this origin.

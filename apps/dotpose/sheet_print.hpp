@@ -23,8 +23,8 @@ struct NewPage {
     double spacing_mm = kDefaultSpacing_mm;
 };
 
-/// Adds a page and its print settings to a free region of a sheet file. Returns the new entry.
-/// Throws BadArgument like `make_sheet` and `SheetFile::allocate`.
+/// Adds a page and its print settings to a sheet file. Places the page in a free region. Returns
+/// the new entry. Throws BadArgument like `make_sheet` and `SheetFile::allocate`.
 SheetEntry enter_page(SheetFile& file, const NewPage& page);
 
 }  // namespace dotpose::cli

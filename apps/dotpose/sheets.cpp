@@ -72,7 +72,8 @@ struct SheetsArguments {
     SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
 };
 
-/// Throws Error if the sheet file does not exist. SheetFile would create it.
+/// Throws Error if the sheet file does not exist. Without this check, SheetFile would create the
+/// file.
 void require_there(const SheetsArguments& arguments) {
     std::error_code error;
     if (std::filesystem::exists(system::path_of(arguments.sheets), error)) return;

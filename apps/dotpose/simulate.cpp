@@ -40,7 +40,7 @@ constexpr const char* kSimulateExamples =
     "  dotpose simulate -o foreign --scene plain_grid\n"
     "  dotpose simulate -o drive.mp4 --drive --sheets sheets.json --speed 200 --size 320x240\n";
 
-// An imperfection with a numeric value, and its option.
+// An option that sets an imperfection to a number.
 struct NumberOption {
     const char* flag;
     const char* unit;
@@ -69,7 +69,7 @@ constexpr NumberOption kNumberOptions[] = {
      &Imperfections::texture},
 };
 
-// Two numbers in one argument, "A,B".
+// Two numbers given as one argument, "A,B".
 struct Pair {
     std::vector<double> values;
     bool given() const { return values.size() == 2; }

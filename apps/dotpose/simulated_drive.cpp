@@ -52,7 +52,8 @@ PageArea page_area(const SheetEntry& entry) {
             (last.x - first.x) / 2, (last.y - first.y) / 2, 0};
 }
 
-/// Returns the radius in mm of the circle around the image centre that encloses the view.
+/// Returns the radius, in mm, of the circle around the image centre that encloses the field of
+/// view.
 double reach_mm(const CameraModel& camera) {
     return std::hypot(camera.width_px, camera.height_px) / 2 * camera.mm_per_px;
 }
@@ -77,7 +78,8 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
 
 void SimulatedDrive::lay_path() {
     constexpr double kMargin_mm = 5;
-    constexpr double kMinFraction = 0.25;  // minimum amplitude / side of the bounding rectangle
+    // Minimum ratio of the amplitude to the side of the bounding rectangle along the same axis.
+    constexpr double kMinFraction = 0.25;
     Vec2 low{1e9, 1e9};
     Vec2 high{-1e9, -1e9};
     for (const SheetEntry& entry : sheets_) {

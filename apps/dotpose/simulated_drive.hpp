@@ -59,7 +59,7 @@ class SimulatedDrive {
     Vec2 centre_mm_;
     Vec2 amplitude_mm_;
     bool is_upright_ = false;         ///< true if the path is taller than it is wide
-    std::vector<double> lengths_mm_;  ///< path length from the start to each step
+    std::vector<double> lengths_mm_;  ///< length of the path from its start to each step
 };
 
 }  // namespace dotpose::cli

@@ -21,7 +21,7 @@ inline constexpr const char* kSourcesHelp =
 
 struct SourceArguments {
     std::vector<std::string> names;
-    std::string list;  ///< file with further names, "-" for standard input, or empty for none
+    std::string list;  ///< file with more names, "-" for standard input, or empty for none
     capture::SourceOptions options;
 
     bool is_given() const { return !names.empty() || !list.empty(); }
@@ -49,26 +49,26 @@ struct SourceArguments {
 class Sources {
   public:
     /// Collects the sources. If one of them is a camera or a video, which only dotpose-live can
-    /// read, `dotpose` replaces this process with dotpose-live (live_sources.hpp), so no output may
-    /// be open yet. Throws BadArgument if no source is given or if standard input is given twice,
-    /// and Error if the list, a folder or a glob cannot be read.
+    /// read, `dotpose` replaces this process with dotpose-live (live_sources.hpp). Therefore, no
+    /// output may be open yet. Throws BadArgument if no source is given or if standard input is
+    /// given twice, and Error if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
-    /// Returns true if a pipe may deliver further names.
+    /// Returns true if a pipe may deliver more names.
     bool has_pipe() const { return names_.has_pipe(); }
 
     /// Registers the list file and all input files that are already known.
     void add_files(RunFiles& files) const;
 
-    /// Returns all names. Blocks until all names have arrived from a pipe.
+    /// Returns all names. Blocks until a pipe, if there is one, has delivered all its names.
     std::vector<std::string> all_names();
 
-    /// Returns the paths of all images. Blocks until all names have arrived from a pipe. Throws
-    /// Error if a folder or glob cannot be read, and BadArgument if a source is not an image.
+    /// Returns the paths of all images. Blocks like `all_names`. Throws Error if a folder or glob
+    /// cannot be read, and BadArgument if a source is not an image.
     std::vector<std::string> all_images();
 
-    /// Returns the number of images. Returns 0 if the number is unknown because names come from a
-    /// pipe, or because a source cannot be read or does not consist of images.
+    /// Returns the number of images, or 0 if it is unknown: if a pipe delivers names, if a source
+    /// cannot be read, or if a source does not consist of images.
     std::int64_t number_of_images() const;
 
     /// Opens all sources as one sequence of frames. `*this` must outlive the result.

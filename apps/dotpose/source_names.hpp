@@ -19,11 +19,11 @@ class SourceNames {
 
     const std::vector<std::string>& known() const { return known_; }
 
-    /// Returns true if a pipe may deliver further names.
+    /// Returns true if a pipe may deliver more names.
     bool has_pipe() const { return is_pipe_; }
 
-    /// Returns the next name, or none after the last name. Throws Error like the constructor, and
-    /// returns none in all calls after an error.
+    /// Returns the next name, or none after the last name. Throws Error like the constructor. After
+    /// an error, all further calls return none.
     std::optional<std::string> next();
 
   private:

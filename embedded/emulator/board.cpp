@@ -56,7 +56,7 @@ bool read(void* bytes, std::size_t count) {
     return semihosting::transfer(semihosting::Call::read, camera, bytes, count) == 0;
 }
 
-/// Reads a number from an image header and the character after it.
+/// Reads a number in an image header, and the character that follows the number.
 int read_number() {
     int number = 0;
     for (char byte = '0'; byte >= '0' && byte <= '9';) {

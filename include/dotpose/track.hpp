@@ -223,10 +223,10 @@ class Tracker {
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Updates the state with a frame and the motion since the previous update, measured by
-    /// odometry. `right_mm` is along the direction theta of the sightings, which is the image x
-    /// axis or, with a camera file, the robot's heading. The motion advances the pose, and the
-    /// uncertainty of the motion increases the covariance of the pose. An accepted sighting then
-    /// corrects the pose and reduces its covariance.
+    /// odometry. `right_mm` is measured along the direction given by the theta of the sightings.
+    /// This is the image x axis, or the robot's heading if a camera file is used. The motion
+    /// advances the pose, and the uncertainty of the motion increases the covariance of the pose.
+    /// An accepted sighting then corrects the pose and reduces its covariance.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 

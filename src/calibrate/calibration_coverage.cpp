@@ -11,8 +11,8 @@
 namespace dotpose {
 namespace {
 
-/// Boundaries of the 3 x 3 regions, in columns and rows of ImageCoverage. The advice to the user
-/// names these regions: corners, edges and the middle.
+/// Boundaries of the 3 x 3 regions of the image, in columns and rows of ImageCoverage. Advice to
+/// the user refers to these regions by name.
 constexpr std::array kRegionColumns = {0, 4, 8, ImageCoverage::kColumns};
 constexpr std::array kRegionRows = {0, 3, 5, ImageCoverage::kRows};
 constexpr std::size_t kRegions = 3;
@@ -59,8 +59,8 @@ double corner_sigma_px(const Camera& camera) {
                                 const char* key) {
         Camera other = camera;
         double& changed = of_centre != nullptr ? other.centre_px.*of_centre : other.*value;
-        // Step of the difference quotient, in standard deviations. The step is small, because
-        // undistortion is not linear in the parameters.
+        // Step of the difference quotient, in standard deviations. It is small because undistortion
+        // is nonlinear in the parameters.
         constexpr double kPart = 1e-3;
         changed += kPart * camera.sigma.at(key);
         const PixelPoint moved = from_middle(other, corner);

@@ -98,8 +98,8 @@ void identify(const Field& field, const CheckPrintOptions& options, PrintField& 
         result.sheet = sheet_at(options, field.code.section, cell);
         if (patch) result.pattern = *patch;
         if (result.sheet) result.pattern = options.sheets[*result.sheet].pattern;
-        // The centre of a tile may be on the margin of the page, so the loop tries all tiles in
-        // turn.
+        // The centre of a tile may be in the page margin. The loop therefore continues until a tile
+        // identifies the pattern.
         if (patch || result.sheet) break;
     }
     result.pattern.code = options.pattern.code;
@@ -180,9 +180,9 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If more than a fraction kSuspicious of the bits in a field disagrees with the code, checks
-/// whether the page uses a different code variant. If it does, reports only the wrong variant,
-/// because it causes all other findings.
+/// If the fraction of wrong bits exceeds kSuspicious in any field, checks whether the page uses a
+/// different code variant. If so, reports only the wrong variant, because it causes all other
+/// findings.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
@@ -232,7 +232,8 @@ int common_cells(const CellGrid& a, const CellGrid& b) {
     return count;
 }
 
-/// Finds pairs of fields that show the same cells. `parts` is in the order of `check.fields`.
+/// Finds pairs of fields that show the same cells. `parts` and `check.fields` are in the same
+/// order.
 void find_repetitions(const std::vector<const CollectedField*>& parts, PrintCheck& check) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (std::size_t j = i + 1; j < parts.size(); ++j) {

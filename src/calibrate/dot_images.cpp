@@ -63,7 +63,7 @@ class Light {
             equations.add(std::array{1.0, x, y, x * x, x * y, y * y}, dot.level);
             ++count;
         }
-        constexpr int kMinDots = 30;  // fewer dots do not determine the polynomial
+        constexpr int kMinDots = 30;  // with fewer dots, the polynomial is unreliable
         if (count >= kMinDots) values_ = equations.solution();
     }
 
@@ -138,8 +138,8 @@ DotSums sums_of(const ImageView& image, const ExpectedDot& expected, const DotIm
     return sums;
 }
 
-/// Returns the first estimate of a dot, from the darkest and the lightest pixel near the expected
-/// position.
+/// Returns an initial estimate of a dot, computed from the darkest and the lightest pixel near its
+/// expected position.
 DotImage first_image(const ImageView& image, const ExpectedDot& expected) {
     DotImage dot;
     dot.centre = expected.pixel;
@@ -210,7 +210,7 @@ std::vector<std::optional<DotCentre>> measured_centres(const ImageView& image,
             dot.is_valid = sums.pixels >= kMinPixels && step.allFinite() && dot.contrast > 0 &&
                            offset.norm() < kMaxOffset;
             if (!dot.is_valid) continue;
-            // Eliminates the parameters of the dot from the equation for the blur variance.
+            // Eliminates the parameters of this dot from the equation for the blur variance.
             normal += sums.blur_normal - sums.with_blur.dot(factors.solve(sums.with_blur));
             right += sums.blur_right - sums.with_blur.dot(step);
         }

@@ -1,6 +1,5 @@
-// Measures the centres of expected dots by least squares over their pixels. The measurement is
-// unbiased even for dots at the border of the image and for dots that are foreshortened by a tilted
-// view.
+// Measures the centres of expected dots by least-squares fits to their pixels. The measurement is
+// unbiased even for dots at the border of the image and for dots foreshortened by a tilted view.
 #pragma once
 
 #include <optional>

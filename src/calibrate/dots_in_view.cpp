@@ -30,21 +30,21 @@ Vector2d pixel_of(const PatternView& view, const SpaceState& state, const Vector
                                 pinhole.centre_px.v + pinhole.focal_v_px * seen.y() / seen.z()}));
 }
 
-/// Returns the maximum depth, in mm, at which the spacing in the image is large enough for dots to
-/// be measured.
+/// Returns the maximum depth, in mm, at which dots can be measured. At larger depths, the spacing
+/// in the image is too small.
 double max_depth_mm(const PatternView& view) {
     const double focal_px = std::max(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
     return focal_px * std::max(view.spacing_mm.x, view.spacing_mm.y) / kMinSpacing_px;
 }
 
-/// A rectangle of cells, in steps from `trace.decoding.place`.
+/// A rectangle of cells. The coordinates are steps from `trace.decoding.place`.
 struct Cells {
     FixedVec first{INT32_MAX, INT32_MAX};
     FixedVec last{INT32_MIN, INT32_MIN};
 
     void add(double x, double y) {
         // The margin covers dots that are displaced into the image. It also covers cells between
-        // the sampled border points, where the border of the image is curved outwards on the paper.
+        // the sampled border points where the image border curves outwards on the paper.
         constexpr int kMargin = 2;
         const auto i = static_cast<std::int32_t>(std::lround(x));
         const auto j = static_cast<std::int32_t>(std::lround(y));
@@ -181,8 +181,8 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
     }
     if (read.size() < kMinDots) return std::nullopt;
     const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
-    // Maximum number of dots in the first fit. This fit only needs to predict the positions of all
-    // dots.
+    // Maximum number of dots in the first fit. This fit only needs to be accurate enough to predict
+    // the positions of all dots.
     constexpr std::size_t kPart = 300;
     std::vector<SpaceDot> part;
     for (std::size_t i = 0; i < read.size(); i += 1 + read.size() / kPart)

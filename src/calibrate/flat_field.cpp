@@ -92,8 +92,8 @@ FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                         "of the brightest part: light the paper more evenly",
                         100 * kMinFlatField));
     }
-    // Dots cover a tenth of the paper. They cause an rms deviation of 25 % in one frame, and of 6 %
-    // in the mean of 20 frames.
+    // Dots cover a tenth of the paper. They cause an rms deviation of 25 % in a single frame and of
+    // 6 % in the mean of 20 frames.
     constexpr double kMaxResidual = 0.08;
     if (!(result.residual <= kMaxResidual)) {
         throw Error(

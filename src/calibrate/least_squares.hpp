@@ -1,5 +1,6 @@
 // Normal equations for linear least squares, and operations on covariances. Matrix decompositions
-// and products that several files use are in least_squares.cpp, because they are slow to compile.
+// and products that several files use are implemented in least_squares.cpp, because they are slow
+// to compile.
 #pragma once
 
 #include <span>
@@ -25,7 +26,7 @@ class NormalEquations {
     /// Returns the sum of squared residuals with all parameters set to 0, minus the sum at the
     /// solution.
     double explained_squares() const;
-    /// Returns the covariance of the solution if the wanted values have variance 1.
+    /// Returns the covariance of the solution, assuming that the wanted values have variance 1.
     Eigen::MatrixXd unit_covariance() const;
 
   private:

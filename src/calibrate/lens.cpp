@@ -26,8 +26,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Maximum distance between two frames on the sheet, in spacings, for which the frames are treated
-/// as views of the same dots.
+/// Two frames are treated as views of the same dots if their positions on the sheet differ by at
+/// most this distance, in spacings.
 constexpr double kSamePlace = 1.5;
 
 /// Reads the frames given to `calibrate_lens`. Rejects frames of different sizes and detects
@@ -77,9 +77,9 @@ class Series {
     std::vector<std::uint64_t> hashes_;
 };
 
-/// Returns by how much a frame's sum of squared residuals decreases, in units of the residual
-/// variance, if the frame is fitted with its own scale, shear and perspective. If height and tilt
-/// are the same in all frames, the expected value is 5, the number of these parameters.
+/// Returns the decrease in a frame's sum of squared residuals when the frame is fitted with its own
+/// scale, shear and perspective, in units of the residual variance. If height and tilt are the same
+/// in all frames, the expected value is 5, the number of these parameters.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,
@@ -154,7 +154,8 @@ Camera camera_of(const LensFit& fit, const FitSetting& setting) {
     return camera;
 }
 
-/// Returns true if all frames are within kSamePlace of the first frame on the sheet.
+/// Returns true if the positions of all frames on the sheet are within kSamePlace of the position
+/// of the first frame.
 bool is_same_place(const std::vector<LocatedFrame>& located, const LensFit& fit,
                    double spacing_mm) {
     for (std::size_t i = 1; i < located.size(); ++i) {

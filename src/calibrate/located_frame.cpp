@@ -7,7 +7,7 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Distortions to try if the lens is unknown, as values of k r^2 in the corner of the image.
+/// Lens distortions to try if the lens is unknown: values of k r^2 in the corner of the image.
 constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 0.12};
 
 /// Returns the half width of the dots, in spacings. This is the radius at which the mean radial
@@ -99,7 +99,7 @@ bool FrameReader::locate_with(const ImageView& image, const FixedLens& lens) {
 LocatedFrame FrameReader::read_trace(const ImageView& image) const {
     const Trace trace = locator_.trace();
     const FixedLens& lens = trace.options.lens;
-    // Same lens as in `locate`, including the rounding to fixed point.
+    // The lens that `locate` used, including the rounding to fixed point.
     Camera used;
     used.k_per_px2 = lens.k_q40 * 0x1p-40;
     used.centre_px = {(image.width_px - 1) / 2.0 + lens.centre_dx_q8 / 256.0,

@@ -1,8 +1,8 @@
-// The part of the preconditioner that corrects slow deformations of the page. A slow deformation
-// moves all dots in a frame together, so a different pose of the frame nearly cancels its effect on
-// the residuals. With only the diagonal blocks of single frames as a preconditioner, slow
-// deformations would need many iterations to converge. This part therefore solves for the
-// deformation and the poses together.
+// The part of the preconditioner that corrects slow deformations of the page, which vary little
+// over the width of a frame. A slow deformation moves all dots in a frame together, so a change in
+// the frame's pose nearly cancels its effect on the residuals. If the preconditioner consisted only
+// of the diagonal blocks of single frames, slow deformations would need many iterations to
+// converge. This part therefore solves for the deformation and the poses together.
 #pragma once
 
 #include <cstdint>

@@ -11,9 +11,9 @@ namespace dotpose::calibrate {
 /// `fix_gauge`, which sets them to 0.
 enum class Gauge : bool { earlier, fixed };
 
-/// Returns the covariance of the map error (shift and turn) in a view, for views centred on the
-/// nodes of a grid over the page. The covariances are computed from the equations for slow
-/// deformations. The diagonal of a view is twice the reach of the solution.
+/// Returns the covariances of the map error (shift and turn) in views centred on the nodes of a
+/// grid over the page. They are computed from the equations for slow deformations. The diagonal of
+/// a view is twice the reach of the solution.
 MapErrorGrid map_errors(const MapGrid& grid, const MapSolution& solution,
                         const MapDeformation& deformation, Gauge gauge);
 

@@ -1,4 +1,4 @@
-// The slow distortion of a page, interpolated bilinearly between nodes.
+// The slowly varying distortion of a page, interpolated bilinearly between nodes.
 #pragma once
 
 #include <array>
@@ -18,8 +18,7 @@ class MapField {
     };
 
     MapField() = default;
-    /// Creates a field with the value 0 for a page of `columns` x `rows` dots that are `pitch_mm`
-    /// apart.
+    /// Creates a field of zeros for a page of `columns` x `rows` dots that are `pitch_mm` apart.
     MapField(int columns, int rows, double pitch_mm);
 
     Around around(int column, int row) const;
@@ -35,10 +34,9 @@ class MapField {
     /// Adds the diagonal of the matrix of the smoothness prior to the vector `diagonal`.
     void add_prior_diagonal(std::vector<double>& diagonal) const;
 
-    /// Returns a field with the value 0 and at most `max_nodes` nodes that covers all nodes of this
-    /// field.
+    /// Returns a field of zeros with at most `max_nodes` nodes that covers all nodes of this field.
     MapField coarser(std::size_t max_nodes) const;
-    /// Returns, for each node of this field, the nodes of a coarser field that surround it.
+    /// Returns the nodes of a coarser field that surround each node of this field.
     std::vector<Around> nodes_in(const MapField& coarse) const;
 
     /// Prior standard deviation of the second differences between adjacent nodes, in mm. The value

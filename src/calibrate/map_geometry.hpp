@@ -44,8 +44,8 @@ class MapView {
                     frame[1] + frame[2] * x + y * (scale - shared[1]) + x * shared[2] -
                         frame[3] * direction.y()};
         }
-        /// Multiplies the transposed derivatives by `g`. Adds the elements for the frame to
-        /// `frame`, and the element for the lens distortion to `distortion`.
+        /// Multiplies the transposed derivatives by `g`. Adds the elements of the product that
+        /// belong to the frame to `frame`, and the element of the lens distortion to `distortion`.
         void add_transposed(const Eigen::Vector2d& g, FrameVector& frame,
                             double& distortion) const {
             const double along = x * g.x() + y * g.y();

@@ -23,9 +23,9 @@ using Eigen::Vector2d;
 /// are marked again.
 constexpr int kRounds = 3;
 /// The conjugate gradient iterations stop when the mean square of the preconditioned residual is at
-/// most this value, in units of the variance of an unknown. Smaller values do not change the errors
-/// of the map. All rounds but the last use kFirstConverged, because they only estimate variances
-/// and find outliers.
+/// most this value, in units of the variance of an unknown. Smaller values do not make the map more
+/// accurate. All rounds but the last use kFirstConverged, because they only estimate variances and
+/// find outliers.
 constexpr double kConverged = 1e-6;
 constexpr double kFirstConverged = 1e-4;
 /// Maximum squared residual of an observation in the first round, in units of the variance per
@@ -44,8 +44,8 @@ struct Statistics {
     std::array<double, kViewTerms> view_sigma{};
 };
 
-/// View terms of a frame and their variances, from a fit of the frame terms to this frame only. All
-/// unknowns that do not belong to the frame are fixed.
+/// View terms of a frame and their variances, fitted to this frame only. All unknowns that do not
+/// belong to the frame are held fixed.
 struct FreeView {
     Eigen::Matrix<double, kViewTerms, 1> terms;
     Eigen::Matrix<double, kViewTerms, 1> variance;
@@ -60,8 +60,8 @@ FreeView free_view(const FrameBlock& block, const FrameVector& right, const MapF
             variance * inverse.diagonal().tail<kViewTerms>()};
 }
 
-/// Returns the standard deviations with which the view terms vary between frames. If the terms do
-/// not differ by more than their errors, the camera is considered rigid and the result is nearly 0.
+/// Returns the standard deviation of each view term between frames. If a term does not vary by more
+/// than its error, the camera is considered rigid in this term and the result is nearly 0.
 std::array<double, kViewTerms> view_sigma_of(const std::vector<FreeView>& views) {
     std::array<double, kViewTerms> result{};
     for (int k = 0; k < kViewTerms; ++k) {

@@ -100,7 +100,7 @@ struct MapSolution {
     std::vector<std::uint32_t> views;            ///< number of views of each dot
     double noise_mm = 0;                         ///< see MapPage::noise
     double jitter_mm = 0;                        ///< see MapPage::jitter
-    /// Standard deviations with which the view terms vary between frames, estimated by `solve_map`.
+    /// Standard deviation of each view term between frames, estimated by `solve_map`.
     std::array<double, kViewTerms> view_sigma{};
     MapErrorGrid errors;
     std::size_t outliers = 0;

@@ -25,8 +25,7 @@ Vector2d place_of(const FixPlane& view, const MapObservation& seen) {
     return view.place(Vector2d(double(seen.x_mm), double(seen.y_mm)) - view.centre_px);
 }
 
-/// Returns the view of a frame in mm, with position and rotation removed. `linear` is then
-/// symmetric.
+/// Returns the view of a frame in mm, without position and rotation. `linear` is then symmetric.
 FixPlane view_of(const PlaneFromImage& plane, const Vector2d& pitch_mm) {
     FixPlane view(plane);
     const Matrix2d linear = pitch_mm.asDiagonal() * view.linear;
@@ -56,8 +55,8 @@ FixPlane median_view(const std::vector<FixPlane>& views) {
     return view;
 }
 
-/// Returns true if, for at least half of the views, `linear` differs from that of `typical` by more
-/// than kMaxMedianChange, relative to its norm. This means that the camera was hand-held.
+/// Returns true if `linear` differs from that of `typical` by more than kMaxMedianChange, relative
+/// to its norm, in at least half of the views. In this case, the camera was hand-held.
 bool differ(const std::vector<FixPlane>& views, const FixPlane& typical) {
     constexpr double kMaxMedianChange = 0.01;
     return median_of(views, [&](const FixPlane& view) {

@@ -11,7 +11,7 @@ MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace) 
     const MapPage* page = find_page(map, code, {fix.cell, fix.section});
     if (page == nullptr) return result;
     constexpr std::size_t kMinDots = 20;
-    // Minimum fraction of the dots in view that the map must contain.
+    // Minimum fraction of the dots in view that have an offset in the map.
     constexpr double kMinCovered = 0.75;
     result.page = page;
     result.noise = page->noise;
@@ -39,10 +39,10 @@ void add_map_error(const MapPage& page, Fix& fix) {
 }
 
 bool is_same_print(double variance_with_map, double variance_without, double noise) {
-    // With the map of a different print, the ratio would be about 2.
+    // Maximum ratio of the variances. With the map of a different print, the ratio is about 2.
     constexpr double kMaxRatio = 0.8;
-    // In a print without jitter, the residuals contain only noise, so the map hardly changes their
-    // variance.
+    // Maximum ratio of the variance with the map to the variance of the noise. In a print without
+    // jitter, the residuals contain only noise, so the map hardly changes their variance.
     constexpr double kMaxNoise_2 = 2;
     return variance_with_map <= kMaxRatio * variance_without ||
            variance_with_map <= kMaxNoise_2 * noise * noise;

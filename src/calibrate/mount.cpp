@@ -27,10 +27,10 @@ using Eigen::Vector2d;
 constexpr int kMinSpinFrames = 3;
 constexpr double kMinTurn_rad = std::numbers::pi / 6;
 constexpr double kMinDrive_mm = 5;
-/// Maximum angle by which the robot may turn during a straight drive. It also limits how far the
-/// robot may be off the line of the drive (see require_straight).
+/// Maximum angle by which the robot may turn during a straight drive. It also determines the
+/// maximum distance of the robot from the line of the drive (see require_straight).
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
-/// Probability that noise is mistaken for a drift although the robot stays on the spot.
+/// Probability of mistaking noise for a drift if the robot stays on the spot.
 constexpr double kFalseDrift = 1e-3;
 /// Minimum number of frames required to distinguish a drift from noise.
 constexpr int kMinDriftFrames = 5;
@@ -44,7 +44,7 @@ struct Station {
 
 /// Stations of all frames with a fix.
 struct Stations {
-    Camera camera;  ///< without reference point and angle offset
+    Camera camera;  ///< has no reference point and no angle offset
     std::vector<Station> stations;
     double spacing_mm = 0;
     double mm_per_px = 0;  ///< mean over the frames
@@ -68,8 +68,8 @@ Camera without_distortion(const GreyImage& image) {
     return camera;
 }
 
-/// Throws Error if the mean of the spacings computed from the fixes and the camera file contradicts
-/// the spacing of the sheet.
+/// Throws Error if the mean of `measured_mm` contradicts the spacing of the sheet. `measured_mm`
+/// contains the spacings computed from the fixes and the camera file.
 void require_spacing(const std::vector<double>& measured_mm, double spacing_mm) {
     double mean_mm = 0;
     for (const double mm : measured_mm)

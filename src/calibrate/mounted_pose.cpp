@@ -23,7 +23,8 @@ using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinPoseDots = 12;
 
-/// Numbers of parameters in the equation for a dot:
+/// Numbers of parameters in the equation for a dot (without motion, with motion, and with motion
+/// and turn of the camera):
 ///
 ///   printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v
 ///
@@ -159,7 +160,7 @@ void write_place(double x, double y, CodeVariant code, const Place& place, Fix& 
 }
 
 /// Sets the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. The
-/// variance of the nominal angle is set to that of the angle on the paper, because these variances
+/// variance of the angle on the paper is also used for the nominal angle, because the two variances
 /// are nearly equal.
 void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& print, Fix& out) {
     const double c = fit.parameters[2];
@@ -233,7 +234,8 @@ MappedMovingFix with_camera_and_map(const Fix& seen, const Camera& camera, const
                                     const AxisScale& print, const PrintMap& map) {
     if (seen.status != Status::ok) return {seen, {}, MapUse::no_map};
     MappedFix mapped{seen};
-    // Without a view of the paper in the camera file, fits the plane of the fix to the mapped dots.
+    // If the camera file contains no view of the paper, fits the plane of the fix to the mapped
+    // dots.
     if (!camera.paper) mapped = with_print_map(seen, map, trace);
     const Fix& fix = mapped.fix;
     Fix result = fix;

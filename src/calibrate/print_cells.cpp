@@ -16,14 +16,14 @@ constexpr double kMinLineShare = 0.5;
 /// most correct dots.
 constexpr double kMinLength = 0.15;
 
-/// Minimum fraction of correct dots among the dots in an outer line. By chance, a quarter of the
-/// dots are correct. In a different region of the code, half of the dots are correct if the columns
-/// happen to agree.
+/// Minimum fraction of correct dots among the dots in an outer line. A quarter of the dots are
+/// correct by chance. If the line belongs to a different region of the code whose columns happen to
+/// agree, half of the dots are correct.
 constexpr double kMinRightShare = 0.7;
 
-/// Returns the located tiles whose maps predict the cells of a tile. The result contains the tile
-/// itself or, if the tile has no fix, its neighbours. For example, a tile that shows only the edge
-/// of a field has no fix.
+/// Returns the located tiles whose maps are used to predict the cells of a tile: the tile itself
+/// or, if it has no fix, its neighbours. For example, a tile that shows only the edge of a field
+/// has no fix.
 std::vector<const LocatedTile*> views_of(int tile, const Tiling& tiling, const Field& field) {
     if (const auto& own = field.tiles[static_cast<std::size_t>(tile)]) return {&*own};
     std::vector<const LocatedTile*> views;
@@ -48,7 +48,7 @@ bool is_nearest(const LocatedTile& view, const SeenCell& cell,
     });
 }
 
-/// Returns a grid without measurements. It covers all cells that the maps of the tiles of a field
+/// Returns a grid without measurements. It covers all cells that the maps of the field's tiles
 /// predict in these tiles, plus a margin of two cells.
 CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
@@ -171,7 +171,7 @@ class Trimmer {
     static bool is_long(const Coverage& line, int longest) {
         return line.right > kMinLength * longest;
     }
-    /// Returns true if a line belongs to the field. A line with only a few correct cells is
+    /// Returns true if a line belongs to the field. A line with only a few correct dots is
     /// rejected, because it may be cropped or contain other print.
     static bool is_enough(const Coverage& line, int longest) {
         return line.right >= kMinLineShare * line.seen &&

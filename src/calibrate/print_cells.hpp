@@ -7,12 +7,12 @@
 
 namespace dotpose::calibrate {
 
-/// Cells of a field: a rectangle of the code, row by row.
+/// Cells of a field: a rectangle of the code.
 struct CellGrid {
     Cell origin;
     int columns = 0;
     int rows = 0;
-    std::vector<SeenCell> cells;  ///< a cell that was not measured has no dot
+    std::vector<SeenCell> cells;  ///< row by row; has_dot is false for cells that were not measured
 
     const SeenCell& at(int i, int j) const {
         return cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +

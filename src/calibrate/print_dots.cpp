@@ -26,7 +26,7 @@ constexpr double kReach = 1.0 / 3;
 /// second limit is in standard deviations of blank paper, and is capped at the darkness of a dot.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
-/// Displacement that is assumed while levels are measured, in spacings. An approximate value is
+/// Displacement assumed for the measurement of levels, in spacings. An approximate value is
 /// sufficient.
 constexpr double kUsualDisplacement = 1.0 / 6;
 constexpr int kCentrings = 4;
@@ -40,10 +40,10 @@ double median(std::vector<double>& values) {
     return *middle;
 }
 
-/// Removes the levels of grey areas beside the paper from the sorted levels at the corners of
-/// cells. Assumes that at least a quarter of the levels are paper. Estimates the standard deviation
-/// of the paper levels from the 75 % and 95 % quantiles. Removes levels more than kSigmas standard
-/// deviations below the 75 % quantile.
+/// Removes the levels of grey areas beside the paper. `levels` contains the levels at the corners
+/// of cells, in ascending order. At least a quarter of these levels are assumed to be paper.
+/// Estimates the standard deviation of the paper levels from the 75 % and 95 % quantiles, and
+/// removes levels more than kSigmas standard deviations below the 75 % quantile.
 void keep_paper(std::vector<double>& levels) {
     constexpr double kSigmas = 3.6;
     constexpr double kSigmasPerRange = 1.6449 - 0.6745;
@@ -119,7 +119,7 @@ class Meter {
           paper_(paper),
           per_paper_(1 / paper) {}
 
-    /// Returns the darkest of the four possible places of a dot.
+    /// Returns the darkest of the four possible positions of a dot.
     Vector2d darkest_place(const Vector2d& intersection_px) const {
         Vector2d darkest_px = intersection_px;
         double best = -1e9;
@@ -134,7 +134,7 @@ class Meter {
         return darkest_px;
     }
 
-    /// Starts at the darkest of the four possible places of a dot, moves iteratively to the
+    /// Starts at the darkest of the four possible positions of a dot, moves iteratively to the
     /// centroid of the dot, and measures the dot there. Sets the measured members of `cell`, except
     /// `is_covered` and `read`. `strength` is the expected darkness of a dot. Returns the offset of
     /// the dot from its intersection, in spacings.
@@ -290,8 +290,8 @@ PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
     std::vector<double> levels;
     std::vector<double> strengths;
     for (const Vector2d& dot_px : dots_px) {
-        // Measures the level of the paper at a corner of the cell, because dots do not extend to
-        // the corners.
+        // Measures the level of the paper at a corner of the cell. Dots do not extend to the
+        // corners.
         const Vector2d cell = map.cell(dot_px);
         const double level =
             level_at(scan, map.pixel({std::round(cell.x()) + 0.5, std::round(cell.y()) + 0.5}));

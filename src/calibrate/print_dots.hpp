@@ -50,7 +50,7 @@ struct PrintLevels {
     double dot = 0;    ///< median darkness around the centre of a dot
 };
 
-/// Returns the levels of paper and dots around the dots with the given centres.
+/// Measures the brightness of paper and dots in the neighbourhood of the given dot centres.
 PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
                            const std::vector<Eigen::Vector2d>& dots_px);
 

@@ -34,7 +34,7 @@ struct PlaneFit {
     /// Returns the image position of a point on the page.
     Eigen::Vector2d seen(const Eigen::Vector2d& nominal_mm) const;
     /// Returns the local scale at a point on the page, in units of `seen` per mm. The scale is the
-    /// square root of the ratio of an area in the image to the area on the page.
+    /// square root of the ratio of image area to page area.
     double units_per_mm(const Eigen::Vector2d& nominal_mm) const;
 };
 

@@ -17,7 +17,7 @@ namespace dotpose::calibrate {
 ///
 ///   cell = centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2)
 ///
-/// where q = pixel - centre_px. The map is that of a fix (PlaneFromImage), converted to the pixel
+/// where q = pixel - centre_px. It is the map of a fix (PlaneFromImage), converted to the pixel
 /// coordinates of the scan.
 struct TileMap {
     Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();

@@ -1,4 +1,4 @@
-// Collects the dots on each page from its frames, and converts the solution to a print map.
+// Collects the observations of each page from its frames, and converts the solution to a print map.
 #include "dotpose/tools/print_mapping.hpp"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ std::int16_t to_q14(double spacings) {
 
 /// Converts the covariances from mm to spacings. For an update, adds the errors of the earlier map,
 /// because its slowly varying errors remain in the result. The equations do not include these
-/// errors, because the equations assume that the errors of the earlier offsets are independent.
+/// errors: they assume that the errors of the earlier offsets are independent.
 MapErrors errors_of(const MapGrid& grid, const MapErrorGrid& found, const EarlierOffsets& earlier,
                     const MapPage& page) {
     if (!earlier.views.empty() && page.errors.nodes.empty()) return {};
@@ -135,7 +135,8 @@ MappedPage statistics_of(const MapPage& map, const MapGrid& grid, const MapSolut
     }
     const double all = squares / static_cast<double>(std::max<std::size_t>(page.seen, 1));
     page.slow_mm = std::sqrt(std::max(all - solution.jitter_mm * solution.jitter_mm, 0.0));
-    // Maximum relative standard deviation of the scale across frames for a rigid mount.
+    // Maximum relative standard deviation of the scale between frames at which the mount is
+    // considered rigid.
     constexpr double kRigid = 2e-4;
     page.is_rigid = solution.view_sigma[0] < kRigid * solution.reach_mm;
     return page;

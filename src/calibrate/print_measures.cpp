@@ -19,8 +19,8 @@ constexpr double kInch_mm = 25.4;
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a bin for which distortion is reported.
 constexpr int kMinBinDots = 60;
-/// Quantile of the dots' darkness that is used as the darkness of ink if it exceeds the expected
-/// darkness of ink.
+/// Quantile of the dots' darkness. The darkness of ink is the value at this quantile or the
+/// expected darkness of ink, whichever is greater.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 

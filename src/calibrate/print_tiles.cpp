@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kTileCells = 24;
 constexpr int kMaxTile_px = 2048;
-/// Minimum spacing at which tiles are not magnified. At smaller spacings, tiles are magnified
-/// because `locate` needs a spacing of at least 6 px.
+/// Tiles are magnified if their spacing is less than this value, because `locate` needs a spacing
+/// of at least 6 px.
 constexpr double kSmallSpacing_px = 9;
 /// Number of crops that is sufficient to determine the spacing or the code.
 constexpr std::size_t kEnoughProbes = 40;
-/// Total number of pixels, after magnification, in a sample of crops of the same size. The crops
-/// are spread over the page.
+/// Total number of pixels in a sample of crops, after magnification. The crops have the same size
+/// and are spread over the page.
 constexpr int kSample_px = 8'000'000;
 
 /// Side and magnification of a crop. A crop must contain at least 8 x 8 cells.
@@ -72,7 +72,8 @@ std::optional<LocatedTile> TileLocator::locate_whole() {
     return locate_in({0, 0, scan_.width_px, scan_.height_px});
 }
 
-/// Returns the spacing of the pattern in crops of the scan. Returns 0 if no crop shows the pattern.
+/// Measures the spacing of the pattern by locating crops of the scan. Returns 0 if no crop shows
+/// the pattern.
 double TileLocator::find_spacing_px() {
     for (const bool thorough : {true, false}) {
         // The first pass locates some crops with `Effort::twice`. If none of these crops has a fix,

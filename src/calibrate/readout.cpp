@@ -79,8 +79,8 @@ ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const 
     ReadoutCalibration result;
     result.frames = frames;
     result.camera = camera;
-    // With a readout time of one second, the velocity per second equals the motion during the
-    // readout.
+    // With a readout time of one second, the velocity in spacings per second is numerically equal
+    // to the motion during the readout in spacings.
     result.camera.readout_ms = 1000;
     result.camera.reference_px.reset();
     result.camera.theta_offset_rad = 0;

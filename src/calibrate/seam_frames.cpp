@@ -13,13 +13,13 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Maximum distance of the image centre, in mm, from the page whose dots are in the frame.
+/// Maximum distance, in mm, between the image centre and a page whose dots are in the frame.
 constexpr double kBeyondPage_mm = 400;
 /// Minimum number of dots in a view. With fewer dots, the scales along the axes of the view are not
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// The search in a frame ends when the located sheets cover this number of its 64 fields
+/// The search in a frame ends when the located sheets cover at least this many of its 64 fields
 /// (SheetView::fields). The number of dots is not a suitable criterion, because a fix contains only
 /// the dots of one sheet.
 constexpr int kNearlyAllFields = 58;

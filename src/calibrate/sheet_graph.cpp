@@ -293,8 +293,8 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
                 pin_one(problem, node, k, 0, kPinned);
         }
         if (i == fixed_ && !has_scale()) {
-            // Fixes the aspect to its value in the sheet file. Views from parts of frames would
-            // determine the aspect, but all of them with the same error.
+            // Fixes the aspect to its value in the sheet file. Views computed from parts of frames
+            // would determine the aspect, but all of them with the same error.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {
@@ -316,7 +316,7 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     const Camera& camera = *camera_;
     const double x = relative_sigma(camera, "mm_per_px_x", camera.paper->mm_per_px_x);
     const double y = relative_sigma(camera, "mm_per_px_y", camera.paper->mm_per_px_y);
-    // Standard deviation of the mean of the two scales, and of half their difference.
+    // Standard deviation both of the mean of the two scales and of half their difference.
     const double half = std::hypot(x, y) / 2;
     const double skew = relative_sigma(camera, "skew", 1);
     const bool is_true = reference_.by == ScaleReference::By::camera;
@@ -391,8 +391,8 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
     const int parameters =
         problem.NumParameters() - (has_scale() ? 0 : static_cast<int>(camera_scale_.size()));
     if (has_scale()) shared.push_back(camera_scale_.data());
-    // The variances are scaled by the misfit between frames, because the residuals within frames do
-    // not include the bending of sheets.
+    // Scales the variances by the misfit between frames, because the residuals within frames do not
+    // include the bending of sheets.
     const double misfit = std::max(2 * cost / std::max(residuals - parameters, 1), 1.0);
     const Eigen::MatrixXd gain = normal_gain(problem, shared);
     const auto pins = gain.rightCols(gain.cols() - 6 * static_cast<Eigen::Index>(views_.size()));

@@ -156,7 +156,7 @@ std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<Weig
 
 /// Error model for the dots. The covariance of a dot is the sum of two parts: the print error,
 /// which is isotropic on the paper, and the error of the measured centre. The model estimates the
-/// fraction that is due to print errors.
+/// fraction of the variance that is due to print errors.
 class NoiseModel {
   public:
     NoiseModel(const SpaceState& state, const std::vector<WeightedDot>& dots,
@@ -172,8 +172,8 @@ class NoiseModel {
         normalize(centre_);
     }
 
-    /// Estimates the fraction that is due to print errors by maximum likelihood, and sets the
-    /// whitening of the dots for this fraction.
+    /// Finds the most likely fraction of the variance due to print errors, and sets the whitening
+    /// of the dots for this fraction.
     void whiten(std::vector<WeightedDot>& dots) const {
         const double fraction = likeliest_fraction();
         for (std::size_t i = 0; i < dots.size(); ++i) {
@@ -240,7 +240,7 @@ class NoiseModel {
     std::vector<Vector2d> residuals_;
 };
 
-/// The first and the second solution. The dots and their weights come from the first solution.
+/// The two solutions. The dots and their weights come from the first solution.
 struct Solutions {
     std::vector<WeightedDot> dots;
     Minimum first;

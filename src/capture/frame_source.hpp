@@ -17,10 +17,10 @@
 namespace dotpose::capture {
 
 struct Frame {
-    GreyImage image;           ///< empty if the camera delivers no frames
-    std::int64_t time_us = 0;  ///< time on the clock of the source; increases from frame to frame
+    GreyImage image;           ///< empty while the camera delivers no frames
+    std::int64_t time_us = 0;  ///< time on the source's clock; increases with each frame
     std::int64_t index = 0;    ///< frame number, starting at 0 and including dropped frames
-    std::string file;          ///< path of an image, or empty for other sources
+    std::string file;          ///< path of the image file, or empty for other sources
     bool is_live = false;      ///< true if `time_us` is on the monotonic clock of this computer
 };
 
@@ -37,8 +37,8 @@ class FrameSource {
     virtual ~FrameSource() = default;
 
     /// Gets the next frame, or the newest frame from a camera. Returns false at the end or when
-    /// `SourceOptions::stop` returns true. If the source fails, returns all frames captured before
-    /// the failure, then throws Error.
+    /// `SourceOptions::stop` returns true. If the source fails, first returns the frames captured
+    /// before the failure, and then throws Error.
     virtual bool next(Frame& frame) = 0;
 
     /// Returns the number of frames that were captured but not returned by `next`.
@@ -51,7 +51,7 @@ class FrameSource {
     /// number is unknown or the compression is lossless.
     virtual double bits_per_px() const { return 0; }
 
-    /// Returns the number of frames reported by the source, or 0 if unknown.
+    /// Returns the total number of frames as reported by the source, or 0 if unknown.
     virtual std::int64_t length() const { return 0; }
 };
 
@@ -73,7 +73,7 @@ struct SourceOptions {
     /// Maximum number of pixels in an image. Larger images are rejected with ImageTooLarge before
     /// they are decoded.
     int max_pixels = kMaxFrameSide_px * kMaxFrameSide_px;
-    /// Called periodically. If the function returns true, the source ends.
+    /// Called periodically. If the function returns true, the source stops delivering frames.
     std::function<bool()> stop = [] { return false; };
     /// Called with messages for the user, for example if a camera was unplugged. The source
     /// continues afterwards.
@@ -92,15 +92,15 @@ struct SourceOptions {
 GreyImage cropped(const GreyImage& image, const Region& region);
 
 /// Flips and crops a frame according to the options. Throws BadArgument if the region extends
-/// beyond the frame. Throws Error, with `name` in the message, if the frame does not have the size
+/// beyond the frame. Throws Error with `name` in its message if the frame size differs from
 /// `whole_size_px`.
 void prepare(const SourceOptions& options, const std::string& name, GreyImage& image);
 
 /// Returns the time of frame `index` in microseconds: index / fps.
 std::int64_t time_of(std::int64_t index, double fps);
 
-/// Opens raw 8-bit grey frames on standard input. Throws BadArgument if the options do not contain
-/// the size of the frames.
+/// Opens raw 8-bit grey frames on standard input. Throws BadArgument if the options do not specify
+/// the frame size.
 std::unique_ptr<FrameSource> open_raw(const SourceOptions& options);
 
 /// Opens a list of images. `next_path` returns the path of the next image, or an empty optional at

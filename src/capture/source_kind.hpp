@@ -9,7 +9,7 @@ namespace dotpose::capture {
 enum class SourceKind {
     raw,     ///< "-": raw frames on standard input
     camera,  ///< a number, /dev/video..., or a URL
-    image,   ///< an image file, or any other name
+    image,   ///< an image file, or a name that matches no other kind
     images,  ///< a folder, or a glob pattern that is not an existing path
     video,   ///< a file with the extension or the signature of a video
 };
@@ -27,7 +27,7 @@ bool needs_video_libraries(SourceKind kind);
 std::vector<std::string> images_at(const std::string& name);
 
 /// Returns the files of a source: images, a video, or "-". Returns an empty list for a camera.
-/// Throws Error like `images_at`.
+/// Throws Error in the same cases as `images_at`.
 std::vector<std::string> files_of(const std::string& name);
 
 }  // namespace dotpose::capture

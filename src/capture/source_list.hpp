@@ -21,12 +21,12 @@ class SourceList : public FrameSource {
     /// Opens the first source, so that its rate is available before the first frame. This call is
     /// optional, because `next` also opens the source. Returns false if there are no names. Throws
     /// Error if the source does not exist or cannot be read, and BadArgument if the size of raw
-    /// frames is missing.
+    /// frames is not specified.
     bool open();
 
-    /// Gets the next frame from the concatenated sources. Throws Error if a source fails. A later
-    /// call continues with the next source. Throws BadArgument if the region extends beyond the
-    /// frame.
+    /// Gets the next frame from the concatenated sources. Throws Error if a source fails. The
+    /// following call continues with the next source. Throws BadArgument if the region extends
+    /// beyond the frame.
     bool next(Frame& frame) override;
     std::int64_t dropped() const override;
     double rate() const override { return source_ ? source_->rate() : 0; }
@@ -47,7 +47,7 @@ class SourceList : public FrameSource {
 
     std::function<std::optional<std::string>()> next_name_;
     SourceOptions options_;
-    /// Name of the source that follows the images, if the name was already taken from the list.
+    /// Name of the source to open next, if `next_image` has already taken it from the list.
     std::optional<std::string> pending_name_;
     std::vector<std::string> images_;  ///< images of the current folder or glob, or a single image
     std::size_t next_image_ = 0;

@@ -24,8 +24,8 @@ struct PublisherOptions {
 
 class Publisher {
   public:
-    /// `robot` must be a valid name in ROS topics. Throws BadArgument if this program was built
-    /// without DDS, and Error if DDS cannot be set up.
+    /// `robot` must be valid as part of a ROS topic name. Throws BadArgument if this program was
+    /// built without DDS, and Error if DDS cannot be set up.
     Publisher(const std::string& robot, const PublisherOptions& options);
     /// Waits a short time for reliable readers to receive all messages.
     ~Publisher();

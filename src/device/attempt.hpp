@@ -1,5 +1,5 @@
-// Device attempt: locates a frame from the blobs that were detected while its rows arrived, in
-// integer arithmetic and in bounded time.
+// Device attempt: locates a frame, in integer arithmetic and bounded time, from the blobs detected
+// while its rows arrived.
 #pragma once
 
 #include "device/workspace.hpp"

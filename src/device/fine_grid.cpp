@@ -220,8 +220,8 @@ DOTPOSE_NOINLINE int FineGrid::read_and_fit() {
     return fit.count();
 }
 
-/// Returns the code bits of a line after the corner has moved by `line_shift` lines and, along the
-/// lines, by `cell_shift` cells. Each shift is -1, 0 or 1.
+/// Returns the code bits of a line after the corner has moved by `line_shift` lines and by
+/// `cell_shift` cells along the lines. Each shift is -1, 0 or 1.
 std::uint32_t code_at(std::span<const ComparedLine> lines, int line, int line_shift,
                       int cell_shift) {
     const std::uint32_t bits = lines[static_cast<std::size_t>(line + line_shift)].code;

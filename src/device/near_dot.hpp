@@ -14,11 +14,12 @@
 
 namespace dotpose::core {
 
-/// Half-widths of the squares in which dots are read, in px. A square with half-width n has
-/// 2 n + 1 px per side. The square of kHalf_px is centred on an intersection. At spacings of 7 to
-/// 14 px, it contains the dot regardless of its symbol. If the displacement of the dots is small,
-/// symbols are read in the square of kSmallHalf_px instead, because a smaller square allows reading
-/// dots closer to the image border. The square of kDotHalf_px is centred on the dot itself.
+/// Half-widths of the squares in which dots are read, in px. A square with half-width n has 2 n + 1
+/// px per side. The square with half-width kHalf_px is centred on an intersection. At spacings of 7
+/// to 14 px, it contains the dot regardless of its symbol. If the displacement of the dots is
+/// small, symbols are read in the square with half-width kSmallHalf_px instead, because a smaller
+/// square allows reading dots closer to the image border. The square with half-width kDotHalf_px is
+/// centred on the dot itself.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kSmallHalf_px = 3;
 inline constexpr int kDotHalf_px = 2;
@@ -53,7 +54,7 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
 
 /// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads, and the size of the square
 /// around an intersection that contains these pixels. Returns false if any of these pixels is
-/// outside the square of kHalf_px.
+/// outside the square with half-width kHalf_px.
 bool lay_dot_pixels(Tracking& tracking);
 
 /// The symbol read at an intersection and the threshold of its dot, packed into one register.
@@ -139,8 +140,9 @@ template <int Half>
     return true;
 }
 
-/// Measures the dot in the square of kHalf_px around an intersection, with the threshold
-/// `Tracking::cut_q8`. Returns false if `measure_square` returns false or if the paper level is 0.
+/// Measures the dot in the square with half-width kHalf_px around an intersection, with the
+/// threshold `Tracking::cut_q8`. Returns false if `measure_square` returns false or if the paper
+/// level is 0.
 bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot);
 
 }  // namespace dotpose::core

@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Sets the lattice origin near the point `near_q8`. Uses the dots within a few cells of this point
-/// whose indices are in `seeds`. The vectors of the lattice must already be set.
+/// Sets the lattice origin near the point `near_q8`. Uses only the dots listed in `seeds` (by
+/// index) that are within a few cells of this point. The lattice vectors must already be set.
 void find_origin(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                  FixedVec near_q8, Lattice& lattice);
 

@@ -29,8 +29,8 @@ double text_width(const std::string& text, double size) {
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
 }
 
-/// Draws entries in columns of equal width, all in one font size. The font size is `size`, or
-/// smaller if a value would not fit into its column.
+/// Draws entries in columns of equal width, all in the same font size. The font size is `size`, or
+/// smaller if a value would otherwise not fit in its column.
 void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
                   Svg& svg) {
     double font = size;
@@ -72,7 +72,7 @@ std::string with_minus(std::string text) {
 
 /// Text of the large caption: the pose and its standard deviations.
 struct Shown {
-    /// Name of the coordinate frame, which is appended to the coordinate labels.
+    /// Name of the coordinate frame. It is appended to the coordinate labels.
     const char* frame;
     std::string x;
     std::string y;
@@ -173,7 +173,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes)
     return lines;
 }
 
-/// Returns the message for the status, with the counts that explain it.
+/// Returns the message for the status of a fix, followed by the counts that explain the failure.
 std::string message_of(const Fix& fix, const DeviceOptions& options) {
     std::string text = fmt::format("{}; dots seen: {}", message(fix.status), fix.dots_seen);
     if (fix.status == Status::too_few_dots) {

@@ -9,7 +9,7 @@ namespace dotpose::draw {
 
 /// Returns " +- VALUE" with `decimals` decimals. If all digits would be 0, returns one significant
 /// digit instead. Returns an empty string if the deviation is exactly 0, which means that the value
-/// was given and not measured.
+/// was given rather than measured.
 inline std::string plus_minus(double sigma, int decimals) {
     if (sigma == 0) return {};
     const std::string text = fmt::format("{:.{}f}", sigma, decimals);

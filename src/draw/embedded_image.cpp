@@ -13,9 +13,9 @@
 namespace dotpose::draw {
 namespace {
 
-/// Returns a reduced image, in which each pixel is the mean of a block of `by` x `by` pixels.
-/// Blocks at the right and lower edges may be smaller. Grey levels are rounded to multiples of 4,
-/// because noise in the lowest bits does not compress.
+/// Returns a reduced image in which each pixel is the mean of a block of `by` x `by` pixels. Blocks
+/// at the right and lower edges may be smaller. Grey levels are rounded to multiples of 4, because
+/// noise in the lowest bits does not compress.
 GreyImage reduced(ImageView image, int by) {
     GreyImage result{{}, (image.width_px + by - 1) / by, (image.height_px + by - 1) / by};
     for (int v = 0; v < image.height_px; v += by) {

@@ -127,7 +127,7 @@ Point FrameView::image_from_ideal(Point ideal_px) const {
 
 Point FrameView::at(Point ideal_px) const {
     const Point image_px = image_from_ideal(ideal_px);
-    // Half a pixel is added because the square of pixel (0, 0) is drawn from 0 to `scale_`.
+    // Pixel (0, 0) is drawn as the square from 0 to `scale_`, so half a pixel is added.
     return scale_ * (image_px + Point{0.5, 0.5});
 }
 

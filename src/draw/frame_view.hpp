@@ -13,8 +13,8 @@ struct Reached {
     bool edges = false;        ///< edges between neighbouring dots
     bool axes = false;         ///< grid vectors
     bool cells = false;        ///< likelihoods of the bits of each cell
-    bool window = false;       ///< window of the 8 x 8 clearest cells
-    bool place = false;        ///< position and orientation, which need not be certain
+    bool window = false;       ///< 8 x 8 window with the clearest cells
+    bool place = false;        ///< position and orientation, not necessarily certain
     bool pose = false;         ///< a fix
 };
 Reached reached(const Trace& trace);

@@ -22,7 +22,7 @@ constexpr double kOffsetSide = 620;  ///< longer side of a panel
 constexpr double kOffsetGap = 60;
 constexpr int kMaxBlocks = 60;  ///< maximum number of blocks along the longer side of the page
 
-/// Sum of each offset component over the dots in a block, and number of these dots.
+/// Sums of the x and y offsets of the dots in a block, and the number of dots.
 struct OffsetBlock {
     std::array<double, 2> sum_mm{};
     int dots = 0;

@@ -1,4 +1,5 @@
-// Draws a drive: the page with the path, and the position errors as a scatter plot and over time.
+// Draws a drive: the path on the page, a scatter plot of the position errors, and a plot of the
+// errors over time.
 #include <algorithm>
 #include <cmath>
 #include <ostream>

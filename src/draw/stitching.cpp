@@ -1,6 +1,6 @@
 // Draws the sheets before and after stitching, in two panels. Each frame that shows two sheets has
-// two positions of its image centre, one on each sheet. An arrow shows the difference between the
-// positions.
+// two positions of its image centre, one on each sheet. An arrow shows the difference between these
+// two positions.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,14 +25,14 @@ constexpr double kMaxArrow = 70;
 constexpr double kMinArrowScale_mm = 0.002;
 
 /// Image centre of one frame, and the difference between its positions on the two sheets. Both are
-/// in world coordinates in mm, but with y down.
+/// in world coordinates, in mm, except that y points down.
 struct Disagreement {
     Point at;
     Point off;
 };
 
-/// Converts a point on a sheet to world coordinates in mm, but with y down as in the drawing. The
-/// sheet must have a world pose.
+/// Converts a point on a sheet to world coordinates in mm, except that y points down as in the
+/// drawing. The sheet must have a world pose.
 Point in_world(const SheetEntry& entry, double x_mm, double y_mm) {
     const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();
     return {1000 * place.x_m, -1000 * place.y_m};

@@ -56,8 +56,8 @@ class Svg {
     }
     void line(Point from, Point to, std::string_view attributes);
     void circle(Point centre, double radius, std::string_view attributes);
-    /// Draws filled discs of equal size as a single element. `attributes` must contain the colour
-    /// as `stroke`.
+    /// Draws filled discs of equal size as a single element. `attributes` must set the colour with
+    /// `stroke`.
     void discs(std::span<const Point> centres, double diameter, std::string_view attributes);
     /// Draws a line with an arrowhead at its end. `width` is the width of the line.
     void arrow(Point from, Point to, double width, std::string_view colour,

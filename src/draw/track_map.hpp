@@ -1,4 +1,4 @@
-// Draws a map of the sheets in a plane, seen from above, and of the paths of robots.
+// Draws a map, seen from above, of the sheets in a plane and the paths of robots.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct MapRobot {
     /// Path of the robot. A new stroke begins wherever the position jumps.
     std::vector<std::vector<Point>> strokes_mm;
     Point place_mm;
-    std::optional<double> heading_rad;  ///< from +x towards +y of the plane, or empty if unknown
+    std::optional<double> heading_rad;  ///< angle from +x towards +y of the plane; empty if unknown
     /// Problem to show after the name, such as "lost", or empty if there is none.
     std::string problem;
 };

@@ -38,9 +38,8 @@ double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Returns true if both the located and the true place of a frame are known, and both are on the
-/// same sheet. If the sheet of the true place is not specified, the located place may be on any
-/// sheet.
+/// Returns true if both the located and the true place of a frame are known and on the same sheet.
+/// If the sheet of the true place is not specified, the located place may be on any sheet.
 bool is_comparable(const MeasuredFrame& frame) {
     return frame.truth && frame.found &&
            (frame.truth->sheet.empty() || frame.truth->sheet == frame.found->sheet);

@@ -45,8 +45,8 @@ struct Scale {
 };
 
 /// Returns a logarithmic scale that contains `min` and `max` with a margin of at least 10 %. Both
-/// ends are round: `rounded_up` is applied to the upper end, and to the reciprocal of the lower
-/// end. `min` must be positive.
+/// ends are round numbers: `rounded_up` is applied to the upper end, and to the reciprocal of the
+/// lower end. `min` must be positive.
 Scale log_scale(double min, double max);
 
 /// A rectangular area with an x axis below it and a y axis to its left.
@@ -61,8 +61,8 @@ class Axes {
 
     Axes(Svg& svg, const Area& area, Scale x, Scale y);
 
-    /// Draws horizontal grid lines with their numbers, and the label above the upper end of the y
-    /// axis.
+    /// Draws horizontal grid lines with their values, and the axis label above the upper end of the
+    /// y axis.
     void draw_y(std::string_view label) const;
     void draw_x(std::string_view label) const;
 

@@ -11,7 +11,8 @@ namespace dotpose {
 PrintModel::PrintModel(double worst_x_mm, double worst_y_mm) {
     using namespace evaluate_detail;
     constexpr double kPitch_mm = kSide_mm / (kPositionsPerSide - 1);
-    // Maximum shift along each axis at the protocol's positions, with both amplitudes set to 1.
+    // Maximum shift along each axis over all positions of the protocol, with both amplitudes set to
+    // 1.
     Vec2 max_shift;
     for (const Step step : spiral(kPositionsPerSide)) {
         const Vec2 shift = shift_mm({step.x * kPitch_mm, step.y * kPitch_mm});

@@ -24,8 +24,8 @@ struct Stand {
 
 /// Sets the pose of the camera relative to the printed pattern. Point p of the page shows point p -
 /// shift(p) of the pattern, because the printer shifts the ink. The gradient of the shift rotates
-/// the pattern. The gradient also stretches the pattern by at most 1 % over the 8.6 mm of a frame,
-/// but this function neglects the stretching.
+/// the pattern, and stretches it by at most 1 % over the 8.6 mm of a frame. This function neglects
+/// the stretching.
 void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
     Vec2 pattern_mm = stand.place_mm;
     pose.theta_rad = stand.theta_rad;
@@ -70,7 +70,7 @@ Station station_of(const Stand& stand, std::span<const Outcome> outcomes) {
         if (!outcome.is_fix() || outcome.is_wrong()) continue;
         ++station.located;
         const double spacing_mm = outcome.truth.spacing_mm;
-        // A fix is classified as wrong relative to the printed pattern, but the accuracy is
+        // Wrong fixes are identified by comparison with the printed pattern, but the accuracy is
         // measured relative to the commanded pose.
         const Deviation off = deviation_of(outcome.fix, sent_to(stand, spacing_mm));
         x_mm.push_back(off.x_grid * spacing_mm);

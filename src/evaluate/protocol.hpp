@@ -13,7 +13,7 @@ namespace dotpose::evaluate_detail {
 inline constexpr int kPositionsPerSide = 11;
 inline constexpr int kAngles = 36;
 
-/// Column and row of a position relative to the centre. y points down.
+/// Column and row of a grid position, relative to the centre. y points down.
 struct Step {
     int x = 0;
     int y = 0;
@@ -30,7 +30,7 @@ Spread spread_of(std::span<const double> values);
 
 /// The best, mean and worst accuracy of the stations with fixes, and their worst precision. The
 /// accuracy of a station is the magnitude of Spread::bias, and the precision is Spread::sigma. All
-/// are 0 if no station has a fix.
+/// values are 0 if no station has a fix.
 struct Summary {
     double best = 0;
     double mean = 0;

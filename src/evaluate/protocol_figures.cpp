@@ -28,8 +28,8 @@ struct FigurePage {
     int decimals;
 };
 
-/// Coordinate that a figure shows. `spread` returns its spread at a station, in the unit of the
-/// figure.
+/// Coordinate shown in a figure. `spread` returns the spread of this coordinate at a station, in
+/// units of `unit`.
 struct Coordinate {
     int figure;
     const char* name;
@@ -111,7 +111,8 @@ double mark_radius(double bias, double scale) {
     return std::max(1.2, kMaxMark * std::sqrt(std::abs(bias) / scale));
 }
 
-/// Scales of the axes of a page. y increases in the same direction as on the page.
+/// Scales of the x and y axes of a panel. y points up in the drawing if `is_y_up` is true, and down
+/// otherwise.
 struct PageScale {
     Scale x;
     Scale y;

@@ -13,9 +13,9 @@ std::span<const double> sweep_values(SweepKind kind);
 /// Returns frame `index` of the sweep, with the condition set to `value`.
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index);
 
-/// Darkens the fraction `share` of the pixels: all pixels on one side of a straight edge.
-/// `direction_rad` is an angle in the image, from +u towards +v, and points away from the dark
-/// side.
+/// Darkens all pixels on one side of a straight edge, which make up the fraction `share` of the
+/// image. `direction_rad` points away from the dark side. It is an angle in the image, from +u
+/// towards +v.
 void cover(GreyImage& image, double share, double direction_rad);
 
 }  // namespace dotpose::evaluate_detail

@@ -29,8 +29,8 @@ bool next_line(std::istream& stream, std::string& line);
 /// functions do not overflow the stack at this depth.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Parses JSON. Throws Error, with the position of the error, if the text is not JSON or is nested
-/// too deeply.
+/// Parses JSON. Throws Error if the text is not JSON or is nested too deeply. The message contains
+/// the position of the error.
 nlohmann::json parse_json(const std::string& text);
 
 }  // namespace dotpose::files

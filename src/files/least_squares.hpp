@@ -1,5 +1,5 @@
-/// Linear least squares by Givens rotations of the rows. The result has the accuracy of a QR
-/// decomposition of all rows, but the rows are not stored.
+/// Linear least squares by Givens rotations, applied row by row. The result is as accurate as that
+/// of a QR decomposition of all rows, but the rows are not stored.
 #pragma once
 
 #include <array>

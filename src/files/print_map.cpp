@@ -94,15 +94,15 @@ std::string fault_of(const MapPage& page) {
     return {};
 }
 
-/// Returns the number of dots of a page. Throws Error if a file cannot contain this number of dots.
+/// Returns the number of dots on a page. Throws Error if the number is too large for a file.
 /// Computes the product in 64 bits, because std::size_t has only 32 bits in WebAssembly.
 std::size_t dots_of(std::uint64_t columns, std::uint64_t rows) {
     if (columns * rows > kMaxMapBytes) throw Error("a page is too large");
     return static_cast<std::size_t>(columns * rows);
 }
 
-/// Returns true if the matrix of a node is a covariance: all elements are finite, and no
-/// correlation is above 1 (with a margin for rounding).
+/// Returns true if the matrix of a node is a valid covariance matrix: the variances are from 0 to
+/// kMaxVariance, and no correlation exceeds 1 (with a margin for rounding).
 bool is_covariance(const MapErrors::Node& node) {
     constexpr float kMaxVariance = 1e6F;
     const auto& [xx, xy, yy, xr, yr, rr] = node;
@@ -114,7 +114,8 @@ bool is_covariance(const MapErrors::Node& node) {
            fits(xr, xx, rr) && fits(yr, yy, rr);
 }
 
-/// Returns true if the numbers of nodes along the axes are valid.
+/// Returns true if the numbers of nodes along the axes are valid: both 0, or both from kMinNodes to
+/// kMaxErrorNodes.
 bool is_error_grid(std::uint32_t columns, std::uint32_t rows) {
     constexpr std::uint32_t kMinNodes = 2;
     const auto is_number = [](std::uint32_t n) { return n >= kMinNodes && n <= kMaxErrorNodes; };

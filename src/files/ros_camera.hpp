@@ -10,8 +10,8 @@ namespace dotpose::files {
 /// camera_info message.
 bool is_camera_info(const YamlMap& file);
 
-/// Returns the camera of a camera_info file. Throws Error if a value is missing or out of range,
-/// with the key in the message, or if the lens cannot be converted.
+/// Returns the camera of a camera_info file. Throws Error if the lens cannot be converted, or if a
+/// value is missing or out of range. In the latter case, the message contains the key.
 Camera camera_from_camera_info(const YamlMap& file);
 
 }  // namespace dotpose::files

@@ -80,7 +80,7 @@ void Follower::use_sheets() {
 void Follower::use_options_for(int width_px, int height_px) {
     used_ = options_.locate;
     if (options_.camera) use_camera(*options_.camera, width_px, height_px, used_);
-    // space_pose and with_print_map need the dots in the trace.
+    // `space_pose` and `with_print_map` need the dots in the trace.
     if (options_.fits_space_pose || !options_.print_map.pages.empty()) used_.show_stages = true;
     if (options_.reference_px) {
         const auto from_centre_q8 = [](double px, int side_px) {
@@ -96,7 +96,7 @@ void Follower::set_camera(const Camera& camera) {
     if (options_.fits_space_pose) require_focal_length(camera);
     options_.camera = camera;
     use_flat_field();
-    // Starts a new track, because the prediction is in the coordinates of the previous lens.
+    // Starts a new track, because the prediction depends on the lens of the previous camera.
     start_tracks();
 }
 

@@ -19,7 +19,7 @@ using follow::AxisSample;
 /// smoothed height exceeds the limit by more than two standard deviations.
 constexpr double kRest_mm = 0.02;
 
-/// Consecutive samples on one page, at most kMaxInkGap_s apart.
+/// Consecutive samples on the same page. Neighbouring samples are at most kMaxInkGap_s apart.
 using Run = std::span<const InkSample>;
 
 std::vector<Run> runs_of(std::span<const InkSample> samples) {
@@ -35,7 +35,7 @@ std::vector<Run> runs_of(std::span<const InkSample> samples) {
     return runs;
 }
 
-/// Members of a sample for one coordinate: its value and its standard deviation.
+/// Members of InkSample for one coordinate: the value and its standard deviation.
 struct Axis {
     double InkSample::*place_mm;
     double InkSample::*sigma_mm;
@@ -58,7 +58,7 @@ double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> ax
     double best = 0;
     double best_likelihood = -std::numeric_limits<double>::infinity();
     // Tries noise levels from a resting pen to a very fast pen. The steps are coarse, because a
-    // factor of 3 hardly changes the result.
+    // factor of 3 in the noise hardly changes the result.
     for (double noise = 1e3; noise < 1e13; noise *= std::sqrt(10)) {
         double likelihood = 0;
         for (const Run& run : runs) {
@@ -72,7 +72,7 @@ double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> ax
     return best;
 }
 
-/// Returns, for each sample, true if the pen is on the paper.
+/// Determines for each sample whether the pen is on the paper.
 std::vector<bool> contacts_of(Run run, double noise) {
     PenContact contact;
     std::vector<bool> is_down;

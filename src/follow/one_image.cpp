@@ -77,7 +77,7 @@ Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
         return fix;
     }
     if (again.attempt == Attempt::tracked) again.attempt = fix.attempt;
-    // The bound of the first fix is kept, because it takes all codes into account.
+    // `p_wrong_log2` of the first fix is kept, because this bound accounts for all codes.
     again.p_wrong_log2 = fix.p_wrong_log2;
     return again;
 }

@@ -54,8 +54,8 @@ std::uint8_t brightness_of(ImageView image) {
 }
 
 /// Returns a copy of the image in which all pixels outside `region` have the grey level of the
-/// paper. Returns an empty optional if all corners of the image are inside `region`, because
-/// nothing needs to be masked then.
+/// paper. Returns an empty optional if nothing needs to be masked, that is, if all corners of the
+/// image are inside `region`.
 template <typename Region>
 std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     const int right = image.width_px - 1;
@@ -110,8 +110,8 @@ class PixelsAmongDots {
 
   private:
     /// Returns the signed distance, in cells, from cell `from` to the edge of the region whose
-    /// first cell is `first`. The edge is half a cell before `first`. Measures in the shorter
-    /// direction on the cyclic plane.
+    /// first cell is `first`. The edge is half a cell before `first`. The plane is cyclic, and the
+    /// distance is measured in the shorter direction.
     static double cells(std::uint32_t from, std::uint32_t first) {
         return std::remainder(double(first) - double(from), kPositionsPerAxis) - 0.5;
     }

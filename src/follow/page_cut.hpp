@@ -17,9 +17,9 @@ namespace dotpose::follow_detail {
 std::optional<GreyImage> cut_to_page(ImageView image, const DeviceOptions& options, const Fix& fix,
                                      const SheetPlace& place);
 
-/// Returns a copy of the image in which everything except the dots of the sheet is masked, for
-/// example labels in the margins of the sheet and the tabletop around it. Returns an empty optional
-/// if nothing needs to be masked. `fix` must be on the sheet.
+/// Returns a copy of the image in which everything except the dots of the sheet is masked. This
+/// removes, for example, labels in the margins and the tabletop around the sheet. Returns an empty
+/// optional if nothing needs to be masked. `fix` must be on the sheet.
 std::optional<GreyImage> cut_to_dots(ImageView image, const DeviceOptions& options, const Fix& fix,
                                      const Sheet& sheet);
 

@@ -33,9 +33,9 @@ GreyImage reduced(ImageView image, int by) {
 }
 
 DeviceOptions reduced(const DeviceOptions& options, ImageView image, int by) {
-    // Converts an offset from the image centre. Distances from the top left corner are divided by
-    // `by`. Distances from the centre are not, because dropped pixels at the right or bottom edge
-    // move the centre.
+    // Converts an offset from the image centre to the reduced image. The reduction divides
+    // distances from the top left corner by `by`. Offsets from the centre do not scale exactly,
+    // because dropping pixels at the right or bottom edge moves the centre.
     const auto offset_q8 = [by](std::int32_t whole_q8, int side_px) {
         const double from_corner_px = side_px / 2.0 + whole_q8 / 256.0;
         return static_cast<std::int32_t>(

@@ -11,8 +11,8 @@ namespace dotpose::follow_detail {
 /// Returns 1 if the image is small enough or would become too small.
 int reduction_of(int width_px, int height_px);
 
-/// Returns a reduced image, in which each pixel is the mean of `by` x `by` pixels. Incomplete
-/// blocks at the right and bottom edges are dropped.
+/// Returns a reduced image in which each pixel is the mean of `by` x `by` pixels. Incomplete blocks
+/// at the right and bottom edges are dropped.
 GreyImage reduced(ImageView image, int by);
 
 /// Converts options for `image` to options for the image reduced by `by`. The distortion centre and

@@ -33,7 +33,7 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
-    // If the fix is certain only with the prior, it is used only if the tracker accepted it.
+    // A fix that is certain only with the prior is used only if the tracker accepted it.
     const bool is_with_prior = result.track.verdict == Verdict::with_prior;
     const bool is_fix = strict.status == Status::ok || is_with_prior;
     if (is_fix) {
@@ -51,7 +51,7 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     return result;
 }
 
-/// Updates the track of the camera. A pose in space is used only if the frame has a sighting in the
+/// Updates the track of the camera. Ignores a pose in space if the frame has no sighting in the
 /// plane, because the sighting determines the coordinate frame.
 SpaceTrack Follower::track_in_space(const Located& located, const std::optional<Sighting>& sighting,
                                     std::int64_t time_us) {
@@ -97,8 +97,8 @@ Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Predict
 
 Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
                                const std::optional<Prediction>& expected) {
-    // The given code may be wrong. Without a prediction, the other codes are also tried, to warn if
-    // a different code is in view.
+    // The given code may be wrong. Without a prediction and without sheets, the other codes are
+    // also tried. This allows a warning if a different code is in view.
     if (!expected && options_.sheets.empty()) {
         const CodeReading reading = locator(options).locate_in_code(image);
         return by_camera_file(reading.fix, {}, reading);

@@ -1,5 +1,5 @@
-// Kalman filter for the pose of a camera in space. The state is a pose on the manifold of
-// rotations, with velocities and accelerations. The error of a rotation R is a small rotation
+// Kalman filter for the pose of a camera in space. The state consists of the pose, the velocities
+// and the accelerations. The rotation R of the pose is on a manifold: its error is a small rotation
 // vector e, and the corrected rotation is R * exp(e) (Sola, Deray, Atchuthan 2018).
 #include "dotpose/tools/space_track.hpp"
 
@@ -26,20 +26,20 @@ using Vector18 = Eigen::Matrix<double, 18, 1>;
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
 /// Change of log(agility) after two consecutive innovations with equal signs (increase) or with
-/// opposite signs (decrease). With equal magnitudes, as in the planar tracker, the normalised
-/// squared errors of individual axes would be up to 1.4 instead of 1 at 200 frames per second
-/// (tests/unit/follow/space_track_test.cpp).
+/// opposite signs (decrease). If both changes had the same magnitude, as in the planar tracker, the
+/// normalised squared errors of individual axes would be up to 1.4 instead of 1 at 200 frames per
+/// second (tests/unit/follow/space_track_test.cpp).
 constexpr double kAgilityIncrease = 0.451;
 constexpr double kAgilityDecrease = -0.405;
-/// Change of log(agility) for each unit by which the squared normalised innovation exceeds 1, its
-/// expected value. `dotpose_tables space_track` shows the effect.
+/// Change of log(agility) for each unit by which the squared normalised innovation exceeds its
+/// expected value of 1. `dotpose_tables space_track` shows the effect.
 constexpr double kAgilityGain = 0.2;
 constexpr double kMinAgility = 1e-6;
-/// Forgetting factor of the information about the fraction of independent errors. It is applied
-/// once per sighting, so the fraction is averaged over about 50 sightings.
+/// Forgetting factor for the accumulated information about the fraction of independent errors. It
+/// is applied once per sighting, so the fraction is averaged over about 50 sightings.
 constexpr double kInformationKept = 0.98;
-/// Minimum fraction of independent errors. In the frames of `dotpose_tables space_track`, a minimum
-/// of 0.01 makes positions 0.3 to 0.6 % more accurate, and velocities up to 18 % less accurate.
+/// Minimum fraction of independent errors. With a minimum of 0.01, the positions in `dotpose_tables
+/// space_track` are 0.3 to 0.6 % more accurate, but the velocities up to 18 % less accurate.
 constexpr double kMinIndependent = 0.05;
 /// Maximum change of log(fraction of independent errors) per sighting.
 constexpr double kMaxFractionStep = 0.5;

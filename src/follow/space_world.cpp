@@ -21,7 +21,7 @@ SpaceCovariance propagated(const RowMatrix6& m, const SpaceCovariance& covarianc
 
 /// Returns the pose in the world, with y down and z into the paper. `camera` is in the sheet frame.
 CameraInSpace on_world_plane(const CameraInSpace& camera, const WorldPose& page) {
-    // Positive yaw is counter-clockwise, but positive angles are clockwise if y is down.
+    // Yaw is positive counter-clockwise, but angles are positive clockwise if y points down.
     const double c = std::cos(page.yaw_rad);
     const double s = std::sin(page.yaw_rad);
     const double half_w = std::cos(page.yaw_rad / 2);

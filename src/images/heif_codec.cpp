@@ -91,7 +91,7 @@ class HeifReader {
             return {};
         std::vector<std::uint8_t> block(heif_image_handle_get_metadata_size(handle_.get(), id));
         require_ok(heif_image_handle_get_metadata(handle_.get(), id, block.data()));
-        // The first four bytes are the number of bytes between them and the TIFF header.
+        // The first four bytes contain the offset of the TIFF header, counted from the fifth byte.
         if (block.size() < 4) return {};
         const std::size_t offset = std::size_t{block[0]} << 24 | std::size_t{block[1]} << 16 |
                                    std::size_t{block[2]} << 8 | std::size_t{block[3]};

@@ -21,7 +21,7 @@ using Bytes = std::span<const std::uint8_t>;
 /// A file in memory and the limits for decoding it.
 struct ImageInput {
     Bytes file;
-    int page = 1;  ///< page number in a TIFF file, from 1
+    int page = 1;  ///< page number in a TIFF file, counted from 1
     int max_pixels = kDefaultImagePixels;
 };
 
@@ -33,11 +33,11 @@ struct ImageFormat {
     /// Returns the origin and the resolution from the metadata of the file. The resolution may be a
     /// default value set by the program that wrote the file.
     ImageOrigin (*origin)(const ImageInput& input);
-    /// Returns the number of pages. Null if files of the format have a single page.
+    /// Returns the number of pages. Null if files of this format have only one page.
     int (*count_pages)(Bytes file) = nullptr;
 };
 
-/// Number of bytes at the beginning of a file that identify its format.
+/// Number of bytes needed from the beginning of a file to identify its format.
 inline constexpr std::size_t kMagicBytes = 12;
 
 /// Detects the format from the first bytes of a file. Returns null for unknown formats.
@@ -81,7 +81,7 @@ inline constexpr double kMetresPerInch = 0.0254;
 inline constexpr double kCentimetresPerInch = 2.54;
 
 /// Converts a resolution to dots per inch. Returns an empty optional if a value is not positive,
-/// because the resolution is then unknown.
+/// which means that the resolution is unknown.
 std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
 /// EXIF tags that are written by cameras but not by scanners (CIPA DC-008): exposure time,

@@ -142,8 +142,8 @@ class JpegReader {
         // them.
         if (report_.num_warnings > 0) fail();
         if (source_.is_short) {
-            // In progressive files, whole scans may be missing without a warning, so a short file
-            // is an error.
+            // In progressive files, whole scans may be missing without a warning, so a file that
+            // ends early is an error.
             if (jpeg_.progressive_mode != FALSE) fail();
             note = "the JPEG image lacks its end marker; its pixels are complete";
         }

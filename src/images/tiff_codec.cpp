@@ -99,8 +99,8 @@ class TiffReader {
                                unit == RESUNIT_CENTIMETER ? kCentimetresPerInch : 1);
     }
 
-    /// Returns true if the page has EXIF data written by a camera. Afterwards, the EXIF directory
-    /// is the current directory of libtiff instead of the page.
+    /// Returns true if the page has EXIF data written by a camera. If the page has an EXIF
+    /// directory, libtiff's current directory changes from the page to this directory.
     bool read_is_of_camera() {
         toff_t exif = 0;
         if (TIFFGetField(tiff_.get(), TIFFTAG_EXIFIFD, &exif) == 0 ||
@@ -213,8 +213,8 @@ class TiffReader {
         }
     }
 
-    /// Removes all samples of a pixel except its colours and opacity. If colours are premultiplied
-    /// by the opacity, composites them onto white.
+    /// Removes all samples of each pixel except its colours and opacity. If the colours are
+    /// premultiplied by the opacity, composites them onto white.
     template <typename Sample>
     Samples<Sample> plain(std::vector<Sample> stored, std::size_t per_pixel) const {
         const auto colours = static_cast<std::size_t>(this->colours());

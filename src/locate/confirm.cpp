@@ -50,10 +50,10 @@ bool is_clean(const BitsRead& bits) {
                std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
-/// Returns true if less than kMinRight of the dots seen were read without a wrong bit, and more
-/// than kMaxWrongInOverlay of the bits read are wrong. Such a frame may show two overlapping
-/// patterns whose grids are offset by a fraction of the spacing. The x bits may then come from one
-/// pattern, and the y bits from the other.
+/// Returns true if the fraction of visible dots that were read without a wrong bit is below
+/// kMinRight, and the fraction of wrong bits among the bits read exceeds kMaxWrongInOverlay. Such a
+/// frame may show two overlapping patterns whose grids are offset by a fraction of the spacing. The
+/// x bits may then come from one pattern, and the y bits from the other.
 bool shows_overlay(const BitsRead& bits) {
     return static_cast<float>(bits.right) < tuned::kMinRight * static_cast<float>(bits.seen) &&
            static_cast<float>(bits.wrong_x + bits.wrong_y) >

@@ -49,8 +49,9 @@ class PatchSearch {
                 Measurement& measurement, Fix& fix)
         : frame_(frame), evidence_(evidence), patch_(patch), measurement_(measurement), fix_(fix) {}
 
-    /// Searches patches of increasing size around the image centre. Then searches patches that
-    /// cover the whole image. Sets `is_mirrored` if a patch shows the mirrored code.
+    /// Searches patches of increasing size around the image centre, then adjacent patches that
+    /// together cover the whole image. Sets `is_mirrored` if a patch around the image centre shows
+    /// the mirrored code.
     Confirmation search(bool& is_mirrored) {
         tries_left_ = tuned::kMaxTries;
         for (const int scale : {1, 2, 4}) {
@@ -72,10 +73,10 @@ class PatchSearch {
     }
 
   private:
-    /// Searches the patch at the image centre for a square grid. If there is no plausible
-    /// hypothesis, also searches for a grid of arbitrary parallelograms, because a rolling shutter
-    /// shears and stretches moving scenes. Does the same if the square grid is probably false and
-    /// its hypothesis is uncertain.
+    /// Searches the patch at the image centre for a square grid. Also searches for a grid of
+    /// arbitrary parallelograms if there is no plausible hypothesis, or if the square grid is
+    /// probably false and its hypothesis is uncertain. A rolling shutter shears and stretches
+    /// moving scenes.
     Confirmation search_middle() {
         if (!find_patch_dots(frame_, patch_, fix_)) return Confirmation::implausible;
         measurement_.shows_too_few_cells = shows_too_few_dots();
@@ -104,9 +105,9 @@ class PatchSearch {
 
     /// Finds the grid in the patch at the image centre. If `is_skewed` is true, cells may be
     /// arbitrary parallelograms. Otherwise, cells must be approximately square. If the search for a
-    /// skewed grid finds none, or finds a grid that is probably false, it is repeated with the
-    /// waves computed from a different number of central dots. The default number may be too small,
-    /// or a rotation may displace the dots.
+    /// skewed grid finds no grid, or one that is probably false, repeats the search, computing the
+    /// waves from a different number of central dots. The default number fails if it is too small,
+    /// or if a rotation displaces some of these dots.
     bool find_middle_grid(bool is_skewed, PatchGrid& grid) const {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;

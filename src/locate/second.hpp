@@ -9,9 +9,9 @@
 
 namespace dotpose::core {
 
-/// Makes second attempts on one image, in several codes. The filtered image, its dots and its grid
-/// do not depend on the code. They are computed once, and again only after an attempt has
-/// overwritten them.
+/// Runs the second attempt on one image, once for each of several codes. The filtered image, its
+/// dots and its grid do not depend on the code. They are computed once, and are recomputed only if
+/// an attempt has overwritten them.
 class SecondAttempt {
   public:
     enum class Resampling : std::uint8_t { never, if_doubtful };

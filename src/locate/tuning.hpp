@@ -215,9 +215,10 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// If the image contains fewer cells than this, bits are also read from dots that are cut off by
 /// the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels in a small view. In small views, the effort spent on testing a place is
-/// limited. Larger images rarely show so few cells, for example if a rolling shutter stretches the
-/// cells.
+/// Maximum number of pixels in a small view. A small view also contains fewer than
+/// kMaxCellsWithCutDots cells. The effort spent on testing a place is limited only in small views.
+/// Larger images rarely contain that few cells. One exception is an image in which a rolling
+/// shutter stretches the cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Minimum number of cells in a small view for which a second attempt is made. Of 241 frames of 72
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,

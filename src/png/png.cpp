@@ -18,8 +18,8 @@ constexpr double kInchesPerMetre = 1 / 0.0254;
 // for files that are only 20 % smaller. Slower compression does not make noisy frames much smaller.
 constexpr int kCompressionLevel = 4;
 
-/// Writes a PNG file. libpng reports errors with longjmp, so it must be called only through
-/// `guarded`, and the code passed to `guarded` must not create objects with destructors.
+/// Writes a PNG file. libpng reports errors with longjmp. Therefore, libpng must be called only
+/// through `guarded`, and code passed to `guarded` must not create objects with destructors.
 class Writer {
   public:
     explicit Writer(base::ByteSink& file) {

@@ -236,8 +236,9 @@ class Overlay {
         }
     }
 
-    /// Draws the dots over or under the content of the page. Encloses this content in the operators
-    /// q and Q to restore the initial graphics state, without changing its streams.
+    /// Draws the dots over or under the content of the page. Adds streams with the operators q and
+    /// Q around the content, so its own streams do not change and the dots are drawn in the initial
+    /// graphics state.
     void draw(const OverlaidPage& laid_out) {
         const auto& [number, sheet, document_page] = laid_out;
         validate(sheet);
@@ -371,9 +372,11 @@ class Overlay {
     print::UnpackedBytes unpacked_;
     print::ColourConverter colours_;
     OverlayReport report_;
-    /// Pages of the document, followed by the pages of each further copy (OverlayOptions::copies).
+    /// Pages of the document, followed by the pages of each additional copy
+    /// (OverlayOptions::copies).
     std::vector<QPDFPageObjectHelper> pages_;
-    /// Result of `scan_page` for each page of the document to which dots are added, by page number.
+    /// Results of `scan_page` by page number, for the pages of the document to which dots are
+    /// added.
     std::map<int, print::PageContent> contents_;
     std::vector<int> dotted_;
     std::vector<int> black_;

@@ -13,7 +13,7 @@ namespace dotpose::print {
 /// Grid of cards in the middle of a page. Adjacent cards touch. The margin around the grid has
 /// space for cut marks.
 struct CardGrid {
-    Paper paper;  ///< rotated by 90 degrees if this fits more cards
+    Paper paper;  ///< rotated by 90 degrees if more cards fit that way
     Paper card;
     int columns = 0;
     int rows = 0;

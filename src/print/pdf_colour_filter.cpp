@@ -43,8 +43,8 @@ void ColourFilter::handleToken(Token const& token) {
         write_colour(ColourKind::grey, {0}, true);
     }
     if (token.getType() != QPDFTokenizer::tt_word) {
-        // The operators that this filter rewrites have fewer than kMaxPending operands. If more
-        // tokens are pending, they are operands of a different operator.
+        // The operators that this filter rewrites have fewer than kMaxPending operands. If
+        // kMaxPending tokens are pending, they are operands of a different operator.
         if (pending_.size() == kMaxPending) flush();
         pending_.push_back(token);
         return;

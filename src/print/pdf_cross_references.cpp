@@ -85,8 +85,8 @@ class CrossReferences {
         if (!is_table && next().isWord("stream")) count_stream(*dictionary);
     }
 
-    /// Adds the unpacked size of a stream. Must be called just after its `dictionary` has been
-    /// read, because the data follow at the current position.
+    /// Adds the unpacked size of a stream. Must be called right after `dictionary` has been read,
+    /// because the data follow at the current position.
     void count_stream(QPDFObjectHandle dictionary) {
         QPDFObjectHandle length = dictionary.getKey("/Length");
         if (!length.isInteger() || length.getIntValue() < 0) {

@@ -25,8 +25,8 @@ constexpr int kDotsPerStream = 250'000;
 /// whole number and the text advances without rounding errors.
 constexpr double kUnitsPerEm = 1000;
 
-/// Returns a circle as four Bezier curves. With the factor 0.5523, the radius is wrong by at most
-/// 0.03 %.
+/// Returns a circle as four Bezier curves. With the factor 0.5523, the error of the radius is at
+/// most 0.03 %.
 std::string circle(double x, double y, double r) {
     const double k = 0.5522847498 * r;
     return fmt::format(

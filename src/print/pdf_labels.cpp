@@ -128,8 +128,8 @@ struct Arrows {
     double y_end_mm() const { return y_of_x_arrow_mm + kArrow_mm; }
 };
 
-/// Returns the positions of the arrows, or an empty optional if a margin has too little space for
-/// an arrow beside the ruler.
+/// Returns the positions of the arrows, or an empty optional if a margin is too narrow for an arrow
+/// beside the ruler.
 std::optional<Arrows> arrows_of(const Sheet& sheet) {
     const double x_mm = free_margin_mm(sheet, Side::left) - kRulerRoom_mm - kArrowGap_mm;
     const double y_mm = free_margin_mm(sheet, Side::top) - kRulerRoom_mm - kArrowGap_mm;
@@ -224,9 +224,9 @@ std::string point(const Sheet& sheet, double x_mm, double y_mm) {
                        (sheet.height_mm - y_mm) * kPointsPerMm);
 }
 
-/// Returns the PDF content of a ruler. The ruler begins with zero at the edge of the paper and ends
-/// at the last intersection. It has a tick every millimetre and a number every ten millimetres.
-/// Ticks that would cross the other ruler or its arrow are omitted.
+/// Returns the PDF content of a ruler. The ruler begins with 0 at the edge of the paper and ends at
+/// the last intersection. It has a tick every millimetre and a number every ten millimetres. Ticks
+/// that would cross the other ruler or its arrow are omitted.
 std::string ruler_content(const Sheet& sheet, Side side) {
     if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;
@@ -245,8 +245,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
             (is_top ? arrows->x_of_y_arrow_mm : arrows->y_of_x_arrow_mm) - kArrowGap_mm / 2;
     }
     const double dots_begin_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
-    // Returns true if a tick or number would cross the other ruler, whose marks are at least
-    // `nearest_mm` away from the dots.
+    // Returns true if a tick or number from `from_mm` to `to_mm` would cross the other ruler or its
+    // arrow. The other ruler's marks are at least `nearest_mm` away from the dots.
     const auto is_crossed = [&](double from_mm, double to_mm, double nearest_mm) {
         return to_mm > crossing_mm && from_mm < dots_begin_mm - nearest_mm;
     };

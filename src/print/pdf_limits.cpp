@@ -100,7 +100,8 @@ void require_few_filters(QPDFObjectHandle dict) {
     }
 }
 
-/// Returns the root of the page tree, by following /Parent from the node in the document catalogue.
+/// Returns the root of the page tree, by following /Parent from the /Pages node of the document
+/// catalogue.
 QPDFObjectHandle page_tree(QPDF& pdf) {
     QPDFObjectHandle node = pdf.getRoot().getKey("/Pages");
     std::set<QPDFObjGen> seen;

@@ -12,7 +12,7 @@ namespace dotpose::print {
 /// Size and position of the displayed part of a page. Viewers display the crop box.
 struct PageFrame {
     Paper paper;  ///< displayed size
-    /// Crop box within the media box, in units of the content.
+    /// Intersection of crop box and media box, in units of the content.
     QPDFObjectHandle::Rectangle box;
     /// Operands of `cm` that convert points from the bottom left corner of the displayed page to
     /// coordinates of the content.
@@ -20,8 +20,8 @@ struct PageFrame {
 };
 
 /// Computes the frame from /Rotate, /UserUnit and the boxes, which may be inherited. Throws Error
-/// if the area of the page is 0. Also throws if the rotation is not a multiple of 90 degrees,
-/// because viewers differ in how they show such a page.
+/// if the area of the page is 0, or if the rotation is not a multiple of 90 degrees. Viewers differ
+/// in how they show a page with such a rotation.
 PageFrame page_frame(QPDFPageObjectHelper page);
 
 /// Replaces a /Rotate that is a real number, such as 90.0, with an integer, because some viewers

@@ -18,7 +18,7 @@
 namespace dotpose::print {
 namespace {
 
-// Content with more black ink than this, from 0 to 1, hides black dots.
+// Limit for the amount of black ink, from 0 to 1. Content with more black ink hides black dots.
 constexpr double kHidingBlack = 0.1;
 
 /// The current colour. Content starts with black, device grey 0.

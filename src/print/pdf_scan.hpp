@@ -11,9 +11,9 @@
 namespace dotpose::print {
 
 struct PageContent {
-    bool paints_black = false;   ///< true for text or drawings that need black ink
-    bool paints_images = false;  ///< true for images, whose colours are not examined
-    /// True for filled shapes, shadings or images, because they cover dots below them.
+    bool paints_black = false;   ///< true if there is text or a drawing that needs black ink
+    bool paints_images = false;  ///< true if there are images, whose colours are not examined
+    /// True if there are filled shapes, shadings or images, which cover dots below them.
     bool paints_areas = false;
     int unclosed_saves = 0;  ///< number of operators q (save) without a matching Q
     int extra_restores = 0;  ///< number of operators Q (restore) without a preceding q
@@ -25,7 +25,7 @@ struct PageContent {
 };
 
 /// Scans the content of a page and of its forms, and counts their bytes in `unpacked`. Throws Error
-/// if the content cannot be read completely, because viewers stop at damaged content and would not
+/// if the content cannot be read completely. Viewers stop at damaged content, so they would not
 /// show dots that follow it.
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 

@@ -1,6 +1,5 @@
-/// Typesets labels with letters of any script for a PDF page. Helvetica, which is not embedded, has
-/// only Latin letters, so other letters are drawn with the fonts that are installed on the
-/// computer.
+/// Typesets labels in any script for a PDF page. Helvetica, which is not embedded, has only Latin
+/// letters, so other letters are drawn with the fonts that are installed on the computer.
 #pragma once
 
 #include <map>

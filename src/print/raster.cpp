@@ -40,8 +40,9 @@ struct Run {
     int end = 0;
 };
 
-/// Returns the rows of a disc: the pixels of a square whose centres are in its inscribed circle.
-/// Discs of 1, 2 and 3 px are full squares, and a disc of 4 px lacks the four corners.
+/// Returns the rows of a disc: the pixels whose centres are in the circle inscribed in a square of
+/// `dot_px` x `dot_px` pixels. Discs of 1, 2 and 3 px are full squares, and a disc of 4 px lacks
+/// the four corners.
 std::vector<Run> disc(int dot_px) {
     std::vector<Run> runs;
     const double radius = 0.5 * dot_px;

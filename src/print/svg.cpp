@@ -12,8 +12,8 @@
 namespace dotpose::print {
 namespace {
 
-// Drawing units per mm. A unit is 0.1 µm, which is finer than the resolution of any printer, and
-// integer coordinates are short. Positions are rounded before they are subtracted, so rounding
+// Drawing units per mm. A unit is 0.1 µm, finer than the resolution of any printer. Integer
+// coordinates keep the file short. Positions are rounded before they are subtracted, so rounding
 // errors do not accumulate.
 constexpr double kUnitsPer_mm = 10'000;
 

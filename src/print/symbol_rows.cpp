@@ -15,8 +15,8 @@ SymbolRows::SymbolRows(const Sheet& sheet)
 }
 
 const std::vector<Symbol>& SymbolRows::row(int j) {
-    // According to section II-A of the paper, column x contains the main sequence from top to
-    // bottom. Row y contains it from left to right.
+    // Each column contains the main sequence from top to bottom, and each row contains it from left
+    // to right (paper, section II-A).
     const Pattern& pattern = sheet_.pattern;
     const std::uint32_t y = sheet_.origin.y + static_cast<std::uint32_t>(j);
     const auto row_roll = static_cast<std::uint32_t>(roll(pattern.code, y) + pattern.section.v);

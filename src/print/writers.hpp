@@ -1,6 +1,5 @@
-/// Writers for the file formats. Each of them writes a validated sheet as a complete file to
-/// `file`, which the caller commits. All writers throw Error if writing fails or `progress` returns
-/// false.
+/// Writers for the file formats. Each writer writes a complete file, which the caller commits. All
+/// writers throw Error if writing fails or `progress` returns false.
 #pragma once
 
 #include <span>

@@ -201,8 +201,8 @@ int MqttClient::work() {
     return mosquitto_loop(mosquitto_, kWait_ms, 1);
 }
 
-// Runs the network loop. The thread that libmosquitto offers is not used, because it ends if the
-// first connection fails.
+// Runs the network loop. The thread that libmosquitto provides is not used, because it exits if the
+// first connection attempt fails.
 void MqttClient::run() {
     for (;;) {
         int code = is_connected() ? work() : mosquitto_loop(mosquitto_, kWait_ms, 1);
@@ -213,7 +213,7 @@ void MqttClient::run() {
             code = MOSQ_ERR_NO_CONN;
             reason = "no connection";
         }
-        // The thread must not end before the disconnect message is sent. Otherwise the broker
+        // The thread must not exit before the disconnect message is sent. Otherwise, the broker
         // publishes the last will.
         const bool has_left = !is_connected_ || code != MOSQ_ERR_SUCCESS;
         if (ends_ && (has_left || std::chrono::steady_clock::now() > ends_by_)) return;

@@ -1,6 +1,5 @@
-// Sends MQTT messages from a bounded queue, and receives messages by subscription, with
-// libmosquitto. The publisher and the subscriber connect in the background, and reconnect after the
-// connection breaks.
+// MQTT publisher with a bounded queue, and MQTT subscriber. Both use libmosquitto, connect in the
+// background, and reconnect after the connection breaks.
 #pragma once
 
 #include <chrono>
@@ -41,8 +40,8 @@ struct MqttOptions {
     int qos = 0;            ///< 0 for at most once, 1 for at least once
     std::string client_id;  ///< client ID, or empty to let the broker choose an ID
     /// Topic of the presence messages of a publisher, or empty if no presence messages are sent.
-    /// The broker retains the newest message for later subscribers. The message for a broken
-    /// connection is the last will of the connection.
+    /// The broker retains the newest message for later subscribers. The message for
+    /// `Presence::broken` is registered as the last will of the connection.
     std::string presence_topic;
     /// Returns a presence message. Two threads call this function, but never at the same time.
     std::function<std::string(Presence)> presence;
@@ -75,7 +74,7 @@ class MqttClient {
     /// the certificates cannot be read. If the broker does not answer, reports this through
     /// `MqttOptions::tell`, and the thread keeps trying.
     void start();
-    /// Ends the connection and the thread. No virtual function is called afterwards.
+    /// Disconnects and stops the thread. No virtual function is called afterwards.
     void stop();
 
     // The thread calls these functions without holding the lock.
@@ -160,7 +159,7 @@ class MqttPublisher : public MqttClient {
     std::deque<Message> waiting_;
     /// IDs of the messages in flight: not yet sent (QoS 0) or not yet acknowledged (QoS 1).
     std::set<int> under_way_;
-    std::set<int> presence_under_way_;  ///< IDs of presence messages that are not yet acknowledged
+    std::set<int> presence_under_way_;  ///< IDs of unacknowledged presence messages
     bool is_online_published_ = false;  ///< true if `online` was published on this connection
     std::condition_variable done_;
     std::int64_t sent_ = 0;

@@ -20,7 +20,7 @@ MqttPublisher::~MqttPublisher() {
 }
 
 // Waits until the broker has acknowledged all presence messages before the connection is closed.
-// Otherwise the broker detects a broken connection and publishes the last will.
+// Otherwise, the broker would detect a broken connection and publish the last will.
 void MqttPublisher::send_offline() {
     constexpr std::chrono::seconds kPatience(1);
     {

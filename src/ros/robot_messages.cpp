@@ -217,7 +217,7 @@ std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFr
     if (!camera.paper) return std::nullopt;
     const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
     const CameraPoint reference = from_image_centre(camera, camera.reference_px.value_or(centre));
-    // Position and heading of the robot along the image axes, with y up.
+    // Pose of the robot relative to the camera, along the image axes with y up.
     const PlanarPose camera_from_base = {reference.x_mm / 1000, -reference.y_mm / 1000,
                                          -camera.theta_offset_rad};
     const PlanarPose base_from_camera = inverse(camera_from_base);
@@ -226,7 +226,7 @@ std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFr
                                       pinhole.focal_v_px * camera.paper->mm_per_px_y) /
                             1000;
     const double half_rad = base_from_camera.yaw_rad / 2;
-    // Rotation about z by the yaw, then about the new x axis by half a turn, so z points down.
+    // Rotation by the yaw about z, then by half a turn about the new x axis, so z points down.
     TransformStamped mount;
     mount.header.frame_id = frames.base;
     mount.child_frame_id = frames.camera;

@@ -10,8 +10,8 @@
 namespace dotpose::ros {
 namespace {
 
-/// Signs of the components of (x, y, angle). If y points down in the plane, y and the angle are
-/// negated.
+/// Signs that convert (x, y, angle) to axes with y up. If y points down in the plane, y and the
+/// angle change sign.
 struct Axes {
     bool is_y_up = true;
 

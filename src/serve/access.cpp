@@ -87,7 +87,7 @@ bool equals_in_constant_time(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) return false;
     unsigned char difference = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        // `volatile` prevents the compiler from ending the loop early.
+        // `volatile` prevents the compiler from adding an early exit to the loop.
         volatile unsigned char bits = static_cast<unsigned char>(a[i] ^ b[i]);
         difference = static_cast<unsigned char>(difference | bits);
     }

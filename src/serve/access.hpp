@@ -48,8 +48,8 @@ enum class Verdict {
 
 class Access {
   public:
-    /// `token` is empty if all clients are allowed, which requires a loopback address. `hostname`
-    /// is the name of this computer.
+    /// An empty `token` allows all clients, and requires a loopback address. `hostname` is the name
+    /// of this computer.
     Access(const Address& address, std::string token, std::string hostname);
 
     Verdict judge(const RequestHead& head) const;

@@ -1,4 +1,4 @@
-// Commands that a page sends to the program, as small JSON objects.
+// Commands that a web page sends to the program, as small JSON objects.
 #pragma once
 
 #include <cstddef>

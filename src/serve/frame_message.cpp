@@ -40,8 +40,8 @@ void add_grid(const draw::FrameView& view, FrameOverlay& overlay) {
         overlay.grid.push_back(grid_line(view, grid.i0, j, right, j));
 }
 
-/// Rounds to a tenth of a pixel. The rounding error is invisible, and rounding halves the size of
-/// the message.
+/// Rounds to a tenth of a pixel, which halves the size of the message. The rounding error is
+/// invisible.
 double tenth(double value_px) {
     return std::round(10 * value_px) / 10;
 }

@@ -1,4 +1,4 @@
-// A frame with its dots, grid and pose, as a message for the page.
+// A frame with its dots, grid and pose, as a message for the web page.
 #pragma once
 
 #include <optional>

@@ -6,8 +6,8 @@
 
 namespace dotpose::serve {
 
-inline constexpr int kMaxConnections = 64;  ///< open sockets, including page requests
-inline constexpr int kMaxClients = 16;      ///< open WebSockets
+inline constexpr int kMaxConnections = 64;  ///< maximum number of sockets, HTTP and WebSocket
+inline constexpr int kMaxClients = 16;      ///< maximum number of WebSockets
 inline constexpr int kHeadTimeout_s = 5;    ///< maximum time to send the head of a request
 inline constexpr int kSilence_s = 20;       ///< time without a message after which a ping is sent
 inline constexpr int kMaxSilence_s = 40;    ///< silence after which a client is disconnected

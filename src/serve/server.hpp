@@ -47,8 +47,8 @@ struct Answer {
     /// Path of a file that is sent instead of `body`, or empty for none. The path must not be
     /// derived from a request.
     std::string file = {};
-    /// Name under which browsers save the answer, or empty if they display it. Must consist of
-    /// letters, digits, '.', '-' and '_'.
+    /// File name under which browsers save the answer, or empty if they should display it. Must
+    /// consist of letters, digits, '.', '-' and '_'.
     std::string download = {};
 };
 

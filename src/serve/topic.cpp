@@ -29,7 +29,7 @@ void Topic::publish_for_each(EncodeFor encode) {
 
 void Topic::replace(Encode encode, std::shared_ptr<const EncodeFor> encode_for) {
     const std::lock_guard lock(mutex_);
-    // The previous value is destroyed after the lock is released.
+    // The previous encoders are destroyed after the lock is released.
     std::swap(encode_, encode);
     std::swap(encode_for_, encode_for);
     ++version_;
@@ -56,8 +56,8 @@ std::shared_ptr<const std::string> Topic::message(std::uint64_t& version, const 
         if (encode) message_version_ = version_;
         version = encode_for ? version_ : message_version_;
     }
-    // The value is encoded without the lock, so that the program can publish meanwhile. Only the
-    // server's thread uses `message_`.
+    // The value is encoded without the lock, so that the program can publish in the meantime. Only
+    // the server's thread uses `message_`.
     if (encode_for) return message_of(encoded(*encode_for, request));
     if (encode) message_ = message_of(encoded(encode));
     return message_;

@@ -7,8 +7,8 @@
 //
 //     if (frames.is_wanted()) frames.publish([image = copy_of(image)] { return encode(image); });
 //
-// A value may depend on the request of each client, such as the part of a map that the client shows
-// (`publish_for_each`).
+// A value may depend on the request of each client, such as the part of a map that the client
+// displays (`publish_for_each`).
 #pragma once
 
 #include <atomic>
@@ -40,8 +40,8 @@ class Topic {
     void publish(Encode encode);
 
     /// Replaces the value. The server calls `encode` on its own thread, for each client that is
-    /// ready and again when a client changes its request. `request` is the command with which the
-    /// client subscribed. It is not validated. If `encode` throws, the value is empty.
+    /// ready, and again whenever a client changes its request. `request` is the command with which
+    /// the client subscribed. It is not validated. If `encode` throws, the value is empty.
     void publish_for_each(EncodeFor encode);
 
     // The following functions are for the server's thread.
@@ -74,8 +74,8 @@ class Topic {
 
 /// The subscription of one client to one topic.
 struct Subscription {
-    /// Maximum number of unacknowledged messages. With two, the next message is being transmitted
-    /// while the client draws the previous one.
+    /// Maximum number of unacknowledged messages. A limit of two allows the next message to be
+    /// transmitted while the client draws the previous one.
     static constexpr int kMaxUnacknowledged = 2;
 
     bool is_on = false;
@@ -96,8 +96,8 @@ struct Subscription {
     bool is_open() const { return is_on && unacknowledged < kMaxUnacknowledged; }
     /// Returns true if the client should receive the value with the number `version`. A client that
     /// has changed its request receives the same value again, encoded for the new request, but only
-    /// if it has acknowledged all messages. Without this condition, a client that changes its
-    /// request continuously would receive no newer values.
+    /// after it has acknowledged all messages. Without this condition, a client that keeps changing
+    /// its request would receive no newer values.
     bool is_due(std::uint64_t version) const {
         const bool is_answer_due = is_on && is_changed && unacknowledged == 0 && version > 0;
         return is_answer_due || (is_open() && seen < version);

@@ -138,8 +138,8 @@ class Sensor {
         }
     }
 
-    // Adds a range of row_ to all pixel rows to which row `row` contributes. Row 0 is the top of
-    // the border.
+    // Adds a range of row_, weighted, to all pixel rows within the reach of row `row`. Row 0 is the
+    // top of the border.
     void add_row(int row, const std::vector<float>& weights, Reach reach) {
         const int top = row - 2 * kernel_.border_px;
         const int first = std::max(0, -top);
@@ -163,7 +163,7 @@ class Sensor {
         const std::size_t reach = 2 * border_ + 1;
         const std::size_t stride = row_.size();
         // Zeros precede the light, because the taps of the first pixels read elements to the left
-        // of them.
+        // of the first pixel.
         std::vector<float> light(2 * border_ + stride);
         std::vector<float> along_rows(stride * (height + 2 * border_));
         for (const Kernel::Moment& moment : kernel_.moments) {
@@ -186,7 +186,7 @@ class Sensor {
         }
     }
 
-    // Computes out[u] += sum over j < count of weights[j] * in[u + j * step].
+    // Adds to each out[u] the sum of weights[j] * in[u + j * step] over all j < count.
     static void add_weighted(float* out, const float* in, std::ptrdiff_t step,
                              const std::vector<float>& weights, std::size_t count,
                              std::size_t width) {
@@ -224,7 +224,7 @@ class Sensor {
     const std::vector<float>& paper_;
     std::vector<Raster::Spot> losses_;  // darkness times the light of bare paper
     std::vector<Reach> reaches_;        // disjoint, from left to right
-    // One sub-row after it was spread horizontally. It has at least 2 * border_ elements on each
+    // One sub-row after the horizontal convolution. It has at least 2 * border_ elements on each
     // side of the image.
     std::vector<float> row_;
     std::vector<float> levels_;  // rows with the same length as row_

@@ -29,7 +29,7 @@ struct Ink {
     std::vector<InkPolygon> polygons;
 };
 
-/// The projection and the visible part of the page.
+/// The view of a camera: its projection, and a margin around the image.
 struct View {
     CameraModel camera;
     CameraPose pose;
@@ -52,7 +52,7 @@ OffsetBox visible_offsets(const View& view);
 /// point. `reflectance` is relative to bare paper.
 void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, double reflectance);
 
-/// Function that returns the offset of the dot of a cell from its intersection, in units of the
+/// Function that returns the offset of a cell's dot from its intersection, in units of the
 /// displacement length.
 using DisplacementOf = std::function<Vec2(Cell)>;
 

@@ -18,7 +18,7 @@ double integral_of_edge(double x, double sigma) {
 
 // Returns the weights for a scene that is shifted by `shift_px`. The response of a pixel is a box
 // of 1 px convolved with the Gaussian blur of the lens. The weight of a sub-pixel is the integral
-// of this response over the sub-pixel, scaled so that all weights together sum to `share`.
+// of this response over the sub-pixel. The weights are scaled to sum to `share`.
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);

@@ -67,7 +67,7 @@ class Texture {
     }
 
     // Precomputes the values of the nodes in view, because each node is used by about 36 pixels.
-    // Makes no table if the view contains more nodes than pixels, as it does at an extreme tilt.
+    // Does nothing if the view contains more nodes than pixels, as it does at an extreme tilt.
     void tabulate(const View& view) {
         const OffsetBox box = visible_offsets(view);
         const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;

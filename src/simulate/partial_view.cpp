@@ -42,7 +42,7 @@ double intersections(const Shot& shot) {
     return shot.camera.width_px * shot.camera.height_px / (spacing_px(shot) * spacing_px(shot));
 }
 
-/// Draws a random direction in rad that is parallel to an axis of the pattern or of the image.
+/// Draws a random direction, in rad, that is parallel to an axis of the pattern or of the image.
 double draw_direction(const Shot& shot, Rng& rng) {
     const double of_image = rng.uniform() < 0.5 ? shot.pose.theta_rad : 0;
     return of_image + static_cast<double>(rng.below(4)) * std::numbers::pi / 2;
@@ -141,8 +141,8 @@ void cover_partly(Shot& shot, const PartialView& view) {
         }
         return;
     }
-    // At the border of the sheet, some dots are only partly visible. The sheet is therefore large
-    // enough for at least 15 % more than `min_dots` dots.
+    // At the border of the sheet, some dots are only partly visible. The visible part of the sheet
+    // therefore contains at least 15 % more than `min_dots` dots.
     const double min_share = std::max(view.min_share, 1.15 * view.min_dots / intersections(shot));
     const double share = rng.uniform(min_share, std::max(min_share, view.max_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);

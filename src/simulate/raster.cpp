@@ -89,13 +89,14 @@ void Raster::draw_band(int top) {
 }
 
 // Darkens each sub-pixel in proportion to the fraction of its area that is covered by a convex
-// shape. Along the row, the covered area is computed exactly. Across the row, it is integrated by
-// Gauss quadrature with four chords, with an error below 0.1 % even at the round ends of a dot.
-// `chord_at(y)` returns the left and the right end of the chord at y.
+// shape. In the horizontal direction, the covered area is computed exactly. In the vertical
+// direction, it is integrated by Gaussian quadrature over four chords, with an error below 0.1 %
+// even at the round ends of a dot. `chord_at(y)` returns the left and the right end of the chord at
+// y.
 template <typename ChordAt>
 void Raster::fill(double top, double bottom, double darkness, const ChordAt& chord_at) {
     struct Line {
-        double at;      // position of the chord across the covered part of the row, 0 to 1
+        double at;      // vertical position of the chord within the covered part of the row, 0 to 1
         double weight;  // the weights sum to 1
     };
     static constexpr Line kLines[] = {{0.06943184420297371, 0.17392742256872693},

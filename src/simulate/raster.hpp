@@ -42,7 +42,7 @@ class Raster {
     // An ellipse in sub-pixel coordinates, in which sub-pixel i extends from i to i + 1.
     struct Ellipse {
         double x, y;
-        double slant;       // change of the x coordinate of a chord's middle per unit of y
+        double slant;       // change in x of the chord midpoints per unit of y
         double half_width;  // half the length of the chord through the centre
         double half_height;
         double darkness;  // 1 - reflectance

@@ -12,7 +12,7 @@ void require(bool holds, const std::string& otherwise) {
     if (!holds) throw BadArgument(otherwise);
 }
 
-// Returns true if the value is from `low` to `high`. Returns false for NaN.
+// Returns true if `value` is in the range [low, high]. Returns false for NaN.
 bool within(double value, double low, double high) {
     return value >= low && value <= high;
 }
@@ -27,13 +27,13 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
     require(within(camera.working_distance_mm, 1e-6, 1e9), "the working distance must be above 0");
     const double half_u = camera.width_px / 2.0;
     const double half_v = camera.height_px / 2.0;
-    // Maximum motion during the readout, as a fraction of half the side of the image.
+    // Maximum motion during the readout, as a fraction of half the image width or height.
     constexpr double kMaxReadout = 1.5;
     require(within(camera.readout_px.x, -kMaxReadout * half_u, kMaxReadout * half_u) &&
                 within(camera.readout_px.y, -kMaxReadout * half_v, kMaxReadout * half_v),
             "the motion during the readout must be at most 75 % of the image");
-    // Maximum downward motion of a point while the camera reads one row of a rotating scene, in
-    // rows. A point appears only once in the image if this motion is less than one row.
+    // Maximum downward motion of a point, in rows, while the camera reads one row of a rotating
+    // scene. A point appears only once in the image if this motion is less than one row.
     constexpr double kMaxFall = 0.95;
     require(std::abs(camera.readout_turn_rad) * half_u + std::abs(camera.readout_px.y) <=
                 kMaxFall * camera.height_px,

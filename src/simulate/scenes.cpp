@@ -11,7 +11,7 @@ namespace {
 using simulate::Ink;
 using simulate::View;
 
-// Returns a random symbol that depends only on the seed and the cell.
+// Returns a pseudo-random symbol that depends only on the seed and the cell.
 Symbol random_symbol(std::uint64_t seed, Cell cell) {
     return static_cast<Symbol>(Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y).bits() >> 62);
 }

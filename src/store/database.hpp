@@ -37,7 +37,7 @@ struct State {
     std::int64_t time_us = 0;
     std::int64_t number = 0;       ///< sequence number
     std::int32_t delay_us = 0;     ///< time from sending to receiving
-    Motion motion = Motion::lost;  ///< if `lost`, only members up to `reason` are stored
+    Motion motion = Motion::lost;  ///< if `lost`, only the members up to `reason` are stored
     /// Reason why the robot is lost, or `ok` if it is not lost or the reason is unknown.
     Status reason = Status::ok;
     std::int32_t theta_urad = 0;
@@ -49,7 +49,7 @@ struct State {
     std::int32_t omega_urad_s = 0;
 };
 
-/// Selects the states of a robot in a time span. The end of the span is not included.
+/// Selects the states of a robot in a time span. The span does not include its end.
 struct Query {
     std::string robot;
     std::int64_t from_us = std::numeric_limits<std::int64_t>::min();
@@ -62,7 +62,7 @@ struct RobotSpan {
     std::int64_t last_us = 0;
 };
 
-/// Access to a database. With `read`, missing databases and tables are not created.
+/// Access mode for a database. With `read`, missing databases and tables are not created.
 enum class Access { read, write };
 
 /// A connection to a database. It is opened by the first call that needs it, and reopened by the
@@ -90,7 +90,7 @@ class Database {
     virtual void remove_days_before(std::int64_t time_us) = 0;
 
     /// Calls `take` with each state that the query selects, in chronological order. An exception
-    /// thrown by `take` ends the reading and is propagated. Throws Error if reading fails.
+    /// thrown by `take` stops the read and is propagated. Throws Error if reading fails.
     virtual void read(const Query& query, const std::function<void(const State&)>& take) = 0;
 
     /// Returns all robots that have states, sorted by name, with the times of their first and last

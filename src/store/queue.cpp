@@ -82,7 +82,7 @@ void Queue::run() {
             std::unique_lock lock(mutex_);
             changed_.wait_for(lock, kBetweenAttempts, [this] { return ends_; });
             if (ends_ && steady_clock::now() >= ends_by_) return;
-            // Once `ends_` is true, the wait above returns immediately. This wait then limits the
+            // Once `ends_` is true, the wait above returns immediately, so this wait limits the
             // rate of attempts.
             if (ends_) changed_.wait_for(lock, kBetweenAttempts / 10);
         }

@@ -23,7 +23,7 @@ struct QueueOptions {
     /// one that is not in the current transaction. A state takes 96 bytes.
     std::size_t max_states = 1'000'000;
     /// Time between two transactions. PostgreSQL stores the states of a transaction together,
-    /// sorted by robot. With a longer period, the states of one robot can therefore be read faster.
+    /// sorted by robot. A longer period therefore makes reading the states of one robot faster.
     std::chrono::milliseconds period{5000};
     int keep_days = 0;  ///< number of days to keep, or 0 to keep all days
     /// Called with messages for the user, for example when the database is not available. May be

@@ -16,7 +16,7 @@ inline constexpr std::int64_t kDay_us = 86'400'000'000;
 /// Version of the tables, stored in the table `version`.
 inline constexpr int kVersion = 1;
 
-/// Parts of the table definitions that depend on the database.
+/// Parts of the SQL statements that differ between databases.
 struct Dialect {
     std::string_view generated_key;  ///< definition of an integer primary key with generated values
     std::string_view partition;      ///< last clause of the definition of the table `states`

@@ -7,13 +7,13 @@
 
 #include "dotpose/export.hpp"
 
-// Exported, because several libraries use these declarations.
+// These declarations are exported because several libraries use them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {
 
-/// A lock that at most one program holds at a time. The system releases it when the program ends,
-/// even if the program is killed.
+/// A lock that at most one program holds at a time. The system releases the lock when the program
+/// exits, even if the program is killed.
 class FileLock {
   public:
     /// `path` is the lock file, which exists only while a program holds the lock or waits for it.

@@ -12,7 +12,7 @@
 
 #include "dotpose/export.hpp"
 
-// Exported, because several libraries use these declarations.
+// These declarations are exported because several libraries use them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {
@@ -31,7 +31,7 @@ bool is_writable(const std::filesystem::path& path);
 /// fails. The caller must close the descriptor with `close_descriptor`.
 int create_descriptor(const std::filesystem::path& path);
 
-/// Writes all bytes at an offset in bytes from the start of the file. Returns false if that fails.
+/// Writes all bytes to the file, starting at byte `offset`. Returns false if that fails.
 bool write_at(int descriptor, const void* data, std::size_t size_bytes, std::uint64_t offset);
 
 /// Closes a descriptor. Returns false if that fails.

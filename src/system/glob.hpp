@@ -6,7 +6,7 @@
 
 #include "dotpose/export.hpp"
 
-// Exported, because several libraries use these declarations.
+// These declarations are exported because several libraries use them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {

@@ -10,7 +10,7 @@
 
 #include "dotpose/export.hpp"
 
-// Exported, because several libraries use these declarations.
+// These declarations are exported because several libraries use them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {
@@ -26,15 +26,15 @@ std::filesystem::path program_folder();
 bool is_terminal(std::FILE* stream);
 
 /// Waits up to 100 ms for bytes from a file, a pipe or a device. Returns the number of bytes read,
-/// 0 at the end of the file, or nullopt if no bytes arrived in this time. Throws std::system_error
-/// if reading fails.
+/// 0 at the end of the file, or nullopt if no bytes arrived within this time. Throws
+/// std::system_error if reading fails.
 std::optional<std::size_t> read_available(int descriptor, void* data, std::size_t max_bytes);
 
-/// Sets the handler of the signals that request the end of the program: Ctrl-C, SIGTERM and a
-/// closed terminal. System calls that are interrupted by one of these signals are restarted.
+/// Sets the handler for signals that ask the program to exit: Ctrl-C, SIGTERM and a closed
+/// terminal. System calls interrupted by these signals are restarted.
 void on_end_signals(void (*handler)(int signal_number));
 
-/// Makes writing to a pipe without a reader fail with EPIPE instead of ending the program.
+/// Makes writes to a pipe without a reader fail with EPIPE instead of terminating the program.
 void ignore_broken_pipes();
 
 }  // namespace dotpose::system

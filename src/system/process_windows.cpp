@@ -26,7 +26,7 @@ void make_streams_binary() {
         _setmode(_fileno(stream), _O_BINARY);
     }
     // Windows has no line buffering. With full buffering, lines written to a pipe would not arrive
-    // until the buffer is full or the program ends.
+    // until the buffer is full or the program exits.
     std::setvbuf(stderr, nullptr, _IONBF, 0);
 }
 

@@ -33,7 +33,7 @@ class Device {
 
     bool is_open() const { return descriptor_ >= 0; }
 
-    /// Sends a request to the driver. Returns false if the driver does not support it.
+    /// Sends a request to the driver. Returns false if the request fails.
     template <typename Question>
     bool ask(unsigned long request, Question& question) const {
         int result = -1;
@@ -87,7 +87,7 @@ std::vector<double> rates_at(const Device& device, std::uint32_t format, std::ui
     for_each_entry<v4l2_frmivalenum>(
         device, VIDIOC_ENUM_FRAMEINTERVALS, asked, [&rates](const v4l2_frmivalenum& found) {
             const bool is_one = found.type == V4L2_FRMIVAL_TYPE_DISCRETE;
-            // Lists only the shortest interval of a range.
+            // For a range of intervals, adds only the rate of the shortest interval.
             rates.push_back(rate_of(is_one ? found.discrete : found.stepwise.min));
         });
     return rates;

@@ -61,7 +61,7 @@ struct ScreenOptions {
     bool has_window = false;
     std::string record;  ///< path of the video file, or empty for none
     double fps = 30;     ///< frame rate of the video file
-    /// Called with a message for the user if H.264 is not available and the file becomes larger.
+    /// Called with a message for the user if H.264 is not available, which makes the file larger.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -78,8 +78,8 @@ class ScreenOutput {
 
 class Screen {
   public:
-    /// The window and the file are opened when the first scene is shown. Throws Error if the module
-    /// for them cannot be loaded.
+    /// The window and the file are opened when the first scene is shown. Throws Error if the video
+    /// module cannot be loaded.
     explicit Screen(const ScreenOptions& options);
 
     /// Returns true if there is a window or a recording.

@@ -56,7 +56,7 @@ class EvaluateCommand : public ToolCommand {
     }
 };
 
-/// Returns true if a picture contains some ink on mostly light paper.
+/// Returns true if the picture is mostly light and contains some ink.
 bool shows_something(const GreyImage& image) {
     const auto pixels = static_cast<std::ptrdiff_t>(image.pixels.size());
     const auto light = std::count_if(image.pixels.begin(), image.pixels.end(),
@@ -183,8 +183,8 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames of a sheet whose poses were measured twice: with a ruler, in the coordinates of the
-/// sheet, and with a motion stage, in coordinates with a different origin, direction and unit.
+/// Frames of a sheet. Each pose was measured twice: with a ruler, in the coordinates of the sheet,
+/// and with a motion stage, in coordinates with a different origin, direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {

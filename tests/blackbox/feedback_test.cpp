@@ -1,5 +1,6 @@
-// Tests the output of long operations on a terminal: progress with the remaining time, colour, and
-// partial results after Ctrl-C. The program `script` runs the tool on a pseudo-terminal.
+// Tests the output of long operations on a terminal: progress with the estimated remaining time,
+// colour, and partial results after Ctrl-C. The program `script` runs the tool on a
+// pseudo-terminal.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -29,8 +30,8 @@ class Feedback : public ToolCommand {
                      arguments + "' /dev/null </dev/null");
     }
 
-    /// Runs shell commands that start the tool and write its process id to the file pid, waits
-    /// until the shell command `condition` succeeds, and sends SIGINT to the tool, as Ctrl-C does.
+    /// Runs shell commands that start the tool and write its process id to the file pid. When the
+    /// shell command `condition` succeeds, sends SIGINT to the tool, as Ctrl-C does.
     int interrupt(const std::string& commands, const std::string& condition) {
         return shell("export T; { " + commands + "; } & job=$!; until [ -s pid ] && { " +
                      condition +

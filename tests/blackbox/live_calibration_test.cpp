@@ -27,8 +27,8 @@ class LiveCalibration : public ToolCommand {
         ASSERT_EQ(run("simulate -o frames --seed 5 --k -8.7e-6 " + options), 0) << errors_;
     }
 
-    /// Writes the images as raw frames to `name`. Each image is repeated three times, like frames
-    /// from a camera at rest.
+    /// Writes the images as raw frames to `name`. Each image is repeated three times, as if the
+    /// camera were at rest.
     void put_raw(const std::string& name, int first = 0) {
         ASSERT_EQ(shell(fmt::format("ffmpeg -v error -framerate 30 -start_number {} "
                                     "-i frames/frame_%06d.pgm -vf fps=90 -f rawvideo "
@@ -123,7 +123,7 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
     const Drive drive;
     const DriveCamera camera(188, 120);
     std::ofstream raw(directory_ / "drive.raw", std::ios::binary);
-    constexpr int kFirst = 180;  // at this frame, the robot is already moving
+    constexpr int kFirst = 180;  // the robot is already moving in this frame
     constexpr int kStep = 5;
     for (int i = kFirst; i < kFirst + 60 * kStep; i += kStep) {
         const GreyImage image = camera.frame(drive, i);
@@ -143,8 +143,8 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
     EXPECT_THAT(errors_, HasSubstr(" and 0 taken (0 out of focus, "));
 }
 
-/// Returns shell commands that calibrate with an endless source, and send Ctrl-C after the program
-/// has accepted `frames` frames.
+/// Returns shell commands that calibrate with frames from a pipe that stays open, and send SIGINT
+/// after the program has accepted `frames` frames.
 std::string interrupted_after(int frames) {
     return fmt::format(
         "mkfifo pipe; touch told; (cat resting.raw; exec sleep 60) > pipe & writer=$!\n"

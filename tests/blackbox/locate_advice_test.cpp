@@ -1,5 +1,5 @@
-// Tests the advice of `dotpose locate` on images that cannot be located, or that can be located
-// only if the image or the options are changed.
+// Tests the advice that `dotpose locate` gives for images that cannot be located, or that can be
+// located only if the image or the options are changed.
 #include <cmath>
 #include <numbers>
 #include <string>

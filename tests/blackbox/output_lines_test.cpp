@@ -36,7 +36,7 @@ Matrix matrix_of(const json& covariance) {
     return matrix;
 }
 
-/// Returns J C J', the covariance of the vector J p if C is the covariance of p.
+/// Returns J C J', the covariance of the vector J p, where C is the covariance of p.
 Matrix propagated(const Matrix& j, const Matrix& c) {
     Matrix result{};
     for (std::size_t i = 0; i < 9; ++i) {
@@ -100,7 +100,7 @@ class OutputLines : public ToolCommand {
     }
 
     static constexpr double kYaw_rad = 0.4;
-    /// Index of the first frame. At this time, the robot drives through a curve at 300 mm/s.
+    /// Index of the first frame, in which the robot drives through a curve at 300 mm/s.
     static constexpr int kFirst = 320;
     const Drive drive_;
     const JsonSchema schema_{

@@ -26,9 +26,8 @@ using testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
 
-// Tolerance of positions. It is much larger than the error of a nominal frame, which is 0.001 mm (a
-// jitter of 0.010 mm, averaged over about 170 dots), and smaller than half a camera pixel (0.023
-// mm).
+// Position tolerance. It is smaller than half a camera pixel (0.023 mm), and much larger than the
+// error of a nominal frame, which is 0.001 mm (a jitter of 0.010 mm, averaged over about 170 dots).
 constexpr double kTolerance_mm = 0.02;
 
 using SheetFiles = SheetsCommand;
@@ -212,8 +211,7 @@ TEST_F(SheetFiles, may_mix_codes_and_spacings) {
                         record["x_grid"].get<double>() * file[i]["spacing_mm"].get<double>(), 1e-5);
         }
     }
-    // Outside of all sheets, the spacing is unknown, so the record contains no lengths in
-    // millimetres.
+    // Outside the sheets, the spacing is unknown, so the record contains no lengths in millimetres.
     run("frame.pgm --code libdots");
     json elsewhere = file[0];
     elsewhere["origin_x"] = 300'000'000;

@@ -80,8 +80,8 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    // The limit of 3 % of the fixes allows for the small number of frames. If the true fraction is
-    // 1 %, only one run in 70 exceeds the limit by chance.
+    // The limit is 3 % because there are only a few frames. If the true fraction is 1 %, only one
+    // run in 70 exceeds the limit by chance.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
     // Only half of the steps need to be detected, because the other steps affect only a corner of
     // the view or are smaller than the scatter of the dots.

@@ -272,7 +272,7 @@ double value_of(const std::string& yaml, const std::string& name) {
 
 TEST_F(Sources, CalibrateChoosesTheFramesOfAVideoThatShowNewPlaces) {
     ASSERT_EQ(run("simulate -o frames --seed 91 --k -8.7e-6 --frames 12"), 0) << errors_;
-    // Each frame is repeated three times, like frames from a camera at rest.
+    // Each frame is repeated three times, as if the camera were at rest.
     ASSERT_EQ(encode("-vf fps=90 -c:v ffv1 slow.mkv"), 0) << errors_;
     ASSERT_EQ(run("calibrate frames/*.pgm -o images.yaml"), 0) << errors_;
     ASSERT_EQ(run("calibrate slow.mkv -o video.yaml"), 0) << errors_;

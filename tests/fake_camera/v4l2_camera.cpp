@@ -1,8 +1,8 @@
 // A fake camera for machines without a camera. Loaded with LD_PRELOAD, it intercepts OpenCV's
 // system calls on /dev/video0. It repeats the raw grey frames of the file FAKE_CAMERA, which have
-// the size FAKE_CAMERA_SIZE. If this file does not exist, the camera is unplugged. The requested
-// settings and the times of the frames in µs are written to the file FAKE_CAMERA_LOG. The camera
-// also offers 640x480 at 15 frames/s.
+// the size FAKE_CAMERA_SIZE. While this file does not exist, the camera behaves as if unplugged.
+// The requested settings and the times of the frames in µs are written to the file FAKE_CAMERA_LOG.
+// The camera also offers 640x480 at 15 frames/s.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -30,7 +30,7 @@ struct FakeCamera {
     int width_px = 0;
     int height_px = 0;
     double fps = 30;
-    bool waits[kBuffers] = {};  ///< true for buffers that wait for a frame
+    bool waits[kBuffers] = {};  ///< true for queued buffers, which wait for a frame
     std::vector<char> frames;
     unsigned sequence = 0;
     double next_s = 0;
@@ -83,8 +83,8 @@ void tell_format(v4l2_format& format) {
     pixels.sizeimage = pixels.bytesperline * pixels.height;
 }
 
-/// Waits until the next frame is due, and writes it to a waiting buffer. If the call is late by
-/// more than a period, all following frames are due later.
+/// Waits until the next frame is due, and writes it to a queued buffer. If the call is more than
+/// one period late, all following frames are delayed.
 int give_frame(v4l2_buffer& buffer) {
     while (now_s() < camera.next_s)
         usleep(500);

@@ -22,13 +22,13 @@ class Connection {
     Connection(Connection&& other) noexcept;
     Connection& operator=(Connection&&) = delete;
 
-    /// Returns true if the number of unacknowledged messages is below the limit, so another message
-    /// may be published.
+    /// Returns true if another message may be published because the number of unacknowledged
+    /// messages is below the limit.
     bool has_room() const { return published_ - answered_ < kMaxUnanswered; }
     void publish(const std::string& topic, const std::string& payload);
 
-    /// Sends and receives until the monotonic clock reaches `until_us`, or longer if there is still
-    /// data to send. Throws std::runtime_error if the other side disconnects.
+    /// Sends and receives until the monotonic clock reaches `until_us` and all data has been sent.
+    /// Throws std::runtime_error if the other side disconnects.
     void exchange(std::int64_t until_us);
 
     std::int64_t published() const { return published_; }

@@ -1,4 +1,4 @@
-/// States of many simulated robots, as `dotpose watch --mqtt` publishes them.
+/// States of many simulated robots, in the format in which `dotpose watch --mqtt` publishes them.
 #pragma once
 
 #include <cstdint>

@@ -67,9 +67,9 @@ inline DeviceOptions options_of(const LocateHeader& header) {
     return options;
 }
 
-/// Returns one of two kinds of predictions. The first kind is arbitrary, and is read from the last
-/// bytes of the input, which are also pixels. The second kind is the fix of the frame, displaced by
-/// up to 2 spacings and rotated by up to 11 degrees.
+/// Returns one of two kinds of predictions. The first kind is arbitrary: it is read from the last
+/// bytes of the input, which also serve as pixels. The second kind is the fix of the frame,
+/// displaced by up to 2 spacings and rotated by up to 11 degrees.
 inline Prediction prediction_of(const LocateHeader& header, std::span<const std::uint8_t> rest,
                                 const Fix& fix) {
     static_assert(std::is_trivially_copyable_v<Prediction>);
@@ -89,7 +89,8 @@ inline Prediction prediction_of(const LocateHeader& header, std::span<const std:
                  prediction.pattern_from_image.centre_q8);
 }
 
-/// An image that ends at the end of its allocation, to detect reads past its end.
+/// An image whose last pixel is at the end of its allocation, so that a sanitizer detects reads
+/// past the image.
 struct Pixels {
     std::vector<std::uint8_t> bytes;
     int width_px = 0;

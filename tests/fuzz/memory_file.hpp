@@ -11,7 +11,7 @@
 
 namespace dotpose::fuzz {
 
-/// A file in memory. The fuzzer ends if the system does not support such files.
+/// A file in memory. The fuzzer exits with an error if the system does not support in-memory files.
 class MemoryFile {
   public:
     MemoryFile() : descriptor_(memfd_create("fuzzed", 0)) {

@@ -10,8 +10,8 @@
 
 namespace dotpose::fuzz {
 
-/// Calls `read` with the path of a file with these bytes. An exception other than Error ends the
-/// fuzzer.
+/// Calls `read` with the path of a file that contains these bytes. An exception other than Error
+/// terminates the fuzzer.
 template <typename Read>
 int reads_or_refuses(const std::uint8_t* data, std::size_t size, Read read) {
     static MemoryFile file;

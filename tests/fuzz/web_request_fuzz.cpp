@@ -1,5 +1,5 @@
-// Fuzzes the requests and commands of clients of the web page. A request without the token must
-// never be allowed.
+// Fuzzes the requests and commands that clients of the web page send. A request without the token
+// must never be allowed.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

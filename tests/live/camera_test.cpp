@@ -23,12 +23,12 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// Shell function `has FILE WORD N`: waits until N lines of the file contain the word. Fails if the
-/// tool ends.
+/// tool exits before that.
 constexpr const char* kWaiting =
     "has() { until [ $(grep -c \"$2\" $1) -ge $3 ]; do kill -0 $watch; sleep 0.05; done; }\n"
     "set -e; touch lines told; trap 'kill $camera $watch 2>/dev/null || true' EXIT\n";
 /// Shell commands for a run. They wait for 30 fixes, disconnect the camera until the robot is lost,
-/// connect the camera again, wait for 30 more fixes, and end the tool. Each test defines the
+/// connect the camera again, wait for 30 more fixes, and stop the tool. Each test defines the
 /// commands `unplug` and `plug_in`.
 constexpr const char* kRun =
     "has lines '\"ok\"' 30; unplug\n"
@@ -59,7 +59,7 @@ class Cameras : public ToolCommand {
         return lines;
     }
 
-    /// Expects that the robot was located, then lost while the camera was disconnected, then
+    /// Expects that the robot was located, was lost while the camera was disconnected, and was then
     /// located again. All reported poses must be correct.
     void expect_seen_lost_and_seen() {
         std::string events;

@@ -221,7 +221,7 @@ TEST(FleetPage, FiveHundredRobotsInTwentyFourRows) {
     lines = page_of(page, r);
     for (int i = 0; i < 20; ++i)
         EXPECT_THAT(lines[static_cast<std::size_t>(i) + 1], StartsWith(fmt::format("robot{} ", i)));
-    lines.erase(lines.begin() + 22);  // the line of message counts is longer
+    lines.erase(lines.begin() + 22);  // the line with the message counts is longer than 80 columns
     for (const std::string& line : lines)
         EXPECT_LE(line.size(), 80U) << line;
 }

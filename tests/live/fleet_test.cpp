@@ -124,7 +124,7 @@ TEST_F(Fleet, ASenderWhoseClockWasSetBackIsFollowed) {
     // The clock was set back. The message numbers continue, so the sender was not restarted.
     send("anna", 7, "2026-11-24T16:00:00Z");
     send("anna", 8, "2026-11-24T15:00:00Z");
-    // The sender was restarted and its clock set back, so its message numbers restart at 0.
+    // The sender was restarted and its clock was set back, so its message numbers restart at 0.
     send("bert", 700, "2026-11-24T16:00:00Z");
     for (int i = 0; i < 6; ++i)
         send("bert", i, fmt::format("2026-11-24T15:00:0{}Z", i).c_str());

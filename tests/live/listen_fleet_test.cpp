@@ -84,7 +84,7 @@ TEST_F(ListenFleet, TheLogIsThatOfWatch) {
     for (std::size_t i = 0; i < watched.size(); ++i) {
         for (const char* column : {"sheet", "state", "plane", "status"})
             EXPECT_EQ(watched[i][column], listened[i][column]) << i << column;
-        // The pose in a packet has steps of 1/65536 spacing (8 nm) and 0.0055 degrees.
+        // Poses in packets have a resolution of 1/65536 spacing (8 nm) and 0.0055 degrees.
         EXPECT_LT(difference(i, "x_sheet_mm"), 1e-4);
         EXPECT_LT(difference(i, "theta_sheet_deg"), 0.006);
         EXPECT_LT(difference(i, "track_x_mm"), 0.005);
@@ -158,7 +158,7 @@ TEST_F(ListenFleet, AStatusOfANewerVersionIsReportedAsOther) {
     WatchedFleet fleet(directory_, "--qos 1 --metrics fleet.prom --mqtt " + broker.url());
     ASSERT_EQ(run("listen packets.bin --robot m0 --qos 1 --mqtt " + broker.url()), 0) << errors_;
     // The fleet starts counting at the first report from the camera. The second report contains one
-    // more refused frame than the first, so the count is 1.
+    // refused frame more than the first report, so the count is 1.
     wait_until([&] {
         return file("fleet.prom").find("refused_frames_total{reason=\"other\"} 1\n") !=
                std::string::npos;

@@ -162,8 +162,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         if (i[1] - i[0] > before[1] - before[0]) before = i;
     }
     EXPECT_GT(before[1] - before[0], kBack - kGone - 100);
-    // The newest 50 states were kept and arrive from the newest to the oldest. In between, other
-    // states may arrive: those in transit when the broker stopped, and those of new frames.
+    // The newest 50 states were kept and arrive newest first. Other states may arrive in between:
+    // states that were in transit when the broker stopped, and states of new frames.
     std::vector<int> waited;
     std::copy_if(before + 1, ids.end(), std::back_inserter(waited),
                  [&](int id) { return id > before[1] - 50 && id <= before[1]; });
@@ -193,9 +193,10 @@ TEST_F(Mqtt, FindsItsBrokerAgainAsFastWithTls) {
     ASSERT_TRUE(publisher.is_connected()) << news_.text();
     broker.stop();
     wait_until([&] { return !publisher.is_connected(); });
-    std::this_thread::sleep_for(1500ms);  // long enough for several failed attempts
+    std::this_thread::sleep_for(1500ms);  // long enough for several failed attempts to connect
     broker.start();
-    // The publisher retries every half second. On its own, the library would wait for ten seconds.
+    // The publisher tries to connect every half second. The library itself would wait ten seconds
+    // between attempts.
     wait_until([&] { return publisher.is_connected(); }, 4s);
 }
 
@@ -221,8 +222,8 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Returns options with which the publisher also publishes its presence, as a word on the topic
-/// `presence`.
+/// Returns `options` with settings that make the publisher also publish its presence, as a word on
+/// the topic `presence`.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";
     options.presence = [](publish::Presence presence) -> std::string {

@@ -22,7 +22,7 @@ class WatchedFleet {
           }) {
         wait_until([this] { return fs::exists(directory_ / "fleet.svg"); });
     }
-    /// Ends the program, and returns the last table.
+    /// Stops the program, and returns the last table that it wrote.
     std::string table() {
         signal(SIGINT);
         thread_.join();

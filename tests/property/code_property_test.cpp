@@ -44,7 +44,7 @@ std::uint32_t random_position(Rng& rng) {
 
 Draw random_draw(std::uint64_t seed) {
     std::minstd_rand rng(static_cast<std::uint32_t>(seed % 2147483646 + 1));
-    rng.discard(3);  // because the first numbers generated from consecutive seeds are similar
+    rng.discard(3);  // the first numbers generated from consecutive seeds are similar
     Draw draw;
     draw.code = kCodeVariants[static_cast<std::size_t>(random_int(rng, 0, 2))];
     draw.place = random_place(rng);
@@ -74,9 +74,9 @@ Grid encode(const Draw& draw) {
     return grid;
 }
 
-/// Checks that the window, turned by the draw's quarter turns, is either refused or decoded to a
-/// place that contains the turned window. Returns a description of the failure, or "" if there is
-/// none.
+/// Turns the window by the quarter turns of the draw. Checks that the turned window is either
+/// refused or decoded to a place that contains it. Returns a description of the failure, or "" if
+/// there is none.
 std::string check_turned(const Draw& draw, const Grid& upright) {
     Grid seen = upright;
     for (int i = 0; i < draw.quarter_turns; ++i)

@@ -34,7 +34,7 @@ struct View {
     Place place;
     int columns = 0;
     int rows = 0;
-    double odds_log2 = 0;  ///< log2 of the odds that a bit of full weight is correct
+    double odds_log2 = 0;  ///< log2 of the odds that a bit with full weight is correct
     std::array<GridCell, kMaxSide * kMaxSide> cells{};
 
     core::Grid grid() {

@@ -1,5 +1,5 @@
-// Tests the CDR encoding of messages against the bytes of another serialiser (golden.txt), and the
-// message types against the definitions of ROS 2.
+// Tests the CDR encoding of messages against bytes written by another serialiser (golden.txt), and
+// the message types against the definitions of ROS 2.
 #include <fstream>
 #include <map>
 #include <string>
@@ -69,9 +69,9 @@ TEST(Cdr, HasTheBytesOfAnotherSerialiser) {
 }
 
 TEST(Cdr, CountsTheBytesOfATextAndItsEnd) {
-    // The expected bytes follow the standard, in which the length 3 counts the two bytes of UTF-8
-    // and the terminating 0. The other serialiser counts characters instead of bytes, so it cannot
-    // provide them.
+    // The expected bytes follow the standard, in which the length is 3: the two bytes of UTF-8 and
+    // the terminating 0. The other serialiser counts characters instead of bytes, so its output
+    // cannot be used here.
     const std::string bytes = hex(to_cdr(CompressedImage{{{1, 2}, "\u00e4"}, "", {}}));
     EXPECT_EQ(bytes,
               "00010000"

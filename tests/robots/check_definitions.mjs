@@ -43,8 +43,8 @@ function described({ name, definitions }) {
   return { type_name: name.replace("/", "/msg/"), fields };
 }
 
-/** Returns the hash of a type from a list of definitions, in which its own definition comes first. The
-   hash is computed from JSON with spaces after commas and colons. */
+/** Returns the hash of a type, given its own definition followed by the definitions of all types in it.
+   The hash is computed from JSON with spaces after commas and colons. */
 function typeHash([whole, ...parts]) {
   const byName = (a, b) => (a.type_name < b.type_name ? -1 : 1);
   const text = JSON.stringify({

@@ -26,8 +26,8 @@ constexpr const char* kTopics =
     "/anna/pose geometry_msgs/PoseWithCovarianceStamped /anna/odom nav_msgs/Odometry "
     "/anna/status diagnostic_msgs/DiagnosticArray /tf tf2_msgs/TFMessage";
 
-/// Commands that set up a network with only the loopback interface, including the multicast that
-/// DDS needs.
+/// Shell commands that set up a network with only the loopback interface, and enable the multicast
+/// that DDS needs.
 constexpr const char* kNetwork =
     "ip link set lo up multicast on; ip route add 239.0.0.0/8 dev lo; ";
 
@@ -40,7 +40,7 @@ class Dds : public WatchCommand {
         return run_shell(std::string("unshare -rn sh -c '") + kNetwork + "' 2>&1").exit_code == 0;
     }
 
-    /// Starts a reader of messages. Then runs `dotpose watch` on the frames that the shell command
+    /// Starts a message reader, and then runs `dotpose watch` on the frames that the shell command
     /// `frames` writes. Returns the messages that the reader received.
     std::vector<json> read_drive(const std::string& frames, const std::string& reliability,
                                  const std::string& options, const std::string& environment = "",
@@ -87,7 +87,7 @@ TEST_F(Dds, SendsSensorDataAsRosDoes) {
         "ffmpeg -v error -readrate 0.5 -f rawvideo -pix_fmt gray -s 320x240 -r 200 -i drive.raw "
         "-f rawvideo -",
         "best-effort", "");
-    // A quiet loopback interface usually loses nothing, but this is not guaranteed.
+    // An otherwise idle loopback interface usually loses no messages, but this is not guaranteed.
     EXPECT_GT(of_topic(messages, "/anna/pose").size(), 150U);
     EXPECT_EQ(of_topic(messages, "/tf").size(), 200U);
 }

@@ -42,7 +42,7 @@ inline std::int64_t time_us(const nlohmann::json& line) {
     return std::llround(line["t_s"].get<double>() * 1e6);
 }
 
-/// Expects one pose for each line with a fix, with the values and the time of the line.
+/// Expects one pose for each line with a fix, with the same values and the same time.
 inline void expect_poses_of(const std::vector<nlohmann::json>& lines,
                             const std::vector<nlohmann::json>& poses,
                             const MessageTolerance& tolerance) {
@@ -139,8 +139,8 @@ inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
         before_y = y;
     }
     EXPECT_EQ(next, transforms.size());
-    // The transform from map to odom jumps whenever the robot is found: at the start, after it was
-    // put down, and after it was moved to the side.
+    // The transform from map to odom jumps whenever the robot is found: at the start, after the
+    // robot is put down, and after it is moved to the side.
     EXPECT_EQ(jumps, 3);
 }
 

@@ -60,7 +60,7 @@ class Mcap : public testing::Test {
 TEST_F(Mcap, IsReadByOthers) {
     DOTPOSE_NEEDS_NPM();
     McapFile file(path_);
-    write(file, 1234);  // 12 s, in chunks of one second
+    write(file, 1234);  // 12 s of poses, in chunks of one second
     file.finish();
     const auto messages = read_mcap(path_);
     expect_poses(messages, 1234, 1234);
@@ -116,7 +116,7 @@ TEST_F(Mcap, TheIndexStaysSmallerThanTheData) {
     file.finish();
     // The index is written again with each chunk. The chunks grow with the index, so all copies of
     // the index together need less space than the data.
-    constexpr std::size_t kRecord = 420;  // bytes per pose: headers of 9 + 22, CDR of 4 + 384
+    constexpr std::size_t kRecord = 420;  // bytes per pose: headers (9 + 22) and CDR data (4 + 384)
     EXPECT_LT(std::filesystem::file_size(path_), 20'000 * kRecord * 3 / 2);
 }
 

@@ -163,7 +163,7 @@ TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
     EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
     EXPECT_EQ(twist.twist.angular.z, -0.5);
     // The robot drives along the y axis of the world at 0.3 m/s. To first order, an angle error of
-    // 1 rad adds 0.3 m/s to the sideways velocity. The variance of the angle is 3.
+    // 1 rad adds 0.3 m/s to the sideways velocity. The variance of the angle is 3 rad^2.
     EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
     EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
     EXPECT_NEAR(twist.covariance[35], 6, 1e-12);
@@ -277,7 +277,7 @@ TEST(RobotUpdates, TheCameraIsInTheMap) {
     EXPECT_DOUBLE_EQ(pose.position.x, 0.5);
     EXPECT_DOUBLE_EQ(pose.position.y, -1);
     EXPECT_DOUBLE_EQ(pose.position.z, 0.02);
-    // The z axis of the optical frame points down: half a turn about x.
+    // The z axis of the optical frame points down, so the rotation is half a turn about x.
     EXPECT_DOUBLE_EQ(std::abs(pose.orientation.x), 1);
     // The y and z axes of the camera and of the pattern are opposite to those of the map.
     const ros::Covariance36& covariance = messages.camera->pose.covariance;

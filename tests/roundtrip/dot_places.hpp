@@ -11,8 +11,8 @@ struct DotErrors {
     int missing = 0;  ///< number of dots without any ink
     /// Number of dots that are closer to the position of another symbol than to the correct one.
     int wrong_symbols = 0;
-    /// Mean and maximum distance of the centroids from their nominal positions, after subtracting
-    /// the mean offset.
+    /// Mean and maximum distance of a centroid from its nominal position, after subtracting the
+    /// mean offset from all centroids.
     double mean_um = 0;
     double largest_um = 0;
     double offset_x_um = 0;

@@ -50,7 +50,7 @@ std::vector<std::string> page_with(const std::string& keys, const std::string& c
 }
 
 /// Returns objects numbered from 5, each of which refers to the next object. `names(number)`
-/// returns an object that refers to `number`.
+/// returns the text of an object that refers to object `number`.
 std::vector<std::string> chain(const std::function<std::string(int)>& names) {
     std::vector<std::string> objects;
     for (int number = 5; number < 5 + kDeep; ++number)
@@ -102,7 +102,7 @@ TEST_F(HostileDocument, depth_is_bounded_and_named) {
     const char* const kDraws = "/Resources << /XObject << /A 5 0 R >> >>";
     expect_refused(page_with(kDraws, stream("/A Do"), forms("/A Do")),
                    "in.pdf, page 1: its forms are nested deeper than 100 levels");
-    // With this option, forms that are not drawn are also converted.
+    // If colours are changed, forms that are not drawn are converted, too.
     expect_refused(page_with(kDraws, stream(""), forms("")),
                    "in.pdf, page 1: its resources are nested deeper than 100 levels",
                    change_colours_);

@@ -83,7 +83,7 @@ void write_all(const Arguments& arguments) {
         std::vector<State> batch;
         for (std::int64_t second = 0; second < seconds; second += arguments.period_s) {
             batch.clear();
-            // The states are sorted by robot and time, as the queue sorts them.
+            // The states are sorted by robot and time, as in the queue.
             for (int robot = 0; robot < arguments.robots; ++robot) {
                 for (int i = 0; i < arguments.period_s * arguments.hz; ++i)
                     batch.push_back(robots.state(robot, second * arguments.hz + i, arguments.hz));

@@ -70,7 +70,7 @@ function pen(index, tilt_deg, side_deg, turn_deg) {
     return pixelsOf(join(into, "frame_000000.pgm"), 320 * 240);
 }
 
-/** Frames from a pen that is tilted to all sides, by small, medium and large angles. */
+/** Frames from a pen that is tilted in all directions, by small, medium and large angles. */
 function pivot() {
     const rings = [12, 24, 36].flatMap((tilt_deg, ring) => Array.from({ length: 10 }, (_, i) => [tilt_deg, 36 * i + 12 * ring, 50 * i]));
     return [[0, 0, 0], [3, 90, 120], ...rings].map((tilts, i) => pen(i, ...tilts));
@@ -112,7 +112,7 @@ function places() {
     return Array.from({ length: 30 }, (_, i) => pixelsOf(join(into, `frame_${String(i).padStart(6, "0")}.pgm`)));
 }
 
-/** Runs `dotpose watch` with the page. Its camera repeats the frames passed in the latest call to `show`. */
+/** Runs `dotpose watch` with its web page. The camera repeats the frames passed in the latest call to `show`. */
 class Run {
     #frames = [];
     #next = 0;
@@ -235,7 +235,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
         const shown = /reference([-+][\d.]+), ([-+][\d.]+)/.exec(await page.textContent("#calibration-report"));
         assert.ok(Math.hypot(Number(shown[1]) - kMount_mm.x, Number(shown[2]) - kMount_mm.y) < 0.01, String(shown));
 
-        // The run uses the calibrated mount, so it shows that the robot turns on the spot.
+        // The run uses the calibrated mount, so the position shown does not change while the robot turns on the spot.
         const { page: live } = await open(browser.context, run.url);
         await live.waitForFunction(
             ([x_mm, y_mm]) => {

@@ -1,4 +1,4 @@
-// Tests the page of `dotpose fleet --web` with robots on a real broker, and that of `dotpose listen --web`.
+// Tests the page of `dotpose fleet --web` with robots on a real broker, and the page of `dotpose listen --web`.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -30,7 +30,7 @@ test("a robot that is killed, silenced, lost and removed is shown so", async () 
     assert.equal(await limit(() => robots.anna.kill(), "anna", "silent", 0), "connection broke");
     assert.equal(await limit(() => (robots.carl.is_lost = true), "carl", "lost", 0), "too few dots");
     assert.equal(await limit(() => robots.bert.silence(), "bert", "silent", kSilentAfter_s), "no message");
-    // Robots that need attention are first.
+    // Robots that need attention are listed first.
     const names = await page.$$eval("#fleet-rows th", (cells) => cells.map((cell) => cell.textContent));
     assert.deepEqual(names, ["anna", "bert", "carl", "dora"]);
     const alerts = () => page.$$eval("#fleet-alerts li", (items) => items.map((item) => item.textContent.replace(/^[\d:]+/, "")));
@@ -140,7 +140,7 @@ test("2,000 robots are drawn", async (t) => {
     await page.waitForFunction(() => globalThis.drawn >= 60);
     const rate_hz = (60_000 / (Date.now() - begun)).toFixed(1);
     t.diagnostic(`drawn ${rate_hz} times a second, ${await page.textContent("#fleet-rate")}; ${await page.textContent("#fleet-counts")}`);
-    // Only the robots in view are sent.
+    // The program sends only the robots in view.
     await page.focus("#fleet-map");
     for (let i = 0; i < 25; ++i) await page.click("#fleet-closer");
     await page.waitForFunction(() => Number.parseInt(document.getElementById("fleet-in-view").textContent, 10) < 20);
@@ -159,7 +159,8 @@ test("a click on the map chooses a robot, and a restart forgets it", async () =>
     const { page } = await open(browser.context, url);
     await untilInView(page, 1);
     const box = await page.locator("#fleet-map").boundingBox();
-    // The map is fitted to its only robot, so the robot is near the middle. Repeats the click, because the robot moves.
+    // The map is fitted to its only robot, so the robot is near the middle. The click is repeated, because the robot
+    // may move away first.
     await until(async () => {
         await page.click("#fleet-fit");
         await page.waitForTimeout(200);

@@ -20,7 +20,7 @@ function pixelsOf(page, colour) {
     }, colour);
 }
 
-/** Returns the fraction of the columns in the graph's lower band that show no state. */
+/** Returns the fraction of the graph's columns in which no state is drawn. */
 function emptyShare(page) {
     return page.evaluate(() => {
         const { width, height } = document.getElementById("fleet-stored-graph");
@@ -54,7 +54,7 @@ test("the stored history of a robot is drawn on the map and over time", async ()
     assert.equal(await pixelsOf(page, "--warn"), 0);
     await showSpan("hour");
 
-    // The command line reads the same states.
+    // The command-line tool reads the same states.
     const states = dotpose("fleet", "history", "--store", database, "--robot", "anna").trim().split("\n").map((line) => JSON.parse(line));
     const lost = states.filter(({ state }) => state === "lost").length;
     assert.ok(states.length > 50 && lost > 0);
@@ -136,7 +136,8 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
         const radius = (Math.max(...xs) - Math.min(...xs)) / 2;
         return { share: Math.max(...segments) / radius, count: segments.length };
     });
-    // The robot moves by 0.22 radii of its circle per state. The limit allows for states that are not drawn.
+    // Between two states, the robot moves by 0.22 times the radius of its circle. The limit allows for states that are
+    // not drawn.
     assert.ok(longest.count > 100 && longest.share < 1, JSON.stringify(longest));
     await page.close();
     await stop();
@@ -144,8 +145,8 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
 
 test("the chosen robot has height and tilt of its camera", async () => {
     const [anna, bert, carl] = ["anna", "bert", "carl"].map((name, i) => new Robot(name, { y_m: 0.1 * i }));
-    // The camera looks down, and is tilted about the y axis of the world. The page prefers the tracked pose to that of
-    // the newest frame.
+    // The camera looks down, and is tilted about the y axis of the world. The page shows the tracked pose rather than
+    // the pose from the newest frame.
     const camera = (z, tilt_deg) => {
         const half = (tilt_deg * Math.PI) / 360;
         return { x: 0.1, y: 0, z, orientation: { x: Math.cos(half), y: 0, z: -Math.sin(half), w: 0 } };

@@ -12,7 +12,7 @@ import { kTool, launch } from "./browser.mjs";
 
 export const kLoad = join(dirname(kTool), "dotpose_fleet_load");
 export const kSilentAfter_s = 3;
-/** Time that the page may take to show a condition after its time limit has passed. */
+/** Maximum delay with which the page shows a condition, in addition to the time limit of the condition. */
 export const kShown_s = 2;
 
 export let folder;

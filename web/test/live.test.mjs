@@ -1,5 +1,5 @@
-// Tests the page of `dotpose watch --web` with a simulated drive as a video file. The poses that the page shows are
-// compared with the true poses.
+// Tests the page of `dotpose watch --web` on a video of a simulated drive. Compares the poses shown on the page with
+// the true poses.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -24,7 +24,7 @@ function makeDrive(name, frames, ...options) {
     return { video, truth: readCsv(readFileSync(video.replace(".mp4", "-truth.csv"), "utf8")) };
 }
 
-/** Starts `dotpose watch` with a page, five times slower than the drive. */
+/** Starts `dotpose watch` with a web page. Plays the video five times slower than the drive. */
 function watch({ video }, options = [], address = "0") {
     return watchSource([video, "--realtime", "--fps", "10", "--web-recordings", folder], options, address);
 }

@@ -40,7 +40,7 @@ async function runCamera(address, frames) {
 
 /**
  * Returns the true pose for a line of the log. It is the pose in the clip that is nearest to the
- * logged pose, because the clip's frames are metres apart.
+ * logged pose, because the positions in the clip are metres apart.
  */
 function truthOf(line) {
     const near = (at) => Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
@@ -132,7 +132,7 @@ test("a picture is read, and one of something else gets a hint", async () => {
     await page.waitForFunction(() => document.getElementById("look-x").textContent !== "–");
     const x_mm = Number((await page.textContent("#look-x")).replaceAll("\u202f", ""));
     assert.ok(Math.abs(x_mm - truth[0].x_mm) < 0.005, `${x_mm}, not ${truth[0].x_mm}`);
-    // The header of the page contains no dots.
+    // The picture is a screenshot of the page's header, which contains no dots.
     const buffer = await page.screenshot({ clip: { x: 0, y: 0, width: 640, height: 200 } });
     await page.setInputFiles("#look-file", { name: "other.png", mimeType: "image/png", buffer });
     await page.waitForFunction(() => document.getElementById("look-x").textContent === "–");
@@ -153,7 +153,7 @@ function sheetFile() {
     return path;
 }
 
-/** Returns frames of a sheet in section 0, 0. `at` is the place under the image centre, in cells. */
+/** Returns frames of a sheet in section 0, 0. `at` is the place that is shown at the image centre, in cells. */
 function viewsOf(at, size, frames = 1) {
     const still = mkdtempSync(join(folder, "view-"));
     return makeClip(still, { frames, size, options: ["--section", "0,0", "--at", at.join()] });

@@ -49,7 +49,7 @@ const openPicture = (page, buffer) => page.setInputFiles("#look-file", { name: "
 const near = (value, expected, tolerance, name) =>
     assert.ok(Math.abs(value - expected) <= tolerance, `${name}: ${value}, not ${expected}`);
 
-/** Returns the shown values and their standard deviations: [value, sigma]. */
+/** Returns the values on the page with their standard deviations, as [value, sigma]. */
 async function shown(page) {
     await page.waitForFunction(() => document.getElementById("look-height").textContent !== "–");
     const one = async (id) => {

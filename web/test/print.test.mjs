@@ -22,7 +22,7 @@ after(async () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
 });
 
-/** Renders the first page as grey levels. */
+/** Renders the first page in greyscale. */
 function render(pdf, dpi) {
     const out = pdf.replace(/\.pdf$/, "");
     execFileSync("pdftoppm", ["-r", String(dpi), "-gray", "-singlefile", pdf, out]);
@@ -43,7 +43,7 @@ async function printed({ paper, x, y, code = "anoto", margin = "6", name = "test
     return { page, complaints, path, suggested: file.suggestedFilename() };
 }
 
-/** Counts the pixels inside the margins that differ, and the dark pixels of `a`. */
+/** Counts the pixels that differ between the images, and the dark pixels of `a`. Ignores the margins. */
 function differences(a, b, margin_px) {
     assert.deepEqual([a.width, a.height], [b.width, b.height]);
     let [different, dark] = [0, 0];

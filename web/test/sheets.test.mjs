@@ -375,14 +375,14 @@ test("sheets are printed and printed again", async () => {
         assert.deepEqual([entry.width_mm, entry.height_mm, entry.spacing_mm], [420, 297, 0.6]);
         dotpose("sheets", "reprint", "long shelf", "--sheets", file, "-o", reprint);
         assert.ok(made.bytes.equals(readFileSync(reprint)));
-        // The command in the entry makes the same dots.
+        // The print command in the sheet's entry produces the same dots.
         const [, ...words] = entry.print.command.split(" ");
         execFileSync(process.env.DOTPOSE_TOOL, words, { cwd: folder });
         const sizes = [made.path, join(folder, "long_shelf.pdf")].map((pdf) => dotsOf(pdf));
         assert.equal(sizes[0], sizes[1]);
         assert.equal(await page.textContent("#sheet-name"), "long shelf");
 
-        // The name is taken.
+        // The name is already in use.
         await page.click("#new-sheet button[type=submit]");
         await message(page, /^Refused: there already is a sheet 'long shelf'/);
         assert.deepEqual(complaints, []);
@@ -392,7 +392,7 @@ test("sheets are printed and printed again", async () => {
     }
 });
 
-/** Returns the first page of a PDF as a grey image. */
+/** Renders a PDF in greyscale. Returns the first 100,000 bytes, which show the top of the first page. */
 function dotsOf(pdf) {
     return execFileSync("pdftoppm", ["-r", "100", "-gray", pdf], { maxBuffer: 1 << 26 }).toString("latin1").slice(0, 100_000);
 }

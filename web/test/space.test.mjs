@@ -102,7 +102,7 @@ test("on a sheet in the world, the tracked pose is shown in the world", async ()
     });
     near(shown, "height_mm", kHeight_mm, 0.05);
     near(shown, "tilt_deg", kTilt_deg, 0.1);
-    // Angles in the world are counterclockwise. The page is turned by its yaw.
+    // Angles in the world are counterclockwise. The sheet is turned by its yaw.
     near(shown, "azimuth_deg", kYaw_deg - kTurn_deg, 0.3);
     near(shown, "turn_deg", kYaw_deg - kTurn_deg, 0.3);
     // Angles on the screen are clockwise.

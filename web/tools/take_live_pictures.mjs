@@ -108,7 +108,7 @@ const kParts = {
         const { page } = await open(browser.context, /the page is at (\S+)/.exec(fleet.messages)[1]);
         await page.click("#fleet-rows button:text-is('robot7')");
         await page.waitForSelector("#fleet-stored", { state: "visible" });
-        // After a change of the page size, the map shows the whole track only if the form is submitted again.
+        // After the page size has changed, the map shows the whole track only if the form is submitted again.
         const ready = async () => {
             await page.click("#fleet-stored-form button[type=submit]");
             await page.waitForSelector("#fleet-stored-figure", { state: "visible" });

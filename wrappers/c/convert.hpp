@@ -63,10 +63,10 @@ Place to_core(const dotpose_place& place);
 /// of range.
 dotpose_status to_core(const dotpose_options* given, LocatorOptions& options);
 
-/// Reads a motion. Returns BAD_VALUE if the motion is not usable.
+/// Reads a motion. Returns BAD_VALUE if `MeasuredMotion::is_usable` is false.
 dotpose_status to_core(const dotpose_measured_motion& given, MeasuredMotion& motion);
 
-/// Reads a prediction. Returns BAD_VALUE if the code does not contain the place of the prediction.
+/// Reads a prediction. Returns BAD_VALUE if the code does not contain the predicted place.
 dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction);
 
 /// Returns OK if a fix can be read and written, otherwise NULL_POINTER or BAD_SIZE.

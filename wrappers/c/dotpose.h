@@ -326,7 +326,7 @@ enum {
 /* Attempts that a locator makes. Device locators always make the device attempt. */
 enum {
     DOTPOSE_EFFORT_DEVICE = 0, /* one attempt in integer arithmetic, as on a device */
-    DOTPOSE_EFFORT_ONCE = 1,   /* without the second attempt */
+    DOTPOSE_EFFORT_ONCE = 1,   /* only the first attempt */
     DOTPOSE_EFFORT_TWICE = 2   /* if the first attempt fails, a second one on the filtered frame */
 };
 
@@ -388,8 +388,8 @@ dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
  * locators, the linker can remove the other kinds as unused sections. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
-/* Sets up a locator of DOTPOSE_KIND_DEVICE_36X36, DOTPOSE_KIND_DEVICE_160X120 or
- * DOTPOSE_KIND_DEVICE_320X240 in the same way. */
+/* Like dotpose_device_init, but for DOTPOSE_KIND_DEVICE_36X36, DOTPOSE_KIND_DEVICE_160X120 and
+ * DOTPOSE_KIND_DEVICE_320X240. */
 dotpose_status dotpose_device_36x36_init(void* memory, size_t bytes, const dotpose_options* options,
                                          dotpose_locator** locator);
 dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
@@ -507,9 +507,9 @@ typedef struct dotpose_code_reading {
 
 /* Locates an image whose code is not known, and adds the image to the evidence. If two codes
  * explain the frame about equally well, the status is ambiguous_code. Sets the locator's code to
- * the code that was read. The prediction must have been made in the locator's previous code.
- * `prediction`, `evidence` and `reading` may be null. If `evidence` is null, uses only this frame.
- * Returns WRONG_KIND for device locators. */
+ * the code that was read. The prediction must refer to the code that the locator used before this
+ * call. `prediction`, `evidence` and `reading` may be null. If `evidence` is null, uses only this
+ * frame. Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
                                        int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                        const dotpose_prediction* prediction,
@@ -522,8 +522,8 @@ dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* p
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Returns the most likely code, and in `p_wrong` the probability that the sheet is printed in
- * another code. Without evidence, all codes are equally probable: the result is anoto, and
+/* Sets `code` to the most likely code, and `p_wrong` to the probability that the sheet is printed
+ * in another code. Without evidence, all codes are equally probable: the result is anoto, and
  * `p_wrong` is 2/3. */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
@@ -643,8 +643,8 @@ dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
 /* Like dotpose_tracker_update, with the motion of the robot since the previous update. The motion's
- * `right_mm` is along the direction theta of the sightings. If `sighting` is null, only the motion
- * changes the pose. */
+ * `right_mm` is measured along the direction theta of the sightings. If `sighting` is null, only
+ * the motion changes the pose. */
 dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
                                             const dotpose_sighting* sighting,
                                             const dotpose_measured_motion* motion,
@@ -677,7 +677,7 @@ typedef struct dotpose_packet {
     uint32_t section_u;      /* 36 */
     uint32_t section_v;      /* 40 */
     uint32_t certainty;      /* 44: p_wrong is at most 2^-certainty; at most 255 */
-    uint32_t deviation_q12;  /* 48: larger sigma of x and y, spacings; 255 if larger or unknown */
+    uint32_t deviation_q12;  /* 48: max sigma of x and y, spacings; 255 if too large or unknown */
 } dotpose_packet;
 
 /* Returns the packet for a fix with any status. The packet contains the lower 16 bits of

@@ -29,7 +29,7 @@ struct Actions {
     Fix (*locate_moved)(RowLocator& locator, const ImageView& image, const MeasuredMotion& motion);
 };
 
-/// Returns the actions of a Locator or a DeviceLocator.
+/// Returns the function pointers for `Kind`, which is Locator or DeviceLocator.
 template <typename Kind>
 constexpr Actions actions_of() {
     Actions actions{};

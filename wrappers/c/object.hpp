@@ -10,7 +10,7 @@
 
 namespace dotpose::c {
 
-/// A T stored in a struct of dotpose.h, preceded by a mark that shows that the struct was set up.
+/// A T stored in a struct of dotpose.h. The mark before it shows that the struct was set up.
 template <typename T, std::uint32_t kMark>
 struct Object {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>,

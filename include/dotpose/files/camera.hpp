@@ -75,8 +75,8 @@ struct PenTip {
     double y_mm = 0;
     double z_mm = 0;
     /// Height of the tip above the paper while the pen rests on the paper, as measured by the
-    /// calibration. It need not be 0, because the tip is the point about which the pen pivots, for
-    /// example the centre of the ball of a ballpoint pen.
+    /// calibration. It is not necessarily 0: the tip is the point about which the pen pivots, for
+    /// example the centre of the ball in a ballpoint pen.
     double rest_mm = 0;
 };
 
@@ -93,15 +93,15 @@ struct Camera {
     std::optional<PaperScale> paper;
     /// Focal length. None if the calibration did not determine it.
     std::optional<double> focal_px;
-    /// Pinhole model, if pixels are not square or `centre_px` is not on the optical axis. ROS
-    /// camera_info files may describe such cameras. None for other cameras, whose model follows
-    /// from `focal_px` (see `pinhole_of`).
+    /// Pinhole model of a camera whose pixels are not square, or whose optical axis does not pass
+    /// through `centre_px`. ROS camera_info files may describe such cameras. None for other
+    /// cameras: `pinhole_of` derives their model from `focal_px`.
     std::optional<Pinhole> pinhole;
     /// Tilt of a mounted camera. None if the calibration did not determine the tilt.
     std::optional<Tilt> tilt;
 
-    /// Reference point of the pose: an undistorted pixel, which may be outside the image. If there
-    /// is none, the reference point is the image centre.
+    /// Reference point of the pose: an undistorted pixel, which may be outside the image. If not
+    /// set, the reference point is the image centre.
     std::optional<PixelPoint> reference_px;
     /// Heading of the robot minus the angle of the image x axis at the image centre.
     double theta_offset_rad = 0;
@@ -130,8 +130,8 @@ struct Camera {
     std::optional<double> exposure_us;
     std::optional<double> gain;
 
-    /// Standard deviations of the calibrated values, in the units of these values. Each key is the
-    /// name of a value in the camera file, for example "centre_u_px".
+    /// Standard deviations of the calibrated values, in the same units as the values. Each key is
+    /// the name of a value in the camera file, for example "centre_u_px".
     std::map<std::string, double> sigma;
 };
 
@@ -178,7 +178,8 @@ double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 /// under the image centre. x is along the image x axis at the image centre. Throws
 /// std::bad_optional_access if `camera.paper` is none. Use this frame to compare two calibrations
 /// of the same camera: the coordinates of a point on the paper differ by only microns between the
-/// calibrations, even far outside the image. Its undistorted pixels differ by more.
+/// calibrations, even far outside the image. The undistorted pixel coordinates of the point differ
+/// by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Inverse of `from_image_centre`: returns the undistorted pixel that shows `point`. Throws
 /// std::bad_optional_access if `camera.paper` is none.
@@ -193,12 +194,12 @@ std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera
 /// `camera.flat_field`. The flat field must not be empty, and `camera` must be valid.
 double brightness_at(const Camera& camera, PixelPoint pixel);
 
-/// Returns the camera that describes crops of the images from `camera`. A crop has `width_px` x
+/// Returns a camera whose images are crops of the images from `camera`. A crop has `width_px` x
 /// `height_px` pixels, and its top left pixel is (`left_px`, `top_px`). The reference point remains
 /// the same point of the scene, even if `camera.reference_px` is none. If the view of the paper is
 /// known, the heading also remains the same. `flat_field` and `readout_ms` are adapted to the crop.
-/// Throws BadArgument if the crop exceeds the image, or if the result is not a valid camera (see
-/// `validate`).
+/// Throws BadArgument if the crop extends beyond the image, or if the result is not a valid camera
+/// (see `validate`).
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
 /// Sets the lens in `options`, and the reference point if the camera has one. If the camera's view

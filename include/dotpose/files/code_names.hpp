@@ -11,7 +11,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Returns the name of a code variant: anoto, libdots, microdots.
+/// Returns the name of a code variant: "anoto", "libdots" or "microdots".
 const char* name(CodeVariant code);
 
 /// Returns the code variant with the given name, or none if there is no such variant.

@@ -11,16 +11,16 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Thrown if an operation fails. `what()` is one sentence for the user, without a full stop. It
-/// contains the name of the file or the value concerned.
+/// Thrown if an operation fails. `what()` is one sentence for the user, without a trailing full
+/// stop. It contains the name of the file or the value concerned.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown if an argument is invalid, regardless of the state of files and devices, for example a
-/// margin wider than the page or an unknown paper size. `what()` contains the invalid value and the
-/// permitted values.
+/// Thrown if an argument is invalid, as opposed to a failure of a file or device. Examples are a
+/// margin wider than the page and an unknown paper size. `what()` contains the invalid value and
+/// the permitted values.
 class BadArgument : public Error {
   public:
     using Error::Error;

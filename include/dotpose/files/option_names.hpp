@@ -1,4 +1,5 @@
-/// Names of option values, as used on the command line and in tables, and messages about them.
+/// Names of option values, as used on the command line and in tables, and error messages about
+/// invalid options.
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ inline constexpr std::array kEfforts = {Effort::device, Effort::once, Effort::tw
 const char* name(Decoder decoder);
 const char* name(Effort effort);
 
-/// Returns a message about the first option outside its range, with the name of the option and the
-/// range. Returns an empty string if all options are valid.
+/// Returns an error message about the first option that is out of range. The message contains the
+/// name of the option and the permitted range. Returns an empty string if all options are valid.
 std::string fault_text(const DeviceOptions& options);
 
 }  // namespace dotpose

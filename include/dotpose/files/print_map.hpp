@@ -55,7 +55,7 @@ struct MapErrors {
 /// Maximum number of nodes along each axis.
 inline constexpr int kMaxErrorNodes = 256;
 
-/// Map of one page. Code variant, section, region and nominal spacing equal those of the sheet.
+/// Map of one page. The code variant, section, region and nominal spacing are those of the sheet.
 struct MapPage {
     std::string name;  ///< name of the sheet
     CodeVariant code = CodeVariant::anoto;
@@ -126,12 +126,13 @@ PrintMap parse_print_map(std::string_view bytes);
 PrintMap read_print_map(const std::filesystem::path& path);
 
 /// Returns the contents of a map file. Throws BadArgument if a page is not valid: its region is not
-/// in the code plane, a number is out of range, its name is longer than 4096 bytes, `offsets` or
-/// `views` do not contain one element per dot, or `errors` is not a grid of covariances.
+/// in the code plane, one of its numbers is out of range, its name is longer than 4096 bytes,
+/// `offsets` or `views` do not contain one element per dot, or `errors` is not a grid of
+/// covariances.
 std::string print_map_bytes(const PrintMap& map);
 
-/// Throws Error if a page of the map is not one of `sheets`. Code variant, section, region and
-/// spacing must be equal. The names may differ.
+/// Throws Error if a page of the map is not one of `sheets`. A page matches a sheet if their code
+/// variant, section, region and spacing are equal. Their names may differ.
 void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets);
 
 }  // namespace dotpose

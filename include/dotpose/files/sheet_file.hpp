@@ -1,5 +1,5 @@
-/// Sheet files: the region of the code plane on each printed page, and the pose of the page in the
-/// world (docs/sheet-files.md).
+/// Sheet files list the printed pages: the region of the code plane on each page, and the pose of
+/// the page in the world (docs/sheet-files.md).
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///
@@ -78,14 +78,14 @@ struct SheetEntry {
     double print_scale_x = 1;
     double print_scale_y = 1;
     AxisScale print_scale() const { return {print_scale_x, print_scale_y}; }
-    /// Position of the top left corner of the page in the world, and direction of the upper edge of
-    /// the page from this corner. None if not known.
+    /// World pose of the page: the position of its top left corner, and the direction of its upper
+    /// edge, seen from this corner. None if not known.
     std::optional<WorldPose> world;
     /// Print parameters. None if the entry was created by an earlier version of dotpose, or was not
     /// created by printing.
     std::optional<SheetPrint> print;
-    /// True if the region is reserved for a page that may not exist yet, because it is still being
-    /// written, or because the program was stopped while writing it.
+    /// True if the region is reserved for a page that may not exist yet: the page is still being
+    /// written, or the program was stopped while writing it.
     bool is_reserved = false;
 };
 
@@ -138,16 +138,16 @@ class SheetFile {
     /// `sheet.origin`. A single page is called `name`. Several pages are called "name-1", "name-2"
     /// and so on.
     ///
-    /// A free region is at least kSheetGap_cells away from the ends of the plane and from all other
-    /// regions, regardless of their code variant and section. A cell alone therefore identifies an
-    /// allocated sheet. The next free region is the topmost one. Ties are broken by taking the
-    /// leftmost.
+    /// A free region is at least kSheetGap_cells away from the edges of the plane and from all
+    /// other regions, regardless of their code variant and section. The coordinates of a cell are
+    /// therefore sufficient to identify an allocated sheet. The next free region is the topmost
+    /// one. Ties are broken by taking the leftmost.
     ///
     /// Returns the added entries. Throws BadArgument if an entry would not be valid (see
     /// `validate`), if the name is taken, if the plane is full, or if the count is below 1.
     std::vector<SheetEntry> allocate(const std::string& name, const Sheet& sheet, int count = 1);
 
-    /// Adds one page, with its own name and number, in the next free region. Ignores
+    /// Adds one page, with the name and page number in `entry`, in the next free region. Ignores
     /// `entry.sheet.origin`. Returns the added entry. Throws BadArgument if the entry is not valid
     /// (see `validate`), if the name is taken, or if the plane is full.
     SheetEntry allocate(SheetEntry entry);

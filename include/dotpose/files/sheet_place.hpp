@@ -1,4 +1,4 @@
-/// Places: the pose of a fix, with its full covariance, on a page of a sheet file and in the world.
+/// Places: the pose of a fix on a page of a sheet file and in the world, with its full covariance.
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///     if (const auto place = find_sheet(sheets, CodeVariant::anoto, fix)) {
@@ -24,7 +24,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Covariance of a pose (x, y, angle). The units are squares and products of the units of the pose.
+/// Covariance of a pose (x, y, angle). The unit of each element is the product of the units of its
+/// two coordinates.
 using PoseCovariance = std::array<std::array<float, 3>, 3>;
 
 /// Place of a fix on a page of a sheet file.

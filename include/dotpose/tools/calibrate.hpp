@@ -15,8 +15,8 @@
 /// If the frames are insufficient for a result, the functions throw Error with advice for the user.
 /// Standard deviations are computed from the residuals of the fit.
 ///
-/// The functions request frames by index, possibly several times, and do not store them. They share
-/// no state.
+/// The functions request frames by index and do not store them. They may request a frame several
+/// times. They share no state.
 #pragma once
 
 #include <functional>
@@ -51,7 +51,8 @@ struct CalibrateOptions {
     /// empty, the spacing is the printed spacing of the sheet that appears in the largest number of
     /// frames. `stitch_sheets` ignores this option.
     std::vector<SheetEntry> sheets;
-    /// Called after each step of the calibration. Returning false aborts it with an Error.
+    /// Called after each step of the calibration. Returning false aborts the calibration with an
+    /// Error.
     std::function<bool(int done, int total)> progress;
 };
 
@@ -95,7 +96,7 @@ struct LensCalibration {
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
     int frames = 0;                         ///< number of input frames
     int located = 0;                        ///< number of distinct frames with a fix
-    /// Number of frames not used, because they repeat an earlier frame.
+    /// Number of frames that were skipped because they repeat an earlier frame.
     int duplicates = 0;
     int dots = 0;      ///< number of dots used
     int outliers = 0;  ///< number of dots rejected as outliers
@@ -113,10 +114,10 @@ struct LensCalibration {
     std::vector<CalibrationDot> seen;
 };
 
-/// Computes lens and scale and, if the frames determine them, tilt and focal length. Throws
-/// BadArgument if `frames` is less than 1. Throws Error if fewer than two distinct frames can be
-/// located, if the frames differ in size, if `options.sheets` is not empty and no frame shows one
-/// of these sheets, or if no plausible lens fits the frames.
+/// Computes the lens and the scale. Also computes the tilt and the focal length if the frames
+/// determine them. Throws BadArgument if `frames` is less than 1. Throws Error if fewer than two
+/// distinct frames can be located, if the frames differ in size, if `options.sheets` is not empty
+/// and no frame shows one of these sheets, or if no plausible lens fits the frames.
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 
@@ -165,7 +166,7 @@ struct SpinCalibration {
 /// paper. Without `camera`, the lens is assumed to have no distortion. Throws Error in these cases:
 /// - Too few frames have a fix, or the turn is too small.
 /// - A frame differs in size from the camera file or from the first frame.
-/// - The spacing contradicts the view of the camera.
+/// - The spacing of the pattern contradicts the view in the camera file.
 /// - The reference point is outside the range permitted in a camera file.
 /// - The centre of rotation varies by more than one spacing (rms per axis), or its uncertainty is
 ///   more than half a spacing.
@@ -188,7 +189,7 @@ struct DriveCalibration {
 /// Error in these cases:
 /// - Too few frames have a fix, or the drive is too short.
 /// - A frame differs in size from the camera file or from the first frame.
-/// - The spacing contradicts the view of the camera.
+/// - The spacing of the pattern contradicts the view in the camera file.
 /// - The robot turned by more than 5 degrees from its mean direction, deviated from a straight line
 ///   by more than 4.4 % of the length of the drive, or drove backwards.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
@@ -224,7 +225,7 @@ struct PivotCalibration {
 /// - The pen does not pivot enough, or only about one axis.
 /// - The tip did not rest at one point: more than a third of the frames contradict the others, or
 ///   the tip moved by more than half a spacing (rms per axis).
-/// - The tip has a standard deviation of more than half a spacing.
+/// - The standard deviation of the tip position exceeds half a spacing.
 ///
 /// Throws BadArgument if the camera file has no focal length.
 PivotCalibration calibrate_pivot(int frames, const FrameAt& frame_at, const Camera& camera,
@@ -236,15 +237,14 @@ struct FlatFieldCalibration {
     int frames = 0;
     double min_brightness = 0;  ///< minimum brightness of the flat field, relative to its maximum
     /// Rms deviation of the mean frame from the flat field, relative to the flat field. It is
-    /// caused by dots that have not averaged out, and by differences in the sensitivity of the
-    /// pixels.
+    /// caused by dots that did not average out completely, and by differences in pixel sensitivity.
     double residual = 0;
 };
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
 /// with constant exposure and light. The dots must be at different places in different frames, so
 /// that they average out. If no camera is given, the result is a new camera with the size of the
-/// frames. Of the options, only `progress` is used. Throws Error in these cases:
+/// frames. The only option used is `progress`. Throws Error in these cases:
 /// - There are fewer than 20 frames, or frames differ in size.
 /// - The flat field is less than kMinFlatField in the darkest part of the image.
 /// - The mean frame deviates from the flat field by more than 8 % (rms).
@@ -265,7 +265,7 @@ struct ReadoutCalibration {
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
 /// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
-/// - Fewer than 5 frames are located along with both the previous and the next frame.
+/// - There are fewer than 5 located frames whose previous and next frames are also located.
 /// - The standard deviation of the readout time is 10 % of the readout time or more.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
@@ -287,7 +287,8 @@ struct ScaleReference {
     double width_mm = 0;  ///< measured width, from the first to the last column of intersections
 };
 
-/// Prior standard deviation of a print scale, relative to the value in the sheet file.
+/// Prior standard deviation of a print scale: the usual relative deviation of the true print scale
+/// from the value in the sheet file.
 inline constexpr double kUsualPrintError = 0.003;
 /// Returns true if the frames determined a print scale: its standard deviation `sigma_scale` is
 /// less than half of the prior standard deviation.
@@ -298,8 +299,7 @@ inline constexpr bool is_scale_known(double sigma_scale) {
 /// Accuracy of the pose of one sheet after stitching.
 struct StitchedSheet {
     std::string name;
-    /// Standard deviation, per axis, of the position of the top left corner of the sheet, relative
-    /// to the fixed sheet.
+    /// Standard deviation, per axis, of the sheet's top left corner, relative to the fixed sheet.
     double sigma_mm = 0;
     double sigma_rad = 0;  ///< standard deviation of the yaw
     bool is_fixed = false;
@@ -311,9 +311,9 @@ struct Seam {
     std::string first;
     std::string second;
     int frames = 0;
-    /// Rms difference, per axis, between the positions of a frame according to the two sheets.
+    /// Rms difference, per axis, between the frame positions computed from the two sheets.
     double residual_mm = 0;
-    /// Rms difference between the directions of a frame according to the two sheets.
+    /// Rms difference between the frame directions computed from the two sheets.
     double residual_rad = 0;
 };
 /// Position of the image centre of one frame on two sheets, relative to the first intersection of
@@ -340,11 +340,11 @@ struct Stitching {
     ScaleReference reference;  ///< reference for the print scales
 };
 
-/// Computes the world poses and print scales of sheets from frames that show parts of two sheets.
-/// Candidates for the fixed sheet are the sheets that some frame shows together with another sheet.
-/// The first candidate with a world pose is fixed and keeps this pose. If no sheet has a world
-/// pose, the first candidate is fixed and defines the world: its corner is the origin, and its
-/// upper edge is the x axis.
+/// Computes the world poses and print scales of sheets from frames that show parts of two sheets. A
+/// sheet is a candidate for the fixed sheet if some frame shows it together with another sheet. The
+/// first candidate with a world pose is fixed and keeps this pose. If no sheet has a world pose,
+/// the first candidate is fixed and defines the world: its corner is the origin, and its upper edge
+/// is the x axis.
 ///
 /// `camera` contains the lens and, for mounted cameras, the view of the paper. If the view is not
 /// known, it is fitted separately for each sheet in a frame. The poses are then less accurate, and

@@ -1,6 +1,6 @@
-/// Coverage of a lens calibration: the parts of the image, the places and the directions that the
-/// frames cover so far, and the requirements that are not met yet. Intended for programs that
-/// capture frames while the camera moves, such as `dotpose calibrate --live`.
+/// Coverage of a lens calibration: which parts of the image, places and directions the frames cover
+/// so far, and which requirements are not met yet. Intended for programs that capture frames while
+/// the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -32,18 +32,18 @@ inline constexpr double kWidestDot = 0.32;
 /// Required number of distinct places on the sheet at which frames were taken (see
 /// `CalibrationCoverage::places`).
 inline constexpr int kWantedPlaces = 4;
-/// Required number of distinct directions of the camera, counted in
-/// `CalibrationCoverage::kDirections` sectors. Frames in different directions are needed to
-/// distinguish lens distortion from a print that is stretched along one axis.
+/// Required number of distinct camera directions (see `CalibrationCoverage::directions`). Frames in
+/// different directions are needed to distinguish lens distortion from a print that is stretched
+/// along one axis.
 inline constexpr int kWantedDirections = 3;
-/// Maximum standard deviation of the undistorted position of the farthest corner of the image (see
-/// `corner_sigma_px`).
+/// Required accuracy of the lens: the maximum standard deviation of the undistorted position of the
+/// farthest image corner (see `corner_sigma_px`).
 inline constexpr double kWantedCornerSigma_px = 0.1;
 
 /// Returns the corner of the image that is farthest from the distortion centre.
 PixelPoint farthest_corner(const Camera& camera);
 
-/// Returns the standard deviation, in px, of the undistorted position of the farthest corner
+/// Returns the standard deviation, in px, of the undistorted position of the farthest image corner,
 /// relative to the middle of the image. It is computed from the standard deviations of `k_per_px2`
 /// and of the distortion centre. Assumes that the errors of k and of the centre are independent.
 /// Throws std::out_of_range if `camera.sigma` does not contain these standard deviations.

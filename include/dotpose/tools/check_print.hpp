@@ -1,4 +1,5 @@
-/// Print check: analyses a scan or photo of a printed sheet for faults of printer and paper.
+/// Print check: inspects a scan or photo of a printed sheet for faults of the printer and the
+/// paper.
 ///
 ///     CheckPrintOptions options;  // the pattern as it was printed
 ///     const ImageOrigin origin = read_origin("scan.png");  // image_file.hpp
@@ -64,9 +65,9 @@ struct CheckPrintOptions {
     std::function<bool(int done, int total)> progress;
 };
 
-/// Scale and angles of a print in a flatbed scan. They include the errors of the scanner. A second
-/// scan, with the page turned by 90 degrees, separates the errors of the printer from those of the
-/// scanner.
+/// Scale and angles of a print in a flatbed scan. They include the errors of the scanner. To
+/// separate the errors of the printer from those of the scanner, scan the page a second time,
+/// turned by 90 degrees.
 struct PrintScale {
     /// Ratio of the printed to the nominal length along the pattern's x axis.
     double scale_x = 1;
@@ -126,17 +127,17 @@ struct PrintField {
     int merged = 0;      ///< number of dots that touch a neighbour
     int dots = 0;        ///< number of dots found
     int bits_wrong = 0;  ///< number of wrong bits, at most two per dot found
-    /// Median diameter of the dots. The diameter of a dot is that of an equivalent disc (see
+    /// Median dot diameter. The diameter of a dot is defined as that of an equivalent disc (see
     /// CheckPrintOptions::ink_reflectance).
     double dot_mm = 0;
     /// Standard deviation of the diameter, from the median absolute deviation.
     double dot_sigma_mm = 0;
     double paper_level = 0;  ///< median grey level of blank paper
     double contrast = 0;     ///< darkness at the centres of the dots relative to the paper, 0 to 1
-    /// False if the sizes and the contrast cannot be measured, because of the blur and the tone
-    /// curve of a photo.
+    /// False if the sizes and the contrast cannot be measured due to the blur and tone curve of a
+    /// photo.
     bool are_sizes_measured = true;
-    /// False if missing and wrong dots cannot be detected, because of the noise of a photo.
+    /// False if missing and wrong dots cannot be detected due to the noise of a photo.
     bool are_dots_checked = true;
 
     double covered_share() const { return covered > 0 ? double(covered) / (covered + cells) : 0; }
@@ -163,12 +164,12 @@ enum class FindingKind {
     thin,          ///< dots are too small or too pale
     missing,       ///< dots are missing
     covered,       ///< other print covers some of the dots
-    /// Many bits are wrong, because dots are too far from their nominal places, or the page was
+    /// Many bits are wrong. Either dots are too far from their nominal places, or the page was
     /// printed in another code variant.
     bits_wrong,
     too_coarse,     ///< the scan has too few pixels per dot
     pale,           ///< the contrast of the dots is low
-    no_resolution,  ///< the scale could not be checked, because the resolution is not known
+    no_resolution,  ///< the resolution is not known, so the scale could not be checked
     contradiction,  ///< resolution and spacing contradict each other
     repeated,       ///< the page contains the same cells more than once
     unknown_sheet,  ///< the cells are not on any of the given sheets
@@ -224,9 +225,9 @@ struct PrintCheck {
     /// patch is the one with the dot diameter closest to a sixth of the spacing. Patches with many
     /// faulty cells are excluded.
     std::vector<std::size_t> best_per_spacing;
-    /// Index of the best patch overall: the best patch with the finest spacing, because more dots
-    /// of a finer pattern are in view. Equals `best_per_spacing.front()`. Valid only if
-    /// `best_per_spacing` is not empty.
+    /// Index of the best patch overall: the best patch with the finest spacing. A finer pattern is
+    /// better because more of its dots are in view. Equals `best_per_spacing.front()`. Valid only
+    /// if `best_per_spacing` is not empty.
     std::size_t best = 0;
     std::vector<Finding> findings;
 };

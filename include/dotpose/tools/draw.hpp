@@ -53,8 +53,8 @@ struct DrawOptions {
     std::string reason{};
 };
 
-/// Draws the last frame that a Locator processed, with all stages that it reached. `image` must be
-/// the located image, and `DeviceOptions::show_stages` must be set.
+/// Draws the last frame that a Locator processed, with all stages that the frame reached. `image`
+/// must be the image of this frame, and `DeviceOptions::show_stages` must be set.
 ///
 /// The left panel shows the image with a ring around each dot, the symmetric connections of the
 /// neighbour search, and the origin of the grid (paper, figures 2 and 3). Below the panel, the same
@@ -124,8 +124,8 @@ void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 /// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the deviations of the dots in all fields (`PrintField::distortion`), enlarged, over the
-/// outline of the scan.
+/// Draws enlarged deviations of the dots in all fields (`PrintField::distortion`) over the outline
+/// of the scan.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

@@ -6,9 +6,8 @@
 ///     run.frame_at = frames_of_folder("frames", rows);
 ///     const Score score = score_of(evaluate(run).front());
 ///
-/// `frames_of_setup` simulates the frames instead. `run_protocol` (protocol.hpp) repeats the
-/// paper's own experiment (section IV). `run_sweep` (sweep.hpp) degrades one condition step by
-/// step.
+/// `frames_of_setup` simulates the frames instead. `run_protocol` (protocol.hpp) simulates the
+/// paper's experiment (section IV). `run_sweep` (sweep.hpp) degrades one condition step by step.
 ///
 /// Apart from times, results depend only on the frames, not on the number of threads. The functions
 /// share no state. They throw Error for problems with files and BadArgument for invalid arguments.
@@ -64,8 +63,8 @@ struct FrameRun {
     FrameSource frame_at;
     /// Sets of options for `locate`. Every frame is located with each of them.
     std::vector<DeviceOptions> options = {DeviceOptions{}};
-    /// True to detect the code variant of each frame for which `KnownFrame::code` is not set. Each
-    /// frame is judged independently of the other frames.
+    /// True to detect the code variant of each frame for which `KnownFrame::code` is not set. The
+    /// code variant is detected independently for each frame.
     bool any_code = false;
     /// Refines a fix with the trace of the frame, for example by calling `with_camera`. If empty,
     /// fixes are not refined. Called from several threads. The time of the refinement is not

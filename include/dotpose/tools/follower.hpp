@@ -1,4 +1,4 @@
-/// Follower: locates images on the sheets of a sheet file and follows a robot over them.
+/// Follower: locates images on the sheets of a sheet file and follows a robot over these sheets.
 ///
 ///     FollowerOptions options;
 ///     options.sheets = read_sheets("sheets.json");
@@ -52,8 +52,8 @@ struct FollowerOptions {
     /// True to flip images left to right before they are located. Has the same effect as `flip` in
     /// a camera file. All pixel coordinates refer to the flipped images.
     bool flip = false;
-    /// Reference pixel of the pose. Replaces the image centre and the reference point in the camera
-    /// file.
+    /// Reference pixel of the pose. Overrides the reference point in the camera file and the
+    /// default, which is the image centre.
     std::optional<PixelPoint> reference_px;
     /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
     /// a camera file with a focal length.
@@ -67,13 +67,13 @@ struct FollowerOptions {
 
 /// The result for a single image.
 struct Located {
-    /// The pose of the reference point, corrected by the camera file if there is one.
+    /// The pose of the reference point, corrected with the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix, or none if it is not on any sheet
     /// Code variant of the fix and, if there is one, a place in another code variant that also
     /// explains the image. In results of `locate`, `reading.fix` is the fix before the correction
-    /// by the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong` does
-    /// not include the prior (see Followed).
+    /// with the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong`
+    /// does not include the prior (see Followed).
     CodeReading reading;
     /// Nominal spacing, in mm, of the sheet that contains the fix. If the fix is not on any sheet,
     /// this is the common spacing of all sheets, or NaN if the sheets differ in spacing. If there
@@ -161,15 +161,16 @@ class Follower {
     /// camera is invalid, or if it has no focal length and poses in space are required.
     void set_camera(const Camera& camera);
 
-    /// Return results for the latest image: the image that was located (possibly flipped, reduced,
-    /// or corrected by the flat field), the options that were used, and the trace of the stages.
+    /// Return results for the latest image: the image that was located (possibly flipped,
+    /// downscaled, or corrected with the flat field), the options that were used, and the trace of
+    /// the stages.
     ImageView image() const { return image_; }
     const DeviceOptions& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
 
   private:
     struct Found {
-        Fix seen;  ///< fix before the correction by the camera file
+        Fix seen;  ///< fix before the correction with the camera file
         Fix fix;
         std::optional<SheetPlace> place;  ///< place of `seen`
         CodeReading reading;

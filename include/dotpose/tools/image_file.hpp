@@ -47,12 +47,12 @@ struct ImageTooLarge : Error {
     int height_px;
 };
 
-/// Reads one image. Reading needs up to 15 bytes of memory per pixel in addition to the file. Files
-/// larger than 8 * max_pixels bytes + 1 MiB are refused. `page` is the page number in a TIFF file,
-/// from 1. Throws Error with the name of the file and the reason: no such page, no such file, a
-/// directory, no permission, empty, unknown image format, truncated, damaged, too large, not enough
-/// memory. Throws ImageTooLarge if the image has more than `max_pixels` or kMaxImagePixels pixels.
-/// Thread-safe.
+/// Reads one image. Reading needs up to 15 bytes of memory per pixel, in addition to the contents
+/// of the file. Files larger than 8 * max_pixels bytes + 1 MiB are refused. `page` is the page
+/// number in a TIFF file, from 1. Throws Error with the name of the file and the reason: no such
+/// page, no such file, a directory, no permission, empty, unknown image format, truncated, damaged,
+/// too large, not enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or
+/// kMaxImagePixels pixels. Thread-safe.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 

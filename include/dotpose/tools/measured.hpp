@@ -52,7 +52,7 @@ struct MeasuredFrame {
 struct Similarity {
     double middle_x_mm = 0;  ///< mean of the found places
     double middle_y_mm = 0;
-    double shift_x_mm = 0;  ///< true minus found position of the middle
+    double shift_x_mm = 0;  ///< true position of the middle minus its found position
     double shift_y_mm = 0;
     /// Rotation angle, with the sign convention of the coordinate frame.
     double turn_rad = 0;
@@ -75,8 +75,8 @@ struct MeasuredError {
     double y_mm = 0;
     std::optional<double> angle_rad;  ///< none if the true angle is not known
     /// True if the fix is wrong: there is no true place, the true place is on another sheet, or the
-    /// error of position or angle is too large. An error is too large if it exceeds both a fixed
-    /// limit (half a spacing, 2 degrees) and ten times the median error.
+    /// position or angle error is too large. An error is too large if it exceeds both a fixed limit
+    /// (half a spacing, 2 degrees) and ten times the median error.
     bool is_wrong = false;
 };
 
@@ -99,7 +99,8 @@ struct Measurement {
     Spread y_um;
 };
 
-/// Compares found and true places, after the alignment if there is one.
+/// Compares the found places with the true places. If there is an alignment, applies it to the
+/// found places first.
 Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Similarity>& alignment);
 
 /// Returns the result as (name, value) pairs for tables.
@@ -109,7 +110,7 @@ std::vector<std::pair<std::string, std::string>> described(const Measurement& me
 void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
 /// Writes positions.csv, figure-13 and figure-14. If the true angles are not all equal, also writes
-/// angles.csv and figure-15. They correspond to the figures with the same numbers in the paper.
+/// angles.csv and figure-15. The figures correspond to those with the same numbers in the paper.
 /// Each figure is written as .svg and .png. Frames with the same true place are treated as samples
 /// of one position. Throws Error if no frame has a true place, or if a file cannot be written.
 void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);

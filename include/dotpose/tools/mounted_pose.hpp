@@ -59,7 +59,7 @@ struct MovingFix {
 MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
                                    const AxisScale& print = {});
 
-/// A MovingFix, corrected by a map of the print if `map_use` is MapUse::used.
+/// A MovingFix, corrected with a map of the print if `map_use` is MapUse::used.
 struct MappedMovingFix {
     Fix fix;
     std::optional<ReadoutVelocity> velocity;
@@ -78,7 +78,7 @@ MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const 
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
 /// Maximum relative difference between the nominal and the measured spacing of a sheet. It is
-/// larger than the scale changes within the depth of field of a camera close to the paper, but
+/// larger than the scale variation within the depth of field of a camera close to the paper, but
 /// smaller than the 3 % by which a printer driver may shrink the page.
 inline constexpr double kMaxSpacingDifference = 0.025;
 

@@ -48,8 +48,7 @@ struct OverlayOptions {
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.
     /// All pages with dots must have the same size. Cards have no links or form fields, and pages
-    /// without dots are omitted. If none, each page of the document is printed as a page of its
-    /// own.
+    /// without dots are omitted. If not set, each page of the document remains a separate page.
     std::optional<Paper> card_paper;
     /// True to draw the dots below the content of the page instead of above it.
     bool under = false;

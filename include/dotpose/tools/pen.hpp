@@ -1,5 +1,5 @@
-/// Pen: the place and height of the tip of a pen that contains the camera. The camera file must
-/// contain the focal length and the tip (see `calibrate_pivot`).
+/// Pen: computes the position and height of a pen's tip from the pose of the camera in the pen. The
+/// camera file must contain the focal length and the tip (see `calibrate_pivot`).
 ///
 ///     if (const auto pose = space_pose(fix, camera, image, trace)) {
 ///         const TipPose tip = tip_of(*pose, *camera.tip, camera.sigma);
@@ -24,9 +24,9 @@ namespace dotpose {
 struct TipPose {
     double x_mm = 0;
     double y_mm = 0;
-    double height_mm = 0;  ///< height above the paper, or 0 while the pen rests on the paper
-    /// Covariance of (x_mm, y_mm, height_mm). Includes the errors of the pose, and of the tip in
-    /// the camera file.
+    double height_mm = 0;  ///< height above the paper, nominally 0 while the pen rests on the paper
+    /// Covariance of (x_mm, y_mm, height_mm). Includes the errors of the pose and of the tip
+    /// position in the camera file.
     std::array<std::array<double, 3>, 3> covariance{};
 
     /// Returns the standard deviation along an axis: 0 for x, 1 for y, 2 for the height.
@@ -46,8 +46,8 @@ TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
 /// be on the paper again once its height falls below `kLift_mm`.
 class PenContact {
   public:
-    /// Maximum height by which paper on a table rises above the nominal plane. The height is not 0
-    /// because paper is not perfectly flat.
+    /// Assumed maximum height of paper on a table above its nominal plane. It is not 0 because
+    /// paper is not perfectly flat.
     static constexpr double kLift_mm = 0.05;
 
     /// `is_down` is the state before the first pose.

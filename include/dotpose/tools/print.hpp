@@ -56,10 +56,10 @@ struct SheetOptions {
 
 /// Lays out a sheet: fills the page inside its margins with whole cells, from the top left.
 ///
-/// The top left intersection is the first intersection with these properties: its dot is inside the
-/// margins, and its coordinates are odd multiples of half a 300 dpi printer pixel. With these
-/// coordinates, every dot of the default pattern covers whole printer pixels at 300, 600 and 1200
-/// dpi (paper, section III-A.1, figure 11).
+/// The top left intersection is as far to the top left as two conditions permit: its dot must be
+/// inside the margins, and its coordinates must be odd multiples of half a 300 dpi printer pixel.
+/// With these coordinates, every dot of the default pattern covers whole printer pixels at 300, 600
+/// and 1200 dpi (paper, section III-A.1, figure 11).
 ///
 /// Throws BadArgument if the options do not give a valid sheet (see `validate`), if the margins
 /// leave less space than kMinSheetCells columns and rows, or if the region would extend past the
@@ -67,8 +67,8 @@ struct SheetOptions {
 Sheet make_sheet(const SheetOptions& options);
 
 /// Lays out `pages` sheets with adjacent regions that share no cell. Each region begins to the
-/// right of the previous one. At the right end of the plane, the regions continue below, starting
-/// at `options.origin.x`.
+/// right of the previous one. When the right edge of the plane is reached, the next region is
+/// below, at `options.origin.x`.
 ///
 /// Throws BadArgument in the cases listed for `make_sheet`, and if `pages` is outside [1,
 /// kMaxPages].
@@ -119,8 +119,8 @@ struct PrintOptions {
     bool labels = true;
     std::string name;     ///< PDF only: the first label, and the title of the document
     std::string command;  ///< PDF only: label with the command that reprints the sheet
-    /// PDF only: separate commands for each page, in the order of the sheets. If not empty, they
-    /// replace `command`.
+    /// PDF only: one command for each page, in the order of the sheets. If not empty, these
+    /// commands replace `command`.
     std::vector<std::string> page_commands;
     int first_page = 1;  ///< PDF only: page number of the first sheet, as shown in the labels
     /// PDF only: total number of pages, as shown in the labels. If 0, the labels show the number of
@@ -141,8 +141,8 @@ struct PrintOptions {
 ///
 /// Throws BadArgument in the same cases as `print_format`, `validate` and `validate_resolution`,
 /// and for DotDrawing::glyphs if a length is not an integer multiple of the pixel size. Throws
-/// Error if the file cannot be created or written (with the system's reason), or if `progress`
-/// returned false.
+/// Error if the file cannot be created or written, with the system's error message, or if
+/// `progress` returned false.
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
 

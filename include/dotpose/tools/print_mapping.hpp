@@ -33,7 +33,7 @@ namespace dotpose {
 struct PrintMappingOptions {
     std::vector<SheetEntry> sheets;  ///< the pages that may be in view
     /// Lens and view of the camera. Without a camera file, the lens is assumed to have no
-    /// distortion, and the view is taken from the fixes.
+    /// distortion, and the view is computed from the fixes.
     std::optional<Camera> camera;
     /// Earlier map of some of the sheets. The frames update this map. Pages seen in fewer than
     /// `PrintMapping::kMinFrames` frames are copied from it unchanged.
@@ -46,19 +46,20 @@ struct MappedPage {
     std::size_t frames = 0;        ///< number of frames used
     std::size_t dots = 0;          ///< number of dots on the page
     std::size_t seen = 0;          ///< number of dots that were seen
-    std::size_t observations = 0;  ///< number of measured dots in all frames
-    std::size_t outliers = 0;      ///< number of measured dots that were rejected as outliers
+    std::size_t observations = 0;  ///< number of dot measurements in all frames
+    std::size_t outliers = 0;      ///< number of dot measurements rejected as outliers
     double noise_mm = 0;           ///< standard deviation of a measured dot centre, per axis
     /// Standard deviation of the print jitter, per axis (see MapPage::jitter).
     double jitter_mm = 0;
-    /// Rms smooth distortion of the page, per axis: the rms offset of the dots after subtraction of
+    /// Rms smooth distortion of the page, per axis: the rms offset of the dots after subtracting
     /// the jitter variance.
     double slow_mm = 0;
-    /// True if all frames had the same scale, because the camera was mounted at a constant height.
+    /// True if the camera was mounted at a constant height, so all frames had the same scale.
     bool is_rigid = true;
     int iterations = 0;  ///< number of conjugate gradient iterations in the last round
     /// Standard deviation of the map error in a view, per axis (see MapErrors): the rms value over
-    /// all dots that were seen. 0 if unknown, because the earlier map does not contain its errors.
+    /// all dots that were seen. 0 if it is unknown because the earlier map does not contain its
+    /// errors.
     double error_mm = 0;
 };
 
@@ -68,8 +69,8 @@ struct PrintMapResult {
     std::size_t frames = 0;         ///< number of input frames
 };
 
-/// Collects the dots in frames, and computes the map. Needs 12 bytes of memory for each dot in each
-/// frame.
+/// Collects the dots of many frames, and computes the map from them. Needs 12 bytes of memory for
+/// each dot in each frame.
 class PrintMapping {
   public:
     /// Throws BadArgument if there are no sheets, or if a sheet or the camera is not valid. Throws
@@ -79,9 +80,9 @@ class PrintMapping {
     PrintMapping(PrintMapping&&) noexcept;
     PrintMapping& operator=(PrintMapping&&) noexcept;
 
-    /// Locates a frame, and stores its dots for `solve`. Returns false if the frame is not used,
-    /// because it shows none of the sheets, or fewer than 20 dots of a sheet. Throws BadArgument if
-    /// the image does not have the size in the camera file.
+    /// Locates a frame and stores its dots for `solve`. Returns false and ignores the frame if it
+    /// shows none of the sheets, or fewer than 20 dots of a sheet. Throws BadArgument if the image
+    /// size differs from the size given in the camera file.
     bool add(const ImageView& image);
 
     /// Minimum number of frames required to map a page.
@@ -97,7 +98,7 @@ class PrintMapping {
     std::unique_ptr<State> state_;
 };
 
-/// A fix, corrected by a map if `use` is MapUse::used.
+/// A fix, corrected with a map if `use` is MapUse::used.
 struct MappedFix {
     Fix fix;
     MapUse use = MapUse::no_map;
@@ -106,8 +107,8 @@ struct MappedFix {
 /// Corrects a fix with a map of the print, given the trace of the frame. Fits the place, angle and
 /// scale to the dots at their mapped places. Also fits perspective and shear if they are
 /// significant. The covariance is that of the absolute position on the page. It is computed from
-/// the residuals and from the error of the map (`MapPage::error_covariance`), so it does not
-/// include the errors of the print. Fixes at the same place share the same map error. To obtain the
+/// the residuals and from the error of the map (`MapPage::error_covariance`). It does not include
+/// the errors of the print. Fixes at the same place share the same map error. To obtain the
 /// covariance of the difference between two such fixes, first subtract the covariance of the map
 /// error from the covariance of each fix.
 ///

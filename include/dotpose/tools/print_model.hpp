@@ -9,16 +9,16 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// A model of the errors of a printer over a page: a smooth, low-frequency shift of the ink. The
-/// shape of the shift is invented, not measured. By default, the maximum errors in the area are
-/// those of Table III of the paper, rounded down to 0.01 mm: 0.15 mm along x, and 0.27 mm along y,
-/// the direction of paper feed.
+/// shape of the shift is invented, not measured. By default, the maximum errors in an area of
+/// kSide_mm x kSide_mm are those of Table III of the paper, rounded down to 0.01 mm: 0.15 mm along
+/// x, and 0.27 mm along y, which is the direction of paper feed.
 class PrintModel {
   public:
     /// Side of the square area to which the maximum errors apply.
     static constexpr double kSide_mm = 200;
 
-    /// `worst_x_mm` and `worst_y_mm` are the maximum errors along x and y, over the positions in
-    /// the area at which `run_protocol` measures.
+    /// `worst_x_mm` and `worst_y_mm` are the maximum errors along x and y, over the positions that
+    /// `run_protocol` uses.
     PrintModel(double worst_x_mm = 0.15, double worst_y_mm = 0.27);
 
     /// Returns printed minus intended position, at a position relative to the middle of the area.

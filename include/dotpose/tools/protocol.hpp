@@ -30,9 +30,10 @@ struct ProtocolOptions {
     Progress progress;
 };
 
-/// Error of one coordinate while the device is at rest.
+/// Error statistics of one coordinate while the device is at rest.
 struct Spread {
-    /// Mean of found minus true values. The paper calls its magnitude "accuracy".
+    /// Mean error: the mean of the measured minus the true values. The paper calls its magnitude
+    /// "accuracy".
     double bias = 0;
     /// Standard deviation. The paper calls it "precision".
     double sigma = 0;
@@ -52,7 +53,8 @@ struct Station {
 
 /// The results of the experiment on one page.
 struct ProtocolResult {
-    /// Results at 11 x 11 positions in the area of 200 x 200 mm, in a spiral from the middle.
+    /// Results at a grid of 11 x 11 positions in the 200 x 200 mm area, in spiral order from the
+    /// middle outwards.
     std::vector<Station> positions;
     std::vector<Station> angles;  ///< results at 36 angles at the middle position
 };

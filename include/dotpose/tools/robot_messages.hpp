@@ -10,16 +10,16 @@
 /// Coordinate frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105):
 /// - `map` is the world frame of the sheet file or, without a sheet file, the pattern frame with y
 ///   up and the same origin.
-/// - `odom` begins at the first pose of the robot.
-/// - `base_link` is at the point on the paper that the reference pixel in the camera file shows,
-///   with the robot's heading. Without a camera file, `base_link` is at the point under the image
-///   centre, with x along the image x axis.
+/// - The origin of `odom` is the first pose of the robot.
+/// - The origin of `base_link` is the point on the paper at the reference pixel in the camera file.
+///   Its x axis is along the robot's heading. Without a camera file, the origin is the point under
+///   the image centre, and the x axis is along the image x axis.
 ///
-/// `camera_optical` is the camera, with z along the optical axis and x and y along the axes of the
-/// image. Its parent is `base_link`, in which its pose is constant (`camera_mount`). With poses in
-/// space (`FollowerOptions::fits_space_pose`), its parent is `map`, and each image gives a new
-/// pose. In that case, do not publish the mount, because a coordinate frame can have only one
-/// parent.
+/// `camera_optical` is the optical frame of the camera: z is along the optical axis, and x and y
+/// are along the axes of the image. By default, its parent is `base_link`, and its pose is constant
+/// (see `camera_mount`). If poses in space are fitted (`FollowerOptions::fits_space_pose`), its
+/// parent is `map`, and each image gives a new pose. In that case, do not publish the mount,
+/// because a coordinate frame can have only one parent.
 ///
 /// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
 /// robot is found again after being lost or moved by hand, and when the robot enters another plane.
@@ -105,8 +105,8 @@ struct RobotFrames {
 
 /// Returns the frame names with `prefix`, for example "anna/", prepended to the frames of the
 /// robot: `odom`, `base` and `camera`. Robots with different prefixes share one transform tree with
-/// a common `map`. Throws BadArgument if ROS does not allow the prefix, because it begins with a
-/// slash or contains a space or a control character.
+/// a common `map`. Throws BadArgument if the prefix is not allowed in ROS: it must not begin with a
+/// slash, or contain spaces or control characters.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
 /// Messages for one camera frame. `pose` is none if there is no fix. `odometry` is none while the

@@ -1,5 +1,5 @@
 /// ROS 2 messages without a dependency on ROS: plain structs with the names and members of the
-/// common message packages, their serialisation, and their definitions as text.
+/// common message packages, together with their serialisation and their text definitions.
 ///
 ///     PoseWithCovarianceStamped message;
 ///     message.header = {ros_time(time_ns), "map"};
@@ -139,8 +139,8 @@ struct CompressedImage {
     std::vector<std::uint8_t> data;
 };
 
-/// Serialises a message in the ROS 2 format: the encapsulation header of four bytes, then CDR
-/// (XCDR1), little endian.
+/// Serialises a message in the ROS 2 format: a four-byte encapsulation header, followed by
+/// little-endian CDR (XCDR1).
 std::vector<std::uint8_t> to_cdr(const PoseWithCovarianceStamped& message);
 std::vector<std::uint8_t> to_cdr(const Odometry& message);
 std::vector<std::uint8_t> to_cdr(const TFMessage& message);

@@ -29,8 +29,8 @@ Quantiles quantiles_of(std::vector<double> values);
 
 /// Counts and error statistics of many frames.
 struct Score {
-    /// Number of frames that could be read. `unreadable` is the number of other frames. Each frame
-    /// that could be read is located, is wrong, or has a status other than ok.
+    /// Number of frames that could be read. `unreadable` is the number of other frames. Each
+    /// readable frame has a correct fix, a wrong fix, or a status other than ok.
     int frames = 0;
     int unreadable = 0;
     int located = 0;  ///< number of correct fixes

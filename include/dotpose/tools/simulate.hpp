@@ -9,14 +9,14 @@
 ///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
 ///     const GreyImage image = render(shot);
 ///
-/// Each frame depends only on (setup, i), and is bit-identical on all machines, for any order of
-/// rendering and any number of threads. All functions are pure and thread-safe. Functions throw
-/// BadArgument for invalid values.
+/// Each frame depends only on (setup, i), and is bit-identical on all machines, regardless of the
+/// rendering order and the number of threads. All functions are pure and thread-safe. Functions
+/// throw BadArgument for invalid values.
 ///
-/// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
-/// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
-/// the pose point, which is the pattern point under the image centre. Offsets are small numbers, so
-/// their rounding errors are negligible, although the plane is 2.1e8 mm wide.
+/// Coordinate frames: *pixel* (the centre of the first pixel is (0, 0), v down), *pattern* (x
+/// right, y DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame,
+/// relative to the pose point, which is the pattern point under the image centre. Offsets are small
+/// numbers, so their rounding errors are negligible, although the plane is 2.1e8 mm wide.
 #pragma once
 
 #include <array>
@@ -86,7 +86,7 @@ struct CameraPose {
 double x_grid(const CameraPose& pose);
 double y_grid(const CameraPose& pose);
 
-/// Effects of printer, paper, light and sensor on a frame. The defaults are those of the preset
+/// Effects of the printer, paper, light and sensor on a frame. The defaults are those of the preset
 /// `clean`, in which all of these effects are absent. Fractions and reflectances are in [0, 1].
 /// Sigmas, lengths and counts must not be negative.
 struct Imperfections {
@@ -204,8 +204,8 @@ class Projection {
     /// row is read. Points are in px from the centre of the undistorted image. `time` is in units
     /// of the readout time, from the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
-    /// Returns the displacement of the pose point in the undistorted image, along an arc, from the
-    /// time of the middle row to `time`.
+    /// Returns the displacement of the pose point in the undistorted image between the time of the
+    /// middle row and `time`. The pose point moves along an arc.
     Vec2 way_at(double time) const;
 
     Vec2 centre_px_;
@@ -229,8 +229,8 @@ GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& 
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// A page in the form of an image, for example a PDF rendered at 1200 dpi. Grey levels between its
-/// pixels are interpolated linearly.
+/// A page given as an image, for example a PDF rendered at 1200 dpi. Grey levels between its pixels
+/// are interpolated linearly.
 struct PageImage {
     /// Grey level 255 is bare paper, and 0 is solid ink. Unlimited paper surrounds the page.
     ImageView image;
@@ -271,8 +271,9 @@ Shot draw_shot(const Setup& setup, std::uint64_t index);
 
 /// A view that is only partly covered by the pattern.
 struct PartialView {
-    /// Number of separate rectangles anywhere in the image, each with at least `kMinIslandDots`
-    /// dots. 0 for one area along a border or in a corner of the image.
+    /// Number of separate rectangles with dots, anywhere in the image. Each rectangle contains at
+    /// least `kMinIslandDots` dots. If 0, there is a single area with dots, along a border or in a
+    /// corner of the image.
     int islands = 0;
     static constexpr int kMinIslandDots = 60;
     /// Minimum and maximum fraction of the image that the single area covers. The area has at least
@@ -284,10 +285,10 @@ struct PartialView {
     bool on_table = false;
 };
 
-/// Chooses the areas with dots and the edge of the paper at random, from the shot's seed. Areas are
-/// aligned either with the pattern or with the image, with equal probability. Throws BadArgument if
-/// 0 < `min_share` <= `max_share` <= 1 does not hold, if the number of islands is outside [0, 16],
-/// or if there is no room for the islands.
+/// Chooses the areas with dots and the edge of the paper at random, using the shot's seed. Areas
+/// are aligned either with the pattern or with the image, with equal probability. Throws
+/// BadArgument if 0 < `min_share` <= `max_share` <= 1 does not hold, if the number of islands is
+/// outside [0, 16], or if there is no room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 /// Renders a shot.
@@ -303,7 +304,7 @@ enum class Scene : std::uint8_t {
     plain_grid,      ///< dots on the intersections, not displaced
     random_symbols,  ///< a perfect grid with random symbols
     scattered_dots,  ///< dots at random places, `density` per grid cell
-    checkerboard,    ///< squares of two grid spacings
+    checkerboard,    ///< squares with a side of two grid spacings
     seam_vertical,   ///< two sections side by side, with the border through the image centre
     /// Two sections, one above the other, with the border through the image centre.
     seam_horizontal,

@@ -18,9 +18,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Pose of a pen. The angles are those of `CameraLean`: the camera first looks straight at the
-/// paper, is then turned about its optical axis, and finally leans over by the tilt in the
-/// direction of the azimuth.
+/// Pose of a pen. The angles are those of `CameraLean`: a camera that looks straight at the paper
+/// is first rotated by `turn_rad` about its optical axis, and then leans by `tilt_rad` in the
+/// direction `azimuth_rad`.
 struct PenPose {
     double x_mm = 0;  ///< place of the tip in the pattern frame
     double y_mm = 0;

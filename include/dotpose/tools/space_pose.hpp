@@ -51,10 +51,10 @@ struct CameraInSpace {
     Quaternion rotation;  ///< rotates vectors from the camera frame into the frame of the pose
 };
 
-/// A rotation as three angles in the pattern or sheet frame: the camera first looks straight at the
-/// paper, is then turned about its optical axis, and finally leans over by the tilt in the
-/// direction of the azimuth. W3C Pointer Events use these angles for pens. The tilt is 90 degrees
-/// minus the altitude.
+/// A rotation as three angles in the pattern or sheet frame: a camera that looks straight at the
+/// paper is first rotated by `turn_rad` about its optical axis, and then leans by `tilt_rad` in the
+/// direction `azimuth_rad`. W3C Pointer Events use these angles for pens, but specify the altitude
+/// (90 degrees minus the tilt) instead of the tilt.
 struct CameraLean {
     /// Angle between the optical axis and the normal of the paper, in [0, pi].
     double tilt_rad = 0;
@@ -132,7 +132,7 @@ struct CameraInWorld {
     double y_m = 0;
     double z_m = 0;
     Quaternion rotation;  ///< rotates vectors from the camera frame into the world frame
-    /// Covariance of the position, in metres, and of a small rotation vector in the WORLD, in
+    /// Covariance of the position, in metres, and of a small rotation vector in the WORLD frame, in
     /// radians: true rotation = exp(rotation vector) * `rotation`, as in the ROS message
     /// geometry_msgs/PoseWithCovariance. The pose of the page is assumed to be exact.
     SpaceCovariance covariance{};

@@ -14,8 +14,8 @@
 /// any other frame in mm.
 ///
 /// Printing errors are equal in all frames that show the same dots. The tracker estimates which
-/// fraction of a sighting's covariance is independent between sightings. It smooths only this
-/// fraction. The rest is part of the covariance of the track, because averaging does not reduce it.
+/// fraction of a sighting's covariance is due to errors that are independent between sightings.
+/// Only this fraction is reduced by smoothing. The rest is added to the covariance of the track.
 #pragma once
 
 #include <array>
@@ -75,8 +75,7 @@ enum class SpaceVerdict : std::uint8_t {
     accepted,         ///< the first pose was used
     second_accepted,  ///< the second pose was used, because it agrees better with the track
     /// The sighting was rejected. Either the track contradicts it, or it is ambiguous and the track
-    /// does not decide between its poses. An ambiguous sighting is also rejected if there is no
-    /// track.
+    /// does not resolve the ambiguity. An ambiguous sighting is also rejected if there is no track.
     rejected,
 };
 /// Returns the identifier, such as "second_accepted".
@@ -125,9 +124,9 @@ struct Motion {
     std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
     std::array<double, kStates * kStates> covariance{};
     /// Process noise along each axis: the ratio of the variance of the acceleration noise to the
-    /// variance in the options. The first three axes are those of the position, after subtraction
-    /// of the position error that is correlated with the rotation error of the sighting. The last
-    /// three axes are those of the rotation.
+    /// variance in the options. The first three axes are those of the position, from which the
+    /// position error that is correlated with the sighting's rotation error has been subtracted.
+    /// The last three axes are those of the rotation.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
     /// Innovation of the latest accepted sighting, along the axes of `agility`.
     std::array<double, 6> innovation{};
@@ -171,8 +170,8 @@ class SpaceTracker {
     space_track::Motion motion_;
     std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
     // The newest unambiguous sighting that was rejected after `accepted_us_`. `rejections_` is the
-    // length of the run of rejected sightings that ends with it. In a run, each sighting is
-    // consistent with the previous one.
+    // length of the run of rejected sightings that ends with this sighting. In a run, each sighting
+    // is consistent with the previous one.
     std::optional<SpaceSighting> rejected_;
     int rejections_ = 0;
 };

@@ -21,10 +21,11 @@ namespace dotpose {
 enum class SweepKind : std::uint8_t {
     noise,    ///< sensor noise, grey levels
     blur,     ///< sigma of the lens blur, px
-    missing,  ///< dots not printed, %
+    missing,  ///< fraction of dots that are not printed, %
     tilt,     ///< tilt of the camera about a random axis in the image, degrees
     spacing,  ///< grid spacing in the image, px
-    /// Percentage of the image covered by a dark area with a straight edge, from a random side.
+    /// Percentage of the image covered by a dark area, which extends from a random side and has a
+    /// straight edge.
     occlusion,
 };
 /// All values of SweepKind, for iteration.
@@ -36,7 +37,7 @@ const char* name(SweepKind kind);
 
 /// Options for a sweep.
 struct SweepOptions {
-    Setup setup;  ///< setup of all frames, except for the varied condition
+    Setup setup;  ///< setup of all frames, apart from the varied condition
     /// Number of frames per value. Frames with the same index differ only in the varied condition.
     int frames_per_value = 200;
     /// Options for `locate`. Both decoders are run, so `decoder` is ignored.

@@ -20,9 +20,9 @@ struct Bits {
     std::int8_t y = 0;
 };
 
-/// Returns the bits of a cell, rotated to the upright pattern. A quarter turn maps the displacement
-/// (x, y) to (-y, x). It therefore maps the projections (y - x, y + x) to (x + y, x - y) (paper,
-/// equations 7 and 8).
+/// Returns the bits of a cell after rotation to the upright orientation of the pattern. A quarter
+/// turn maps the displacement (x, y) to (-y, x). It therefore maps the projections (y - x, y + x)
+/// to (x + y, x - y) (paper, equations 7 and 8).
 constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     const auto minus_x = static_cast<std::int8_t>(-cell.x);
     const auto minus_y = static_cast<std::int8_t>(-cell.y);
@@ -38,7 +38,7 @@ constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     }
 }
 
-/// A region of the grid, rotated to the upright pattern.
+/// A region of the grid, rotated so that the pattern is upright.
 class Upright {
   public:
     Upright(const Grid& grid, const GridRegion& region, QuarterTurn pattern_from_grid)

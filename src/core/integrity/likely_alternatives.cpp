@@ -196,10 +196,10 @@ class Finder {
         visit_pairs([](std::uint16_t& newest, std::uint16_t) { newest = kNone; });
     }
 
-    /// Adds the odds of the alternative with the given places, at the shift where it shares the
-    /// first shared line. Adds nothing if the alternative does not share exactly the lines passed
-    /// to `set_pattern`, or if it differs from the reading in fewer than two sequences. `indices`
-    /// are indices into the lists of places.
+    /// Adds the odds of one alternative. `indices` selects its place in each list of places. The
+    /// shift is the one at which the alternative shares the first of the lines passed to
+    /// `set_pattern`. Adds nothing if the alternative does not share exactly those lines, or if it
+    /// differs from the reading in fewer than two sequences.
     void add(const std::array<std::size_t, 4>& indices) {
         const auto& [a, b, c, d] = indices;
         RollOffsets shifts;

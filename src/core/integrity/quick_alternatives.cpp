@@ -68,10 +68,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // Each element belongs to a line, and is log2 of the summed odds of the alternatives whose
-    // current run of shared lines begins at this line. All sums in this function are divided by the
-    // probability that all digits so far are equal. An element therefore does not change while its
-    // alternatives continue to share lines.
+    // Each element corresponds to one line and contains log2 of the summed odds of the alternatives
+    // whose current run of shared lines begins at this line. All sums in this function are divided
+    // by the probability that all digits so far are equal. An element therefore does not change
+    // while its alternatives continue to share lines.
     std::array<int, kMaxShared + kMaxLines> sharing;
     // pairs[n] is log2 of the sum of the odds in sharing[n] and sharing[n - 1]. Adding pairs halves
     // the number of additions.

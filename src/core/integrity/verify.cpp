@@ -63,8 +63,8 @@ struct Doubt {
     std::array<int, 2> by_chance_q8{};
 };
 
-/// Computes the odds per bit and the bounds on chance from the agreement of the x and y bits with
-/// the code. Sets `decoding.bits` and `fix.bit_errors`.
+/// Computes the odds per bit and the bounds on the probability of a chance match from the agreement
+/// of the x and y bits with the code. Sets `decoding.bits` and `fix.bit_errors`.
 Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptions& options,
                Decoding& decoding, Fix& fix) {
     decoding.bits = agreements[0].bits() + agreements[1].bits();
@@ -94,8 +94,9 @@ Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOpt
 }
 
 /// Returns an upper bound on the probability that the position is wrong along one axis: the sum of
-/// the bound on chance and the odds of the alternatives. Adds the odds of seam alternatives only if
-/// this sum is at most `limit_q8`. All values are log2 in units of 2^-8.
+/// the bound on the probability of a chance match and the odds of the alternatives. Adds the odds
+/// of seam alternatives only if this sum is at most `limit_q8`. All values are log2 in units of
+/// 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
@@ -105,8 +106,8 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
 
 /// Returns, for each axis, an upper bound on the probability that the position is wrong along this
 /// axis, as log2 in units of 2^-8. `alternatives_q8(axis, ratios)` must return the odds of the
-/// alternatives. The result is 0 (probability 1) for an axis whose bound on chance exceeds
-/// `limit_q8`.
+/// alternatives. The result is 0 (probability 1) for an axis whose bound on the probability of a
+/// chance match exceeds `limit_q8`.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -132,9 +133,9 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Returns true if the position must be refused regardless of the alternatives: the bits contain no
-/// information, too many bits are wrong, or the bounds on chance for both axes add up to more than
-/// `limit_q8`.
+/// Returns true if the position must be refused regardless of the alternatives. This is the case if
+/// the bits contain no information, if too many bits are wrong, or if the summed bounds on the
+/// probability of a chance match (both axes) exceed `limit_q8`.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }

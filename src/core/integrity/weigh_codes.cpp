@@ -108,7 +108,7 @@ class OtherPlaces {
             sharing_none();
     }
 
-    /// Removes the table bound. Must be called before places are added one by one.
+    /// Discards the bound set by `bound`. Must be called before places are added one by one.
     void begin_count() { result_.elsewhere = 0; }
 
     /// Adds the odds of the alternatives that the search for similar places does not find: the

@@ -7,8 +7,8 @@
 
 namespace dotpose::core {
 
-/// Returns the plane of the grid, rotated to the upright pattern. The origin of the pattern
-/// coordinates is at `Decoding::place`.
+/// Returns the plane of the grid after rotation to the upright orientation of the pattern. The
+/// origin of the pattern coordinates is at `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
 /// Sets the plane of the fix and the place of its origin. Also sets the position, section, angle

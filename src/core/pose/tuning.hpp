@@ -137,8 +137,8 @@ namespace uneven {
 ///   about 1 in 1,000 flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
 /// Maximum number of dots for which the second attempt uses kMaybeLine as the limit. With more
-/// dots, the limit is kMaybeLine * sqrt(dots / kMaybeLineDots), because the block residuals of any
-/// sheet become more significant.
+/// dots, the limit is kMaybeLine * sqrt(dots / kMaybeLineDots), because block residuals become
+/// statistically more significant with the number of dots, even on flat sheets.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;

@@ -16,8 +16,7 @@ dds_entity_t require(dds_entity_t entity, const std::string& what) {
     return entity;
 }
 
-/// Maximum number of messages of a reliable topic that are stored until all readers have received
-/// them.
+/// Maximum number of messages that a reliable topic stores until all readers have received them.
 constexpr int kDepth = 100;
 
 /// Quality-of-service settings of a topic. Topics have the same settings as in ROS.
@@ -27,11 +26,12 @@ struct Quality {
     int depth = kDepth;
 };
 
-/// Maximum time that a reliable message waits for space in the queue. This delays the next frame.
+/// Maximum time that a reliable message waits for space in the queue. Waiting delays the next
+/// frame.
 constexpr dds_duration_t kMaxWait_ns = DDS_MSECS(10);
 
-/// Maximum time to wait for slow readers. DDS drops a reader that ended without disconnecting after
-/// the same time.
+/// Maximum time to wait for slow readers. DDS uses the same time limit to drop readers that exited
+/// without disconnecting.
 constexpr dds_duration_t kPatience_ns = DDS_SECS(10);
 
 /// Creates a domain that is limited to this computer, with the settings of rmw_cyclonedds. The
@@ -204,12 +204,12 @@ class Publisher::Writers {
         dds_write(writer, sample) == DDS_RETCODE_OK ? ++sent_ : ++dropped_;
     }
 
-    dds_entity_t domain_;  ///< 0 if DDS creates the domain, configured by the environment
+    dds_entity_t domain_;  ///< 0 if DDS creates the domain from the environment settings
     dds_entity_t participant_ = 0;
     dds_entity_t pose_ = 0;
-    dds_entity_t camera_ = 0;  ///< 0 if there are no poses in space
+    dds_entity_t camera_ = 0;  ///< 0 if poses in space are not published
     dds_entity_t odometry_ = 0;
-    dds_entity_t camera_odometry_ = 0;  ///< 0 if there are no poses in space
+    dds_entity_t camera_odometry_ = 0;  ///< 0 if poses in space are not published
     dds_entity_t status_ = 0;
     dds_entity_t tf_ = 0;
     dds_entity_t tf_static_ = 0;

@@ -118,8 +118,8 @@ int Server::Service::write(lws* socket) {
     return 0;
 }
 
-/// Asks libwebsockets to call `write` for each client to which a message must be sent, as soon as
-/// its socket accepts data.
+/// Asks libwebsockets to call `write` for each client that is due a message, as soon as the
+/// client's socket accepts data.
 void Server::Service::request_writes() {
     for (const auto& [socket, client] : clients_) {
         if (client.message || due_topic(client)) lws_callback_on_writable(socket);

@@ -17,7 +17,7 @@ class Reports {
 
     /// Counts a refusal. The first refusal for each reason is reported immediately. Further
     /// refusals are counted, and their number is reported together with a later refusal, at most
-    /// every 10 s. `reason` must be one of a few constants.
+    /// once every 10 s. `reason` must be one of a small set of constants.
     void refuse(const std::string& peer, const std::string& reason, Clock::time_point now);
 
   private:

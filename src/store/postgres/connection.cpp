@@ -10,7 +10,7 @@
 namespace dotpose::store {
 namespace {
 
-/// Joins the lines of a libpq message, which may be indented, into one line.
+/// Joins the lines of a libpq message into one line, without their indentation.
 std::string in_one_line(std::string_view text) {
     std::string line;
     for (const char c : text) {

@@ -12,7 +12,7 @@ class CopyRows {
   public:
     CopyRows();
     void add(const State& state, std::int64_t robot_id, std::int64_t place_id);
-    /// Returns the complete data. No row can be added afterwards.
+    /// Returns the finished data. No rows can be added afterwards.
     const std::string& finish();
 
   private:

@@ -82,7 +82,8 @@ class Postgres : public Database {
             const std::string first_kept = partition_name(day_of(time_us));
             for (int i = 0; i < partitions.size(); ++i) {
                 const std::string name(partitions.text(i, 0));
-                // If names have equal length, their alphabetical order is the order of their days.
+                // The names end with the date, so names of equal length sort in chronological
+                // order.
                 if (name.size() != first_kept.size() || name >= first_kept) continue;
                 if (name.find_first_not_of("states_0123456789") != std::string::npos) continue;
                 connection_->run("DROP TABLE " + name);

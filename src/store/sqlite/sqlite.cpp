@@ -155,8 +155,8 @@ class Sqlite : public Database {
 
     void remove_days_before(std::int64_t time_us) override {
         run([&](const Connection& connection) {
-            // The states of each robot are removed in a separate transaction, so that other
-            // programs can write in between.
+            // Removes the states of each robot in a separate transaction, so that other programs
+            // can write between the transactions.
             std::vector<std::int64_t> ids;
             Statement select(connection, "SELECT robot FROM robots");
             while (select.step())

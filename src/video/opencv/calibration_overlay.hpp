@@ -12,7 +12,7 @@ namespace dotpose::video {
 /// was added to the calibration. `frame` is the region of the picture that contains the image.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
-/// Draws the gauges and, below them, the directions in which frames were taken.
+/// Draws the gauges and, below them, a compass of the directions covered so far.
 void draw_gauges(const CalibrationScene& scene, cv::Mat panel);
 
 }  // namespace dotpose::video

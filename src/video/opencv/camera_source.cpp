@@ -80,7 +80,7 @@ class Camera : public capture::FrameSource {
     double rate() const override { return rate_; }
 
   private:
-    /// Returns the device path of a local camera, whose name is a path or a number.
+    /// Returns the device path of a local camera. `name_` is a path or a device number.
     std::string device() const {
         const bool is_number = name_.find_first_not_of("0123456789") == std::string::npos;
         return is_number ? "/dev/video" + name_ : name_;
@@ -164,7 +164,7 @@ class Camera : public capture::FrameSource {
         latest_.put(std::move(frame));
     }
 
-    /// Delivers an empty frame with the current time on the clock of the camera.
+    /// Delivers an empty frame with the current time on the camera's clock.
     void put_empty() {
         using namespace std::chrono;
         put({}, newest_us_ + duration_cast<microseconds>(steady_clock::now() - read_at_).count());

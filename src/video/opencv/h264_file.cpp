@@ -17,8 +17,8 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
-/// Encoders to try, in this order. Hardware encoders are not used, because FFmpeg offers them even
-/// if the graphics card is not installed.
+/// Encoders to try, in this order. Hardware encoders are not used, because FFmpeg lists them even
+/// if the hardware is not installed.
 constexpr const char* kEncoders[] = {"libx264", "libopenh264"};
 
 const AVCodec* h264_encoder() {
@@ -99,8 +99,8 @@ class H264File::Encoder {
         if ((file_->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
             encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
         }
-        // Locating must not wait for the encoder. This preset takes a third of the time of the
-        // default preset, and its files are only slightly larger.
+        // Locating must not wait for the encoder. This preset takes a third of the default preset's
+        // time, and its files are only slightly larger.
         AVDictionary* options = nullptr;
         av_dict_set(&options, "preset", "veryfast", 0);
         av_dict_set(&options, "crf", "23", 0);

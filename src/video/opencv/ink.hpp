@@ -1,4 +1,4 @@
-// Colours and text of the live picture.
+// Colours and pixel coordinates for drawing the live picture.
 #pragma once
 
 #include <cmath>

@@ -151,13 +151,13 @@ class VideoFile : public capture::FrameSource {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is the duration of its longest stream. It is used only if the
-        // video is the only stream.
+        // A file's duration is that of its longest stream, so it is used only if the video is the
+        // only stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
     /// Returns the number of frames that the file reports, or an estimate from the duration if the
-    /// file reports no number.
+    /// file does not report a number.
     std::int64_t expected_frames() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
@@ -180,7 +180,8 @@ class VideoFile : public capture::FrameSource {
         }
     }
 
-    /// Sends the next video packet to the decoder, or the end of the stream after the last packet.
+    /// Sends the next video packet to the decoder. After the last packet, signals the end of the
+    /// stream.
     void send_packet() {
         constexpr int kMaxFailures = 100;
         for (int failures = 0; failures < kMaxFailures;) {
@@ -204,8 +205,8 @@ class VideoFile : public capture::FrameSource {
         avcodec_send_packet(decoder_.get(), nullptr);
     }
 
-    /// Corrects the timestamp of a packet in an AVI file. AVI files contain no timestamps, so
-    /// FFmpeg counts packets, and its timestamps are wrong after damaged data. If the index of the
+    /// Corrects the timestamp of a packet in an AVI file. AVI files contain no timestamps. FFmpeg
+    /// computes them by counting packets, so they are wrong after damaged data. If the index of the
     /// file is complete, the timestamp is taken from the index entry at the packet's position.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;

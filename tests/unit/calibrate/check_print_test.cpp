@@ -170,7 +170,7 @@ TEST(CheckPrint, maps_distortion) {
     for (const DistortionBin& bin : result.fields[0].distortion) {
         EXPECT_NEAR(bin.du_mm, 0, 0.005);
         const double along_mm = bin.v_px * 25.4 / settings.dpi - height_mm / 2;
-        // The scale fit removes a straight line through the middle of the sheet.
+        // The scale fit subtracts a straight line through the middle of the sheet.
         const double line_mm = (result.fields[0].scale->scale_y - 1) * along_mm;
         const double wave_mm = settings.wave_mm * std::sin(2 * std::numbers::pi * along_mm / 100);
         EXPECT_NEAR(bin.dv_mm, wave_mm - line_mm, 0.03);

@@ -102,7 +102,7 @@ TEST(CalibrationCoverage, CountsPlacesDirectionsAndNewParts) {
     EXPECT_TRUE(coverage.has_direction(1));
     EXPECT_TRUE(coverage.has_direction(7));
     EXPECT_FALSE(coverage.has_direction(4));
-    // This frame shows the same place in another section.
+    // This frame shows the same place as an earlier frame, but in another section.
     CalibrationView other = view_at(0, 0, 0);
     other.section = {1, 0};
     coverage.add(other);

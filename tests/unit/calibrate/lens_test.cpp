@@ -60,7 +60,8 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_near_truth(result.camera, "skew", paper.skew, 0);
     // Frames from a camera that looks straight down do not determine the focal length.
     EXPECT_FALSE(result.camera.focal_px.has_value());
-    // Without a correction of the lens distortion, noise is only a small part of the residual.
+    // Without a correction of the lens distortion, most of the residual is caused by the
+    // distortion.
     EXPECT_GT(result.residual_before_px, 3 * result.residual_px);
     EXPECT_EQ(result.coverage, 1);
 }

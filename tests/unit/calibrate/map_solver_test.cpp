@@ -50,8 +50,8 @@ TEST(MapSolver, OffsetsAreAsAccurateAsTheNoiseOfTheirViews) {
     }
 }
 
-/// Frames do not determine the rotation of the page. The solver must remove the rotation, and the
-/// offsets of the dots must not change with it.
+/// Frames do not determine the rotation of the page, so the solver must remove it. The offsets of
+/// the dots must not depend on the initial rotation.
 TEST(MapSolver, InitialTurnOfThePageDoesNotTurnOffsets) {
     SolverInput input = simulated_input(MappedPrint({.side_mm = kSide_mm}), kFrames, 7);
     SolverInput turned = input;
@@ -65,8 +65,8 @@ TEST(MapSolver, InitialTurnOfThePageDoesNotTurnOffsets) {
     solve(input);
     solve(turned);
     // The rotation is mostly determined by the directions of the displacements. Regression: the
-    // error was 0.08 µm because the solver applied the remaining rotation only to the offsets, and
-    // not to the feed wave and the displacements.
+    // error was 0.08 µm because the solver applied the remaining rotation only to the offsets, but
+    // not to the feed wave or the displacements.
     double squares = 0;
     for (std::size_t i = 0; i < input.grid.dots(); ++i)
         squares += (turned.start.offset_mm[i] - input.start.offset_mm[i]).squaredNorm();

@@ -218,7 +218,7 @@ TEST(CalibrateSpin, RefusesADrive) {
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 30, 4), {}, {}); }),
                 HasSubstr("do not show a turn on the spot"));
     // The robot moves by half a millimetre in total while it turns by 40 degrees. The residual is
-    // small, but the estimated point is far from the true point.
+    // small, but the estimated centre of rotation is far from the true centre.
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 3.6, 0.05), {}, {}); }),
                 HasSubstr("the robot moved on while it turned"));
 }

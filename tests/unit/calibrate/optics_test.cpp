@@ -66,7 +66,7 @@ TEST(Optics, IsThatOfAThinLens) {
     optics.height_px = 480;
     optics.pixel_um = 6;
     optics.focal_mm = 10;
-    optics.distance_mm = 30;  // the image is 15 mm behind the lens, at half size
+    optics.distance_mm = 30;  // the lens forms an image of half size, 15 mm behind it
     optics.f_number = 4;
     optics.exposure_s = 0.001;
     optics.speed_mm_s = 6;
@@ -99,7 +99,7 @@ TEST(Optics, SaysWhatToChange) {
     Optics optics;
     optics.width_px = 188;
     optics.pixel_um = 24;
-    optics.distance_mm = 50;  // the spacing is 3 px in the image
+    optics.distance_mm = 50;  // one spacing is 3 px in the image
     optics.speed_mm_s = 5000;
     const auto faults = design_optics(optics).advice;
     const auto says = [](const char* words) {
@@ -111,7 +111,7 @@ TEST(Optics, SaysWhatToChange) {
     EXPECT_THAT(faults, says("go closer (20.1 mm)"));
     EXPECT_THAT(faults, says("print larger dots"));
 
-    optics.distance_mm = 10;  // too close, with few dots in view
+    optics.distance_mm = 10;  // too close: only a few dots are in view
     const auto narrow = design_optics(optics).advice;
     EXPECT_THAT(narrow, says("8 x 8 dots do not fit at every angle"));
     EXPECT_THAT(narrow, says("motion blurs the image"));

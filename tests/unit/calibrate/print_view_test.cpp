@@ -14,9 +14,9 @@ namespace {
 constexpr double kLongerSide_px = 4000;
 const Eigen::Vector2d kMiddle_px(1999.5, 1499.5);
 
-/// Returns a photo of a page of 240 x 180 mm with 3 dots per cm, from a camera with a focal length
-/// of 3000 px at a distance of 260 mm. The camera is tilted by `tilt` about an axis of the paper at
-/// `azimuth`. The width of the print is 1 + `wide` times the nominal width.
+/// Returns a photo of a 240 x 180 mm page with 3 dots per cm, from a camera with a focal length of
+/// 3000 px at a distance of 260 mm. The camera is tilted by `tilt` about an axis in the paper with
+/// the direction `azimuth`. The print is wider than nominal by a factor of 1 + `wide`.
 std::vector<Match> photo(double tilt, double azimuth, double wide) {
     std::vector<Match> matches;
     for (double x_mm = -120; x_mm <= 120; x_mm += 10.0 / 3) {

@@ -234,7 +234,7 @@ TEST(SpaceFit, ReportsTheMirroredTiltOfANarrowView) {
         ASSERT_TRUE(fit && fit->second) << n;
         ambiguous += fit->second_odds_log2 > SpacePose::kMaxOdds_log2;
         EXPECT_LE(fit->second_odds_log2, 0);
-        // One of the two reported poses must be the true pose, and the other one must be its mirror
+        // One of the two reported poses must be the true pose, and the other must be its mirror
         // image.
         const double first = angle_between(view.rotation, rotation_of(fit->state));
         const double second = angle_between(view.rotation, rotation_of(*fit->second));

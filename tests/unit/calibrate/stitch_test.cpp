@@ -1,5 +1,5 @@
-// Tests the stitching of four adjacent sheets with gaps and small rotations, from frames over their
-// seams.
+// Tests the stitching of four adjacent sheets with gaps and small rotations, using frames that show
+// the seams between the sheets.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -239,7 +239,7 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     const CameraModel model = wide_camera();
     std::vector<SheetEntry> entries = sheets_of_table();
     entries[1].world = WorldPose{1.25, -0.5, 0.3};
-    // The frames are over the upper seam only, and show the sheets a and b.
+    // The frames show only the upper seam, with the sheets a and b.
     const auto frame_at = [&](int i) {
         return table_frame(kTable, model, 64, i, kPage_mm + 0.5, 10 + 2.0 * i, 0.7 * i);
     };
@@ -250,8 +250,8 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     EXPECT_EQ(b.x_m, 1.25);
     EXPECT_EQ(b.y_m, -0.5);
     EXPECT_EQ(b.yaw_rad, 0.3);
-    // Expected pose of sheet a. The vector from the corner of b to the corner of a, in table axes,
-    // is rotated into the axes of b, and then by the yaw of b in the world.
+    // Expected pose of sheet a. The vector from the corner of b to the corner of a is first rotated
+    // from the table axes into the axes of b, and then by the yaw of b in the world.
     const WorldPose& a = stitching.sheets[0].world.value();
     const double yaw = 0.3 + kTable[1].turn_rad;
     EXPECT_NEAR(a.yaw_rad, yaw, 0.02 * kDegree_rad);

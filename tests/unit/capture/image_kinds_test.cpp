@@ -179,7 +179,7 @@ TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
         TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &kind);
     };
     const Bytes pixels = pixels_of(file_of(opacity, levels));
-    // The premultiplied level is 1/5, and 3/5 of the white paper is visible through the pixel.
+    // The premultiplied level is 1/5. The white paper behind the pixel adds 3/5.
     EXPECT_THAT(pixels, testing::Each(204));
 }
 
@@ -212,8 +212,8 @@ TEST(JpegKinds, AreProgressive) {
     EXPECT_EQ(pixels_of(file).size(), 64U * 64U);
 }
 
-// A file that is truncated anywhere must be refused. If it is truncated between two scans, nothing
-// in the file refers to the missing scans.
+// A truncated file must be refused, wherever it is truncated. If it is truncated between two scans,
+// nothing in the file refers to the missing scans.
 TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     const Bytes file = progressive_jpeg();
     int refused = 0;

@@ -34,10 +34,10 @@ constexpr int kHeight_px = 48;
 
 struct PhoneFormat {
     const char* name;
-    /// Command for lossless encoding. `converted` appends the name of the image, `-o` and the name
-    /// of the new file.
+    /// Lossless encoding command. `converted` appends the name of the image, `-o` and the name of
+    /// the new file.
     const char* lossless;
-    const char* photo;  ///< command for encoding that keeps EXIF data
+    const char* photo;  ///< encoding command that keeps EXIF data
 };
 constexpr const char* kLosslessHeif = "heif-enc -L -p chroma=444 --matrix_coefficients=0";
 const PhoneFormat kPhoneFormats[] = {

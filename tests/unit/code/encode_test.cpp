@@ -121,8 +121,8 @@ TEST(Encode, RollAtRandomPositionsIsTheCountedSum) {
     std::mt19937 rng(kSeed);
     for (const CodeVariant code : kCodeVariants) {
         for (int i = 0; i < 20'000; ++i) {
-            // Nine of ten random 32-bit numbers exceed L, the number of positions. `roll` must
-            // accept these numbers as well.
+            // About nine out of ten random 32-bit numbers exceed L, the number of positions. `roll`
+            // must accept these numbers as well.
             const auto p = static_cast<std::uint32_t>(rng());
             const int expected = roll_by_counting(code, p);
             ASSERT_EQ(roll(code, p), expected) << "p " << p << " seed " << kSeed;

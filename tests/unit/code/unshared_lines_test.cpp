@@ -32,8 +32,8 @@ Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bo
 }
 
 /// Returns the minimum number of unshared lines between `place` and any other place in the
-/// sequence, computed in two ways. For the first number, all lines have the same shift. For the
-/// second number, the shift may change once, at a border between two lines.
+/// sequence, for two cases. In the first case, all lines have the same shift. In the second case,
+/// the shift may change once, at a border between two lines.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
     std::size_t max_at_one = 0;
     std::size_t max_on_both = 0;

@@ -123,7 +123,7 @@ inline Vec2 random_displacement(Rng& rng) {
 /// pattern point place + `at_centre` + R(theta) (p_px - centre_px) / spacing_px.
 struct View {
     CodeVariant code = CodeVariant::anoto;
-    Place place;     ///< a cell of the pattern, the origin of the pattern coordinates
+    Place place;     ///< the cell that is the origin of the pattern coordinates
     Vec2 at_centre;  ///< pattern point at the image centre, in spacings from `place`
     double theta_rad = 0;
     double spacing_px = 11;

@@ -63,7 +63,7 @@ TEST(Prediction, MovesAndTurnsAboutThePivot) {
         EXPECT_EQ(after.place.section, before.place.section);
         EXPECT_EQ(after.displacement_q16, before.displacement_q16);
         EXPECT_EQ(after.sigma_q16, before.sigma_q16);
-        // The plane is relative to an intersection near its centre.
+        // The origin of the plane is an intersection near its centre.
         EXPECT_GE(after.pattern_from_image.at_centre_q16.x, 0);
         EXPECT_LT(after.pattern_from_image.at_centre_q16.x, 65536);
     }

@@ -43,7 +43,7 @@ struct Reading {
     FixedVec zero;  ///< steps on the pattern from `view.place` to the grid's cell (0, 0)
     PlaneFromImage plane;
     Status status;
-    Decoding decoding;  ///< contains only the regions to decode
+    Decoding decoding;  ///< only the regions to decode are set
 };
 
 }  // namespace dotpose::core_test

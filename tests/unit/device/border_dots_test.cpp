@@ -53,8 +53,7 @@ class Drawn {
 TEST(BorderDots, AreWhereTheyWereDrawn) {
     Rng rng(12);
     for (int round = 0; round < 400; ++round) {
-        // The distance from the border is along one axis. The position along the other axis is
-        // arbitrary.
+        // The dot is close to the border along one axis and anywhere along the other.
         const double depth_px = rng.uniform(-0.4, 1.4);
         const double along_px = rng.uniform(-0.4, kSide_px - 0.6);
         const double across_px = round % 2 == 0 ? depth_px : kSide_px - 1 - depth_px;

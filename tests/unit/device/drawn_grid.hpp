@@ -24,7 +24,7 @@ struct Drawing {
 /// A grid that contains the bits in a rectangle on a known sheet.
 class DrawnGrid {
   public:
-    /// The upper left cell of the rectangle is at `at`.
+    /// `at` is the upper left cell of the rectangle.
     DrawnGrid(const KnownRegion& sheet, Cell at, const Drawing& drawing, Rng& rng) {
         const QuarterTurn from_pattern = QuarterTurn{drawing.quarters}.inverse();
         const FixedVec last = from_pattern({drawing.columns - 1, drawing.rows - 1});

@@ -85,8 +85,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
                   Status::ok);
-        // The correct cells must be found despite these changes. The tolerance is large because
-        // spurious dots increase the errors.
+        // The correct cells must be found even with missing and spurious dots. The tolerance is
+        // large because spurious dots increase the errors.
         expect_grid(plane, placed, intersections(mesh, placed), 0.25);
         if (testing::Test::HasFatalFailure()) return;
     }

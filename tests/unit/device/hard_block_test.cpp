@@ -13,8 +13,7 @@ using core::Axis;
 constexpr std::uint64_t kSeed = 4217;
 constexpr KnownRegion kSheet{CodeVariant::anoto, {3, 5}, {1000, 2000}, 66, 68};
 
-/// Expects that the lines contain the bits of the code. The upper left cell of the lines is at
-/// `at`.
+/// Expects that the lines contain the bits of the code. `at` is the upper left cell of the block.
 void expect_code(const core::HardLines& columns, const core::HardLines& rows, Cell at) {
     for (int i = 0; i < columns.count; ++i) {
         for (int j = 0; j < rows.count; ++j) {

@@ -122,7 +122,7 @@ TEST_F(DeviceTracked, GoesOnFromItsOwnFixes) {
         shot.pose.fraction_y -= 0.2;
         shot.pose.theta_rad += 0.03;
         shot.seed += 1;
-        // The light changes, as with passing clouds.
+        // The light changes from frame to frame, as if clouds were passing.
         shot.imperfections.paper_level = 230 - 90 * (i % 2);
         fix = locator_.locate(render(shot).view(), Prediction::like(fix));
         ASSERT_EQ(fix.status, Status::ok) << i;

@@ -77,7 +77,7 @@ struct Mark {
     char letter = ' ';
 };
 
-/// Returns the centres of the circles, in pixel coordinates of the image.
+/// Returns the centres of the circles in the drawing, in pixel coordinates of the image.
 std::vector<Mark> circles(const std::string& text, const GreyImage& image) {
     const double scale = 1200.0 / std::max(image.width_px, image.height_px);
     std::vector<Mark> marks;
@@ -94,7 +94,7 @@ std::vector<Mark> circles(const std::string& text, const GreyImage& image) {
     return marks;
 }
 
-/// Returns the letters and their positions, in pixel coordinates of the image.
+/// Returns the letters in the drawing with their positions, in pixel coordinates of the image.
 std::vector<Mark> letters(const std::string& text, const GreyImage& image) {
     const double scale = 1200.0 / std::max(image.width_px, image.height_px);
     std::vector<Mark> marks;
@@ -135,8 +135,8 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
 }
 
 TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
-    // Uses the device attempt because the first attempt does not connect neighbouring dots to find
-    // the grid.
+    // Uses the device attempt, because the first attempt finds the grid without connecting
+    // neighbouring dots.
     DeviceOptions device;
     device.effort = Effort::device;
     const Located at_once(render(clean_shot()), device);

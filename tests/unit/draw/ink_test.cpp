@@ -59,7 +59,7 @@ TEST(InkMl, IsValid) {
     const test::InkMlCheck small(ink_ml(small_page()));
     EXPECT_EQ(small.problem(), "");
     EXPECT_EQ(small.traces(), 2);
-    // A pen that leaves the page writes outside it.
+    // The strokes begin outside the page, as if the pen had left it.
     InkPage page = small_page();
     page.strokes[0].front().x_mm = -1;
     page.strokes[1].front().y_mm = 298;

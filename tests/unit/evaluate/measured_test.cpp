@@ -45,7 +45,7 @@ std::vector<MeasuredFrame> frames() {
 
 TEST(Measured, AlignsByASimilarityInSpiteOfOutliers) {
     std::vector<MeasuredFrame> all = frames();
-    std::swap(all[3].truth, all[20].truth);  // as if two lines of the pose file were exchanged
+    std::swap(all[3].truth, all[20].truth);  // as if two lines of the pose file were swapped
     const Similarity by = align(all);
     EXPECT_NEAR(by.scale, kScale, 1e-4);
     EXPECT_NEAR(by.turn_rad, kTurn_rad, 1e-4);

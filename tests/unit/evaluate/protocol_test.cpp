@@ -139,7 +139,7 @@ TEST(SweepTest, KeepsTheValuesThatWereCompleteWhenItIsStopped) {
         EXPECT_EQ(part.points[i].value, whole.points[i].value);
         EXPECT_EQ(part.points[i].all.position_um.max, whole.points[i].all.position_um.max);
     }
-    EXPECT_THROW(stopped_after(2), Error);  // a curve needs more than one value
+    EXPECT_THROW(stopped_after(2), Error);  // a curve cannot be drawn from a single value
 }
 
 TEST(PlotTest, TicksAreRoundNumbers) {

@@ -59,7 +59,7 @@ std::string version_1_bytes() {
     PrintMap map = small_map();
     map.pages[0].errors = {};
     std::string bytes = print_map_bytes(map);
-    bytes.resize(bytes.size() - 12);  // size of the grid of errors, and checksum
+    bytes.resize(bytes.size() - 12);  // removes the size of the error grid, and the checksum
     bytes[8] = 1;
     std::uint32_t crc = 0xFFFFFFFF;
     for (const char byte : bytes) {
@@ -188,7 +188,8 @@ TEST(PrintMapFile, InterpolatesTheErrors) {
     EXPECT_FLOAT_EQ(static_cast<float>(at(right, 0)[1][1]), 18e-8F);
     EXPECT_FLOAT_EQ(static_cast<float>(at(0, bottom)[0][1]), -5e-8F);
     EXPECT_FLOAT_EQ(static_cast<float>(at(right, bottom)[2][0]), 12e-10F);
-    // Each node has the factor 1 + x + 4 y, where x and y go from 0 to 1 across the page.
+    // The errors at each node are multiplied by 1 + x + 4 y, where x and y go from 0 to 1 across
+    // the page.
     const double x = 10.0 / right;
     const double y = 17.0 / bottom;
     EXPECT_NEAR(at(10, 17)[2][2], 1e-10 * (1 + x + 4 * y), 1e-15);

@@ -49,7 +49,7 @@ TEST(overlap, means_a_common_cell_in_the_same_section_of_the_same_code) {
     const Sheet a = page();
     Sheet b = a;
     EXPECT_TRUE(overlap(a, b));
-    b.pattern.code = CodeVariant::libdots;  // agrees with anoto on most of the plane
+    b.pattern.code = CodeVariant::libdots;  // has the same symbols as anoto on most of the plane
     EXPECT_TRUE(overlap(a, b));
     b.pattern.code = CodeVariant::microdots;
     EXPECT_FALSE(overlap(a, b));
@@ -144,7 +144,7 @@ TEST(SheetFile, allocates_from_the_top_left_and_fills_holes) {
         EXPECT_EQ(pages[i].page, static_cast<int>(i) + 1);
         EXPECT_EQ(pages[i].sheet.origin, (Cell{1024 + i * (columns + 1024), 1024}));
     }
-    // The first row of pages has a gap for exactly one page.
+    // The gap in the first row of pages has room for exactly one page.
     file.add(entry("later", {1024 + 4 * (columns + 1024), 1024}));
     EXPECT_EQ(file.allocate("hole", sheet)[0].sheet.origin,
               (Cell{1024 + 3 * (columns + 1024), 1024}));

@@ -278,8 +278,8 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
 }
 
 TEST(covariance_in_the_world, of_a_page_turned_by_a_quarter) {
-    // On this page, x points along the world's y axis and y along the world's x axis. Angles change
-    // sign.
+    // On this page, x points along the world's y axis and y along the world's x axis, so angles
+    // change sign.
     const PoseCovariance on_sheet = {{{1, 2, 3}, {2, 5, 6}, {3, 6, 9}}};
     const PoseCovariance in_world = world_covariance(on_sheet, kPi / 2);
     const Matrix expected = {{{5, 2, -6}, {2, 1, -3}, {-6, -3, 9}}};

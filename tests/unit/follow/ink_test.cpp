@@ -103,7 +103,7 @@ TEST(Ink, OfRenderedFramesIsWithin10Micrometres) {
     ASSERT_EQ(pages.size(), 1U);
     expect_strokes(pages[0], path);
     EXPECT_LT(rms_mm(pages[0], path), 0.01);
-    EXPECT_LE(wrong_contacts, 2U);  // one frame at each end of the lift
+    EXPECT_LE(wrong_contacts, 2U);  // one wrong frame at each end of the lift
 }
 
 TEST(Ink, IsDividedByPagesAndGaps) {

@@ -67,9 +67,9 @@ Matrix6 matrix_of(const SpaceCovariance& covariance) {
     return matrix;
 }
 
-/// Makes sightings whose errors are correlated as in views of a plane, in which an error of the
-/// tilt also causes an error of the position. `correlation` is the correlation of the errors of
-/// consecutive sightings, as in views that share most of their dots.
+/// Makes sightings with correlated errors. As in views of a plane, an error of the tilt also causes
+/// an error of the position. `correlation` is the correlation between the errors of consecutive
+/// sightings, which share most of their dots.
 class Eye {
   public:
     explicit Eye(double scale = 1, double correlation = 0, std::uint64_t seed = 5)
@@ -157,7 +157,7 @@ TEST_P(SpaceTrackRates, SmoothsWithTrueCovariances) {
     }
     tracked.expect_honest();
     predicted.expect_honest();
-    // Tracking decreases the errors of every coordinate.
+    // Tracking reduces the errors of every coordinate.
     EXPECT_LT((tracked.squares.cwiseQuotient(raw.squares)).maxCoeff(), 0.96);
 }
 INSTANTIATE_TEST_SUITE_P(FramesPerSecond, SpaceTrackRates, testing::Values(30, 60, 200));

@@ -225,7 +225,7 @@ TEST(LocateFirst, ShowsItsDotsAndCellsWhenAsked) {
                 if (!cell.has_dot()) continue;
                 ++read;
                 const Vec2 at = real(w.found_dots()[cell.dot].centre_q8, 8);
-                // Dots near the border are not tested, because the border cuts off blobs.
+                // Dots near the border are not tested, because blobs are cut off at the border.
                 const bool is_inside = at.x > 6 && at.y > 6 && at.x < 181 && at.y < 113;
                 const double off_px = nearest_px(others, at);
                 // If a dot touches another dot, the two form one blob or none, so there may be no

@@ -50,8 +50,8 @@ TEST_F(Known, SixCellsSufficeIfNoOtherSheetIsPossible) {
     EXPECT_GE(located, kFrames - 1);
 }
 
-/// Dots that are cut off by the border of the image are also read, and grids may be as fine as 5
-/// px per spacing.
+/// With known sheets, the locator also reads dots that are cut off by the border of the image, and
+/// grids as fine as 5 px per spacing.
 TEST_F(Known, FiveCellsSufficeAtAnySpacing) {
     know(OtherSheets::impossible);
     constexpr int kFrames = 40;

@@ -122,7 +122,8 @@ TEST(Locate, ADeviceGetsTheSameFromRowsAndImage) {
     for (const GreyImage& frame : mixed_frames()) {
         const Fix fix = Locator(at_once, device).locate(frame.view());
         expect_same(pushed(frame, Locator(by_rows, device)), fix);
-        // A DeviceLocator gives the same fix from the image as from rows, for any effort.
+        // For any effort, a DeviceLocator gives the same fix whether the frame is passed as an
+        // image or row by row.
         expect_same(pushed(frame, DeviceLocator(little)),
                     DeviceLocator(little).locate(frame.view()));
         found += fix.status == Status::ok ? 1 : 0;
@@ -145,7 +146,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
         errors_um.push_back(
             std::hypot(fix.x_grid() - x_grid(shot.pose), fix.y_grid() - y_grid(shot.pose)) *
             spacing_um);
-        // If the error were larger, the fix would be at the wrong place.
+        // A fix with a larger error would be at the wrong place.
         EXPECT_LT(errors_um.back(), 0.1 * spacing_um);
         EXPECT_EQ(fix.section, shot.page.pattern.section);
         EXPECT_LT(
@@ -243,7 +244,7 @@ TEST(Locate, TheTraceKeepsTheFix) {
     const Fix fix = locator.locate(frame.view());
     ASSERT_EQ(fix.status, Status::ok);
     expect_same(fix, locator.trace().fix);
-    // Dots without clear bits are counted as seen, but not kept.
+    // Dots without clear bits are counted in `dots_seen`, but are not stored in the trace.
     const int kept = static_cast<int>(locator.trace().dots.size());
     EXPECT_GE(fix.dots_seen, kept);
     EXPECT_GE(kept, fix.dots_used);

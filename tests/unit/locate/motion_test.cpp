@@ -75,7 +75,7 @@ constexpr int kLength = 6;
 struct Series {
     /// Element k is the number of series that have a fix in their first k + 1 frames.
     std::array<int, kLength> located{};
-    int with_earlier = 0;  ///< number of fixes from more than one frame
+    int with_earlier = 0;  ///< number of fixes that combine several frames
     int wrong = 0;
 };
 
@@ -113,7 +113,7 @@ TEST(MeasuredMotion, FollowsAnotherMotion) {
     const MeasuredMotion both = followed_by(quarter, ahead);
     EXPECT_NEAR(both.right_mm, 0, 1e-6);
     EXPECT_NEAR(both.down_mm, 3, 1e-6);
-    EXPECT_NEAR(both.sigma_mm, 0.05, 1e-6);  // 3 mm * 0.01 rad in quadrature with 0.04 mm
+    EXPECT_NEAR(both.sigma_mm, 0.05, 1e-6);  // 3 mm * 0.01 rad and 0.04 mm, added in quadrature
     EXPECT_NEAR(both.turn_rad, std::numbers::pi / 2, 1e-6);
 }
 

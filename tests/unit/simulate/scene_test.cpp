@@ -102,7 +102,7 @@ TEST(Scene, ASeamJoinsTwoSectionsAtTheCentre) {
     for (int v = 0; v < 120; ++v) {
         for (int u = 0; u < 188; ++u) {
             const std::uint8_t here = at(one_section, u, v);
-            // Dots extend 1/4 spacing beyond their intersection, and farther if they are blurred.
+            // Dots extend 1/4 spacing beyond their intersections, and farther if they are blurred.
             // Pixels near the seam are therefore not compared.
             if (u < 93) {
                 ASSERT_EQ(at(vertical, u, v), here);

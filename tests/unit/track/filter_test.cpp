@@ -40,8 +40,8 @@ Sighting at(int frame, const Pose& pose, const Matrix3& covariance) {
     return sighting;
 }
 
-/// Returns a covariance typical of a view of 8 mm: `sigma_mm` along x and y, and `sigma_mm` / 4 rad
-/// for the angle.
+/// Returns a covariance typical of a view 8 mm wide: `sigma_mm` along x and y, and `sigma_mm` / 4
+/// rad for the angle.
 Matrix3 round_covariance(double sigma_mm) {
     const auto variance = static_cast<float>(sigma_mm * sigma_mm);
     return {{{variance, 0, 0}, {0, variance, 0}, {0, 0, variance / 16}}};

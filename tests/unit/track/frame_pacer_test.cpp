@@ -128,7 +128,7 @@ TEST(FramePacer, AddsUpWhatASlowDeviceCreeps) {
     device.run_until(600 * kSecond_us,
                      [](std::int64_t t) { return at(100 + static_cast<double>(t) / 60e6); });
     const auto moving = std::ranges::count(device.motions, Motion::moving);
-    // For 5 s of every 7 s, the device takes 50 frames per second.
+    // The device takes 50 frames per second for 5 s out of every 7 s.
     EXPECT_GT(moving, 60 * 240);
     EXPECT_GT(std::ranges::count(device.motions, Motion::stationary), 60);
 }

@@ -105,7 +105,7 @@ struct Followed {
     }
 };
 
-/// Tracks a path up to and including `end_us`.
+/// Tracks the robot along a path up to and including `end_us`.
 Followed drive(std::int64_t end_us, Pose (*path)(std::int64_t), bool is_world = false) {
     Followed robot;
     for (std::int64_t t = 0; t <= end_us; t += kFrame_us)
@@ -190,7 +190,7 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     robot.sighting = sighting_of(robot.fix, 0);
     expect_as_seen(robot.predict(kFrame_us), robot.fix);  // the tracker has no sighting yet
     robot = drive(200'000, driving);
-    expect_as_seen(robot.predict(200'000), robot.fix);  // at the time of the newest frame
+    expect_as_seen(robot.predict(200'000), robot.fix);  // not later than the newest frame
     expect_as_seen(robot.predict(100'000), robot.fix);
     // 70 ms after its last sighting, the robot is lost, so the tracker makes no prediction.
     expect_as_seen(robot.predict(270'000), robot.fix);
@@ -262,7 +262,7 @@ TEST(TrackerPredict, SurvivesAnyInput) {
     Followed other = driven;
     other.sighting.spacing_nm = 0;
     expect_as_seen(other.predict(205'000), other.fix);
-    other.sighting.spacing_nm = 1;  // the predicted motion, in spacings, is then too large
+    other.sighting.spacing_nm = 1;  // the predicted motion would be too large, in spacings
     expect_as_seen(other.predict(205'000), other.fix);
     other.sighting = driven.sighting;
     other.sighting.x_nm += 1'000'000'000'000;

@@ -14,7 +14,7 @@ export interface Paper {
 /** Contents of the map. Coordinates are in mm, on a page, in the pattern or in the world. */
 export interface MapContent {
     papers: readonly Paper[];
-    /** Parts of the path without gaps. */
+    /** Parts of the path, separated by gaps. */
     strokes: readonly (readonly Point_mm[])[];
     now: Point_mm | null;
     /** Direction of the camera's x axis, from +x towards +y. Null if it is not drawn. */
@@ -32,7 +32,7 @@ export interface MapFrame {
     top_mm: number;
 }
 
-/** Returns the page with a layout, in page coordinates. */
+/** Returns the page for a layout, in page coordinates. */
 export function paperOf(layout: SheetLayout): Paper {
     const { width_mm: x_mm, height_mm: y_mm } = layout;
     return { name: "", corners: [{ x_mm: 0, y_mm: 0 }, { x_mm, y_mm: 0 }, { x_mm, y_mm }, { x_mm: 0, y_mm }], layout };

@@ -18,8 +18,7 @@ interface Range {
     rows: number;
 }
 
-/** Returns the cells that are visible in the frame of a fix, or null if there are too many cells to
-/** draw. */
+/** Returns the cells that are visible in the frame of a fix, or null if there are too many cells to draw. */
 function rangeInView(fix: Fix, width: number, height: number): Range | null {
     const corners = [0, width - 1].flatMap((u) =>
         [0, height - 1].map((v) => patternFromImage(fix, u, v)),
@@ -47,8 +46,7 @@ async function fetchBlock(range: Range, code: Code, fix: Fix, key: string): Prom
     return { key, first, columns, rows, symbols };
 }
 
-/** Returns the code symbols that are visible in the frame of a fix, or null if there are none to
-/** draw. */
+/** Returns the code symbols that are visible in the frame of a fix, or null if there are none to draw. */
 export async function cellsInView(fix: Fix, width: number, height: number): Promise<CellsInView | null> {
     if (!fix.ok || !(fix.spacing_mm > 0)) return null;
     const range = rangeInView(fix, width, height);

@@ -1,5 +1,4 @@
-// The worker runs the locator, the simulated camera and the loop over camera frames, which keeps
-// the page responsive.
+// Runs the locator, the simulated camera and the loop over camera frames in a worker, to keep the page responsive.
 import { Locator, patternBits, type Fix, type Image, type LocatorOptions } from "dotpose";
 import { fitsCamera } from "./camera_size.js";
 import { cellsInView } from "./cells.js";

@@ -1,4 +1,4 @@
-// The page of `dotpose fleet --web`, which shows all robots that publish to a broker, live.
+// The page of `dotpose fleet --web`: a live view of all robots that publish to a broker.
 import { Connection, type Request, type Value } from "../live/connection.js";
 import { announcer, element, show } from "../page/dom.js";
 import { HistoryPanel } from "./history.js";

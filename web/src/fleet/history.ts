@@ -24,8 +24,10 @@ function maxGap_ms(span_ms: number): number {
     return Math.max(kMaxGap_ms, 3 * span_ms);
 }
 
-/** Returns a track for each map in a history. A new stroke of a track begins after a pause and after the robot was
- * lost. */
+/**
+ * Returns one track for each map in a history. A track begins a new stroke after a pause, and after the robot was lost
+ * or on another map.
+ */
 export function tracksOf({ maps, map_of, x_mm, y_mm, times_ms, span_ms }: StoredHistory): Track[] {
     const tracks = maps.map((map): Track => ({ map, strokes_mm: [] }));
     let before = -1;

@@ -1,4 +1,4 @@
-// Shows a map with its robots, live. The program sends only the robots that the canvas shows.
+// Shows a live map of the robots. The program sends only the robots that the canvas shows.
 import { drawPaper } from "../draw/map.js";
 import { surfaceOf, themed } from "../draw/surface.js";
 import type { Connection, Value } from "../live/connection.js";
@@ -14,9 +14,11 @@ const kAskPeriod_ms = 150;
 const kRateSpan_ms = 2000;
 /** Time between two updates of the numbers. Each update makes the browser lay out part of the page. */
 const kCountPeriod_ms = 500;
-/** Minimum number of robots in view for copying their marks as pixels. */
+/** Minimum number of robots in view at which their marks are copied as pixels. */
 const kMinCopied = 500;
-/** Maximum distance between a click and its robot, and maximum movement of the pointer during a click. */
+/**
+ * Maximum distance between a click and the robot that it chooses, and maximum movement of the pointer during a click.
+ */
 const kNear_px = 24;
 const kStill_px = 5;
 

@@ -12,12 +12,12 @@ const kInk: Record<Condition, string> = {
     silent: "--silent",
     gone: "--soft",
 };
-/** Symbols of the conditions in texts. */
+/** Symbols that represent the conditions in texts. */
 export const kSymbols: Record<Condition, string> = { moving: "▲", still: "●", lost: "○", silent: "✕", gone: "·" };
 
-/** Conditions in the order of drawing: robots that need attention last, so that they are on top. */
+/** Order in which the conditions are drawn. Robots that need attention are drawn last, on top of the others. */
 export const kDrawingOrder: readonly Condition[] = ["gone", "still", "moving", "lost", "silent"];
-/** Half the side of the square around an unknown robot, in radii of the mark. */
+/** Half the side of the square around an unknown robot, relative to the radius of the mark. */
 export const kSquare = 1.8;
 
 /** Returns the radius of a mark. It decreases with the number of robots in view. */
@@ -63,7 +63,7 @@ export function paintSquares(context: CanvasRenderingContext2D): void {
     context.stroke();
 }
 
-/** Draws all robots, and a square around each one on a sheet that the sheet file does not contain. */
+/** Draws all robots. Robots on sheets that the sheet file does not contain get a square around them. */
 export function drawRobots(context: CanvasRenderingContext2D, positions: Positions, view: Viewport): void {
     const r = radiusFor(positions.count);
     const sign = view.y_up ? -1 : 1;
@@ -86,7 +86,7 @@ export function drawRobots(context: CanvasRenderingContext2D, positions: Positio
     paintSquares(context);
 }
 
-/** Draws the names. Draws none if there is too little room for them. */
+/** Draws the names of the robots, unless there is too little room for them. */
 export function drawNames(context: CanvasRenderingContext2D, positions: Positions, view: Viewport): void {
     const kArea_px = 6000;
     const { names, count } = positions;
@@ -154,7 +154,7 @@ export function drawTrack(context: CanvasRenderingContext2D, { strokes_mm }: Tra
     context.beginPath();
     for (const stroke of strokes_mm) {
         addLine(context, stroke, view);
-        // A stroke of one point is a dot.
+        // A stroke with a single point is drawn as a dot.
         if (stroke.length === 2) context.lineTo(view.x(stroke[0]!), view.y(stroke[1]!));
     }
     context.stroke();

@@ -53,7 +53,7 @@ export class RobotPanel {
         return this.#id === null ? {} : { robot: this.#id };
     }
 
-    /** Chooses a robot. `reveal` scrolls to the panel when it is shown. */
+    /** Chooses a robot. If `reveal` is true, scrolls to the panel when it is shown. */
     choose(id: number | null, reveal = false): void {
         this.#id = id;
         this.#reveals = reveal;

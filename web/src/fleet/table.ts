@@ -7,7 +7,7 @@ import { age, number, place, symbolOf } from "./texts.js";
 const kRows = 25;
 const kColumns = 9;
 
-/** A row of the table. Its cells are changed in place, so that they keep the focus. */
+/** A row of the table. Its cells are changed in place, so they keep the focus. */
 class ShownRow {
     readonly row = make("tr");
     readonly #name = make("button", { type: "button", className: "link" });

@@ -2,8 +2,10 @@
 // contains the positions that have arrived since.
 import type { Positions, Trails } from "./messages.js";
 
-/** With more robots, only the newest position is kept. The ends are then too short on the screen to appear as
- * curves. */
+/**
+ * Maximum number of robots for which the ends contain all positions. With more robots, the ends are too short on the
+ * screen to appear as curves, so only the newest position is kept.
+ */
 const kMaxRobots = 500;
 /** Maximum number of positions in the end of a trail. It limits the memory of pages that receive no trails for some
  * time. */

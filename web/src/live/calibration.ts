@@ -89,7 +89,7 @@ function draw(id: string, text: string, paint: (canvas: HTMLCanvasElement) => vo
     if (canvas.clientWidth > 0) paint(canvas);
 }
 
-/** Shows the directions that were seen, and the tilts. */
+/** Shows which directions have been seen, and the tilts. */
 function showDials({ lens, step, directions, leans }: CalibrationState): void {
     const is_pen = step === "pivot";
     const seen = lens?.directions ?? directions;

@@ -9,7 +9,7 @@ export const kMaxLean = Math.tan((45 * Math.PI) / 180);
 /** Minimum residual that an arrow of maximum length represents. Arrows that show only noise therefore stay short. */
 const kMinFullScale_px = 0.05;
 
-/** Marks the parts of the frame that have not shown dots. The frame must be on the canvas. */
+/** Marks the parts of the image in which no dots have been seen. The frame must already be on the canvas. */
 export function drawMissing(canvas: HTMLCanvasElement, { columns, covered }: LensCoverage): void {
     const context = canvas.getContext("2d")!;
     const width = canvas.clientWidth / columns;

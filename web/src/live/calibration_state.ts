@@ -15,7 +15,7 @@ export interface Gauge {
 /** Frames that have been accepted for the calibration of the lens. */
 export interface LensCoverage {
     columns: number;
-    /** A digit for each part of the image, row by row: 1 if the part has shown dots. */
+    /** A digit for each part of the image, row by row: 1 if dots have been seen in this part. */
     covered: string;
     directions: boolean[];
     /** Direction of the newest frame. Null if it was not located. */
@@ -68,7 +68,7 @@ export interface CalibrationState {
     needs: string[];
     problem: string;
     result: Result | null;
-    /** Text of each step's value in the camera file. Empty if the file does not contain the value. */
+    /** Result of each step in the camera file, as text. Empty if the file does not contain the result. */
     values: Record<StepName, string>;
 }
 

@@ -69,7 +69,7 @@ export class StepList {
         }
     }
 
-    /** Shows a state. If it is null, the program may not calibrate. */
+    /** Shows a state. `state` is null if the program may not calibrate. */
     show(state: CalibrationState | null): void {
         for (const [name, { value, button, item }] of this.#items) {
             const text = state?.values[name] ?? "";

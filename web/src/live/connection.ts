@@ -1,5 +1,5 @@
-// The WebSocket to the program. Each topic delivers its newest value, and the next one only after the previous one has
-// been shown, so a slow page or connection receives fewer values rather than outdated ones.
+// The WebSocket to the program. Each topic delivers its newest value. It delivers the next value only after the page
+// has shown the previous one. A slow page or connection therefore receives fewer values rather than outdated ones.
 
 export type Value = string | Uint8Array<ArrayBuffer>;
 export type Show = (value: Value) => Promise<void> | void;
@@ -45,7 +45,7 @@ export class Connection {
         this.#socket = socket;
     }
 
-    /** Receives the values of a topic, which may depend on a request. */
+    /** Subscribes to a topic. Its values may depend on the request. */
     subscribe(topic: string, show: Show, request: Request = {}): void {
         this.#topics.set(topic, { show, request });
         this.send({ ...request, do: "subscribe", topic });

@@ -1,4 +1,4 @@
-// The page of `dotpose watch --web`: shows what the program sees, live.
+// The page of `dotpose watch --web`: a live view of what the program sees.
 import { announcer, element, show } from "../page/dom.js";
 import { Connection, type Value } from "./connection.js";
 import { PathMap } from "./map.js";

@@ -144,7 +144,7 @@ export class SheetsMap {
         const drag = this.#drag;
         if (!drag) return;
         const [x_mm, y_mm] = [to.x_mm - drag.from.x_mm, to.y_mm - drag.from.y_mm];
-        // A press without a motion only selects.
+        // A press without a movement only selects a sheet.
         if (!drag.has_moved && Math.hypot(x_mm, y_mm) * this.#frame.scale < 4) return;
         drag.has_moved = true;
         if (drag.kind === "pan") {

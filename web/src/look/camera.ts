@@ -11,8 +11,8 @@ type Processor = new (init: { track: MediaStreamTrack }) => { readable: Readable
 const kForced = new URLSearchParams(location.search).get("luma");
 
 /**
- * Starts the camera `device`. If it is empty, starts any camera, preferably the back camera of a
- * phone. `size_px` is the preferred size of its images.
+ * Starts the camera `device`. If `device` is empty, starts any camera, preferably the back camera of a phone. `size_px`
+ * is the preferred image size.
  */
 export async function openCamera(device: string, size_px: readonly [number, number]): Promise<MediaStream> {
     const which = device === "" ? { facingMode: { ideal: "environment" } } : { deviceId: { exact: device } };

@@ -27,7 +27,7 @@ export function make<K extends keyof HTMLElementTagNameMap>(
 }
 
 /**
- * Returns a function that writes changed text to a live region, at most once every three seconds.
+ * Returns a function that writes text to a live region, at most once every three seconds.
  */
 export function announcer(id: string): (text: string) => void {
     const kPause_ms = 3000;

@@ -15,7 +15,7 @@ export interface Hint {
     good: boolean;
 }
 
-/** Recommended range of spacings in the image. Spacings of 6 to 60 px can be located. */
+/** Recommended range of the spacing in the image. Patterns with spacings of 6 to 60 px can be located. */
 const kMinSpacing_px = 7;
 const kMaxSpacing_px = 50;
 const kDark = 45;
@@ -29,7 +29,7 @@ const kBlurred = 0.12;
  */
 const kManyDots = 1500;
 const kFewDots = 60;
-/** Pictures with fewer dots may show no sheet. */
+/** Pictures with fewer dots may not show a sheet. */
 const kMinDots = 5;
 
 const kBlurredHint = "Sharper: hold still, let the camera focus, or move a little away.";

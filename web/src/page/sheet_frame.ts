@@ -2,10 +2,10 @@
 // pattern.
 import type { SheetLayout } from "../engine/messages.js";
 
-/** Number of columns, and of rows, in each section of the code. */
+/** Number of columns in each section of the code, and number of rows. */
 export const kPositions = 410_815_348;
 
-/** Spacing of the sheets that this page prints and simulates. */
+/** Spacing of the sheets that this web page prints and simulates. */
 export const kSpacing_mm = 0.508;
 
 export interface Point_mm {

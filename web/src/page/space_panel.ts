@@ -14,7 +14,7 @@ const kRadius = 40;
 const kMaxSigma_deg = 45;
 const kNothing = "–";
 
-/** The panel. Its ids begin with a prefix. */
+/** The HTML of the panel. The ids of its elements begin with `id`. */
 const drawing = (id: string) => `
     <figcaption><span id="${id}-space-name">The camera over the sheet</span> <span class="quiet" id="${id}-space-source"></span></figcaption>
     <svg viewBox="0 0 200 104" role="img" aria-label="The camera from the side, and from above with the axes of the sheet">

@@ -1,5 +1,5 @@
-// Known sheets: sheets that were printed from this page, and sheets from sheet files that were opened. They are stored
-// in the browser.
+// Known sheets: sheets that were printed from this web page, and the sheets in opened sheet files. They are stored in
+// the browser.
 import { kCodes, type Fix, type KnownRegion } from "dotpose";
 import type { SheetLayout } from "../engine/messages.js";
 import { isOnSheet, kPositions } from "../page/sheet_frame.js";

@@ -8,7 +8,7 @@ export interface Slider {
     min: number;
     max: number;
     step: number;
-    /** Returns the text for a value. `px` is the size of an image pixel, in pixels on the slider's scale. */
+    /** Returns the text for a value. `px` is the size of an image pixel, in the pixel unit of the sliders. */
     shown(value: number, px: number): string;
 }
 
@@ -37,8 +37,8 @@ export interface ImageSize {
     width_px: number;
     height_px: number;
     /**
-     * Width of the field of view, in pixels on the scale of the sliders. Images with more pixels show the same field in
-     * more detail.
+     * Width of the field of view, in the pixel unit of the sliders. Images with more pixels show the same field in more
+     * detail.
      */
     field_px: number;
 }
@@ -53,7 +53,7 @@ export class SimulatedCamera {
     };
     #seed = 1;
 
-    /** Size of an image pixel, in pixels on the scale of the sliders. */
+    /** Size of an image pixel, in the pixel unit of the sliders. */
     get px(): number {
         return this.size.field_px / this.size.width_px;
     }

@@ -3,8 +3,8 @@ import { element, make } from "../page/dom.js";
 import { kPresets, kSliders, type SimulatedCamera } from "./camera.js";
 
 /**
- * Creates the sliders. Returns a function that sets the sliders to the values of the camera, because other controls
- * change them too.
+ * Creates the sliders. Returns a function that sets the sliders to the values of the camera, which other controls can
+ * also change.
  */
 export function buildSliders(camera: SimulatedCamera, changed: () => void): () => void {
     const rows = kSliders.map((slider) => {

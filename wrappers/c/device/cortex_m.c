@@ -65,7 +65,7 @@ void host_print(const char* text) {
 
 static void leave(uint32_t status) {
     uint32_t arguments[2];
-    arguments[0] = 0x20026; /* the application has ended */
+    arguments[0] = 0x20026; /* ADP_Stopped_ApplicationExit */
     arguments[1] = status;
     for (;;)
         call(CALL_EXIT, arguments);

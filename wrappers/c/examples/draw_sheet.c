@@ -11,7 +11,7 @@ enum {
     COLUMNS = 40,
     ROWS = 30,
     SPACING_PX = 18,
-    SHIFT_PX = 3, /* a sixth of the spacing, like the diameter of a dot */
+    SHIFT_PX = 3, /* one sixth of the spacing, equal to the dot diameter */
     WIDTH_PX = COLUMNS * SPACING_PX,
     HEIGHT_PX = ROWS * SPACING_PX
 };

@@ -9,7 +9,7 @@
 typedef struct pgm_image {
     int width_px;
     int height_px;
-    uint8_t* pixels; /* must be released with free(); NULL after an error, which was printed */
+    uint8_t* pixels; /* to be released with free(); NULL if reading failed (the error is printed) */
 } pgm_image;
 
 static pgm_image read_pgm(const char* path) {

@@ -28,8 +28,8 @@ extern "C" {
 
 typedef struct dotpose_print_map dotpose_print_map;
 
-/* Reads a map from the contents of a map file, and allocates memory for the map. Returns OK,
- * BAD_VALUE if the bytes are not a map, are damaged or have a newer version, OUT_OF_MEMORY, or
+/* Reads a map from the contents of a map file, and allocates memory for the map. Returns BAD_VALUE
+ * if the bytes are not a map, are damaged or have a newer version. May also return OUT_OF_MEMORY or
  * NULL_POINTER. On failure, sets `map` to null. */
 dotpose_status dotpose_print_map_create(const void* bytes, size_t byte_count,
                                         dotpose_print_map** map);

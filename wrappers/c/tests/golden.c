@@ -1,6 +1,6 @@
 /* Locates golden frames (wrappers/golden/README.md) through dotpose.h, and prints their golden
- * lines, which must equal those of C++. Usage: golden FRAMES.frames [ROWS]. If ROWS is given,
- * frames are pushed row by row to the device locator. */
+ * lines, which must equal those of the C++ library. Usage: golden FRAMES.frames [ROWS]. If ROWS is
+ * given, frames are pushed row by row to the device locator. */
 #include <dotpose.h>
 #include <inttypes.h>
 #include <stdio.h>

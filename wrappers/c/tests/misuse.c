@@ -1,5 +1,5 @@
-/* Checks that each misuse of a function has no effect except to return a status that identifies the
- * error. */
+/* Checks that a misused function returns a status that identifies the error, and has no other
+ * effect. */
 #include <dotpose.h>
 #include <float.h>
 #include <math.h>
@@ -239,7 +239,7 @@ static void pushing(dotpose_locator* locator) {
     EXPECT(NULL_POINTER, dotpose_finish(NULL, &fix));
 }
 
-/* Returns an invented fix with the given status. */
+/* Returns a made-up fix with the given status. */
 static dotpose_fix made_up(dotpose_status status) {
     dotpose_fix fix;
     dotpose_fix_init(&fix, sizeof fix);
@@ -368,7 +368,7 @@ static void any_code(dotpose_locator* large, dotpose_locator* device) {
 }
 
 static void trackers(dotpose_locator* locator) {
-    static dotpose_tracker tracker; /* zeros: not set up */
+    static dotpose_tracker tracker; /* all zeros, so not set up */
     dotpose_track_options options;
     dotpose_sighting sighting;
     dotpose_prediction prediction;
@@ -430,7 +430,7 @@ static void trackers(dotpose_locator* locator) {
 }
 
 static void packets(void) {
-    static dotpose_packet_reader reader; /* zeros: not set up */
+    static dotpose_packet_reader reader; /* all zeros, so not set up */
     dotpose_packet packet;
     dotpose_fix fix = made_up(DOTPOSE_NO_GRID);
     uint8_t bytes[DOTPOSE_PACKET_BYTES];
@@ -473,7 +473,7 @@ static void packets(void) {
 }
 
 static void pacers(void) {
-    static dotpose_pacer pacer; /* zeros: not set up */
+    static dotpose_pacer pacer; /* all zeros, so not set up */
     dotpose_pacer_options options;
     dotpose_fix fix = made_up(DOTPOSE_NO_GRID);
     int64_t next_us = 0;

@@ -94,8 +94,8 @@ std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     return images;
 }
 
-/// Expects that, for frames of this size, a C locator in static memory returns the same fix as the
-/// locator of the core.
+/// Expects that, for a frame of this size, a C locator in memory provided by the caller returns the
+/// same fix as the core locator.
 template <int Width, int Height>
 void expect_same_device(int kind, dotpose_status (*init)(void*, std::size_t, const dotpose_options*,
                                                          dotpose_locator**)) {

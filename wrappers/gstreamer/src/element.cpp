@@ -243,8 +243,8 @@ void init_class(gpointer locate_class, gpointer /*data*/) {
     GstBaseTransformClass* transform_class = GST_BASE_TRANSFORM_CLASS(locate_class);
     transform_class->start = start;
     transform_class->stop = stop;
-    // Replaces the function of GstVideoFilter, because that function maps all frames for writing
-    // and therefore copies shared memory.
+    // Replaces GstVideoFilter's transform_ip, which maps all frames for writing and therefore
+    // copies shared memory.
     transform_class->transform_ip = transform_ip;
     GST_VIDEO_FILTER_CLASS(locate_class)->set_info = set_info;
 }

@@ -49,7 +49,8 @@ class GstreamerDrive : public WatchCommand {
     }
 };
 
-/// Expects that the messages, metas and times of all frames agree with the lines.
+/// Expects that the messages, metas and times of all frames agree with the lines that
+/// `dotpose watch` writes.
 void expect_lines(const std::vector<json>& lines, const Outcome& outcome) {
     ASSERT_EQ(outcome.error, "");
     ASSERT_EQ(outcome.messages.size(), lines.size());

@@ -27,8 +27,8 @@ inline double rounding_of(std::string_view key, double value) {
     return kHalf * 1e-6;
 }
 
-/// Returns true for fields that only lines contain. The element omits these values, or reports them
-/// in other units or fields.
+/// Returns true for fields that occur only in lines. The element omits these values, or reports
+/// them in other units or fields.
 inline bool is_only_in_lines(std::string_view key) {
     constexpr std::array<std::string_view, 7> kKeys = {"schema", "t_s",        "x_grid", "y_grid",
                                                        "file",   "elapsed_us", "warning"};

@@ -31,7 +31,8 @@ void define_tracker(py::module_& module);
 void define_simulate(py::module_& module);
 
 /// Each function defines the classes and functions for one subject in the module _tools. The
-/// functions are called in this order, for the same reason.
+/// functions are called in this order, because signatures refer to classes that must already be
+/// defined.
 void define_sheets(py::module_& module);
 void define_space(py::module_& module);
 void define_space_tracker(py::module_& module);

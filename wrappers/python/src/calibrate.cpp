@@ -22,7 +22,8 @@ CalibrateOptions options_of(const std::string& name, double spacing_mm) {
     return options;
 }
 
-/// Runs `work(frames, frame_at)` on images, with the GIL released.
+/// Calls `work` with the GIL released, passing the number of images and a function that returns an
+/// image.
 template <typename Work>
 auto over(const py::iterable& images, const Work& work) {
     const std::vector<Frame> frames = frames_of(images);

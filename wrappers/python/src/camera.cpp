@@ -12,7 +12,7 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-/// Defines a property whose value is an image point, as (u, v).
+/// Defines a property whose value is an image point (u, v).
 template <typename Member>
 void define_point(py::class_<Camera>& camera, const char* name, Member member, const char* doc) {
     camera.def_property(

@@ -41,7 +41,7 @@ struct SeenFix {
 /// Returns a fix without a reference to its stages.
 SeenFix seen_fix(const CodeReading& reading);
 
-/// A prediction, and the code, spacing and image size for which it was made.
+/// A prediction, with the code, spacing and reference point for which it was made.
 struct SeenPrediction {
     Prediction prediction;
     CodeVariant code = CodeVariant::anoto;

@@ -14,7 +14,7 @@
 
 namespace dotpose::python {
 
-/// Known properties of the code and the camera.
+/// Settings of a locator: the code, the camera and the options.
 struct LocatorSetup {
     std::optional<CodeVariant> code;  ///< none if the code is detected from all frames
     std::optional<Camera> camera;
@@ -37,7 +37,7 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
 
     std::shared_ptr<const Stages> stages_of(std::uint64_t number) override;
 
-    /// Returns the mean time, in µs, that C++ needs to locate the same image. Used to measure the
+    /// Returns the mean time, in µs, that C++ needs to locate the image. Used to measure the
     /// overhead of Python.
     double cpp_us(const py::object& image, int repeats);
 
@@ -64,7 +64,7 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
     LocatorSetup setup_;
     std::mutex mutex_;  ///< guards the members below, except those guarded by the GIL
     Locator locator_;
-    DeviceOptions options_;  ///< options for images of the newest size
+    DeviceOptions options_;  ///< options for the size of the newest image
     int width_px_ = 0;
     int height_px_ = 0;
     CodeEvidence evidence_;

@@ -17,7 +17,8 @@ py::tuple pair_of(const Cell& cell) {
     return py::make_tuple(cell.x, cell.y);
 }
 
-/// A SheetFile that is open during a `with` block and is saved at the end of the block.
+/// A SheetFile that is open during a `with` block. Saved at the end of the block, unless the block
+/// raises an exception.
 class OpenSheetFile {
   public:
     OpenSheetFile(std::filesystem::path path, double max_s) : path_(std::move(path)) {

@@ -74,7 +74,7 @@ def test_the_notebook_has_no_outputs_and_runs(tmp_path):
     pytest.importorskip("ipykernel")
     pytest.importorskip("matplotlib")
     notebook = nbformat.read(path, as_version=4)
-    # Uses this Python as the kernel, whichever kernel is installed as "python3".
+    # Uses this Python as the kernel, regardless of the kernel that is installed as "python3".
     kernels = tmp_path / "kernels" / "python3"
     kernels.mkdir(parents=True)
     command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]

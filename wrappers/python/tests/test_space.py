@@ -100,7 +100,8 @@ def test_a_tracker_follows_the_camera_in_space():
         now = follower.follow(shot.render(), 20_000 * i)
         track = tracker.update(20_000 * i, now.space)
         assert track.verdict == "accepted" and track.is_new == (i == 0)
-        # The follower tracks in the same way, with the default options.
+        # The follower also tracks the camera, with the default options, so the two tracks agree
+        # closely.
         assert now.space_track.position_mm == pytest.approx(track.position_mm, abs=0.05)
     assert track.position_mm == pytest.approx(now.space.position_mm, abs=0.05)
     assert track.velocity_mm_s == pytest.approx((30, 0, 0), abs=3)

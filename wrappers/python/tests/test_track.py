@@ -98,7 +98,7 @@ def sheet_entry(world=None):
 
 
 def shot_on(entry, x_mm, y_mm, theta_rad=0.3):
-    """Returns a shot at a place on the page."""
+    """Returns a shot at the given position on the page."""
     sheet = entry.sheet
     shot = dotpose.draw_shots(1, seed=2, section=(0, 0))[0]
     shot.x_mm = sheet.origin[0] * sheet.spacing_mm + x_mm - sheet.origin_x_mm

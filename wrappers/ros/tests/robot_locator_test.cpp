@@ -74,7 +74,7 @@ class RosLocator : public testing::Test {
 TEST_F(RosLocator, GivesPoseOdometryAndTransforms) {
     const auto answer = take(0);
     ASSERT_TRUE(answer.messages.pose);
-    // The camera is at cell (100,000, 200,000), whereas messages are in metres with y up.
+    // The camera is at cell (100,000, 200,000). Messages are in metres with y up.
     EXPECT_NEAR(answer.messages.pose->pose.pose.position.x, 100'000 * 0.508e-3, 1e-5);
     EXPECT_NEAR(answer.messages.pose->pose.pose.position.y, -200'000 * 0.508e-3, 1e-5);
     EXPECT_EQ(answer.messages.pose->header.stamp.sec, 1000);

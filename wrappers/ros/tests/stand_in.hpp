@@ -1,7 +1,7 @@
 /// Replacement for ROS 2, which Debian does not package. Declares the parts of rclcpp and of the
-/// messages that the node uses, according to their documentation. With these declarations, the node
-/// can be compiled but not run. Each ROS header that the node includes is replaced with a generated
-/// file that includes stand_in.hpp.
+/// messages that the node uses. The declarations follow the ROS documentation. With these
+/// declarations, the node can be compiled but not run. Each ROS header that the node includes is
+/// replaced with a generated file that includes stand_in.hpp.
 #pragma once
 
 #include <array>

@@ -64,7 +64,7 @@ struct ImperfectionsRequest {
 
 struct RenderRequest {
     SheetRequest sheet;
-    double whole_plane;  ///< 1: dots everywhere, as on an infinite sheet; 0: page on a table
+    double whole_plane;  ///< 1 for dots everywhere (an infinite sheet), 0 for a page on a table
     double page_seed;
     double table_reflectance;
     CameraRequest camera;

@@ -23,11 +23,11 @@ export interface Fix extends FixFields {
     message: string;
     /** Covariance of x, y and theta, in mm and rad: nine numbers, row by row. */
     covariance: Float32Array;
-    /** Section in which `cell` was read. */
+    /** Section to which `cell` belongs. */
     section: Section;
     /** Grid intersection to the upper left of the position (x_mm, y_mm). */
     cell: Cell;
-    /** Code in which the frame was read. */
+    /** Code variant of the pattern in the frame. */
     code: Code;
     /** Spacing of the printed grid. */
     spacing_mm: number;

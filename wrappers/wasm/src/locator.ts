@@ -25,8 +25,8 @@ export interface Image {
 /** Options of a locator. The defaults suit any camera. */
 export interface LocatorOptions {
     /**
-     * Code of the sheets. The default "auto" detects the code from the frames. While the code is
-     * ambiguous, frames have the status "ambiguous_code", until further frames given to the same
+     * Code of the sheets. The default "auto" detects the code from the frames. If the code is
+     * ambiguous, frames have the status "ambiguous_code" until further frames given to the same
      * locator resolve the ambiguity.
      */
     code?: Code | "auto";
@@ -242,8 +242,10 @@ export class Locator {
         return this.#prediction;
     }
 
-    /** Returns the number of the given code or, for "auto", of the code in which the last image was
-     * read. */
+    /**
+     * Returns the number of the given code or, for "auto", of the code that was read in the last
+     * image.
+     */
     #codeRead(): number {
         callOk(this.#core, "dotpose_code_of", this.#locator, this.#code);
         return this.#core.view(this.#code, kCodeBytes).getInt32(0, true);

@@ -6,7 +6,7 @@ import type { Code } from "./names.js";
  * plain data that can be posted between workers.
  */
 export interface Prediction {
-    /** Code in which the prediction was made. */
+    /** Code variant of the predicted pattern. */
     code: Code;
     /** A dotpose_prediction (wrappers/c/dotpose.h). */
     bytes: Uint8Array<ArrayBuffer>;

@@ -11,7 +11,7 @@ export interface SpaceCamera {
      * the image x and y axes.
      */
     focal_px: number | readonly [number, number];
-    /** Pixel on the optical axis, without distortion. Default: the image centre. */
+    /** Undistorted image point on the optical axis. Default: the image centre. */
     axis_px?: readonly [number, number];
     /** Printed length divided by the nominal length of the sheet, above 0.1 and below 10. Default: 1. */
     print_scale?: number;

@@ -64,7 +64,7 @@ export interface TrackOptions {
 export interface Track {
     /** Time of the pose. */
     time_us: number;
-    /** True if the robot has not been seen for too long. */
+    /** True if the robot is lost: it has not been located for too long. */
     is_lost: boolean;
     /** True if the robot is at rest. */
     is_stationary: boolean;

@@ -7,7 +7,7 @@ import type { FrameOptions, Image, LocatorOptions } from "./locator.js";
 export interface Located {
     /** The pose computed from the image. */
     fix: Fix;
-    /** The image that was sent, with its buffer, which can be reused. */
+    /** The image that was sent. Its buffer can be reused. */
     image: Image;
 }
 
@@ -54,7 +54,10 @@ export class WorkerLocator {
         return locator;
     }
 
-    /** Returns the fix of an image, and the image. The buffer of the image is transferred. */
+    /**
+     * Locates an image. Returns the fix together with the image, whose buffer is transferred to the
+     * worker and back.
+     */
     async locate(image: Image, options: FrameOptions = {}): Promise<Located> {
         return (await this.#ask({ kind: "locate", image, options }, [image.data.buffer]))!;
     }

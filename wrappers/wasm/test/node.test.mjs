@@ -219,7 +219,8 @@ describe("Tracker", () => {
         assert.ok(Math.abs(track.x_mm - x_mm(39)) < 0.01 && Math.abs(track.y_mm - 1070) < 0.01, `${track.x_mm}, ${track.y_mm}`);
         assert.ok(Math.abs(track.theta_rad - 0.5) < 0.002);
         assert.ok(Math.abs(track.vx_mm_s - kSpeed_mm_s) < 1 && Math.abs(track.vy_mm_s) < 1, `${track.vx_mm_s}, ${track.vy_mm_s}`);
-        // The velocity is known after the second frame. The robot moves by two spacings per frame.
+        // Predictions succeed once the velocity is known, after the second frame. The robot moves
+        // by two spacings per frame.
         assert.deepEqual(new Set(attempts.slice(2)), new Set(["tracked"]));
     });
 

@@ -43,7 +43,7 @@ function withSum(bytes) {
 /** Returns the offset of the first page's column count in a map file (docs/print-map.md). `name` is
  * the name of its sheet. */
 const columnsAt = (name) => 20 + name.length + 3 + 8;
-/** Returns the offset of this page's view counts, an array with one element per dot. */
+/** Returns the offset of the first page's array of view counts, which has one element per dot. */
 const viewsAt = (name, dots) => columnsAt(name) + 8 + 8 + 4 + 16 + 4 * dots;
 
 const near = (expected, actual, tolerance) =>

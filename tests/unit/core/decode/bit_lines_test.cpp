@@ -97,7 +97,7 @@ TEST(BitLines, ABlockTurnsAsTheCodeDoes) {
         const FixedVec most{1 + static_cast<int>(rng.below(31)),
                             1 + static_cast<int>(rng.below(31))};
         const BitBlock seen = seen_block(code, zero, quarters, least, most, {}, rng);
-        // Reads the same cells with a camera that is not rotated.
+        // A camera that is not rotated sees the same cells.
         const FixedVec a = cell_turned(quarters, least);
         const FixedVec b = cell_turned(quarters, most - FixedVec{1, 1});
         const BitBlock upright =
@@ -139,8 +139,8 @@ struct Found {
     int exactly = 0;
 };
 
-/// Returns the number of blocks found among `blocks` random blocks. Expects that no block is found
-/// at a wrong place.
+/// Returns how many of `blocks` random blocks are found. Expects that no block is found at a wrong
+/// place.
 Found find_blocks(int blocks, int min_side, const Damage& damage, const core::Kernels& kernels) {
     Rng rng(kSeed);
     Found found;

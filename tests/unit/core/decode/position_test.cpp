@@ -77,8 +77,8 @@ TEST(Position, IsReadAcrossBothEndsOfTheCode) {
 }
 
 TEST(Position, IsReadFromManyDotsThoughSomeAreWrong) {
-    // 8 % of the dots have a random symbol, which is wrong in three of four cases. Another 6 % of
-    // the dots are missing.
+    // 8 % of the dots have a random symbol, which is wrong in three out of four cases. Another 6 %
+    // of the dots are missing.
     Rng rng(kSeed);
     for_many_views(60, [&](const View& view, QuarterTurn turn) {
         std::vector<DetectedDot> dots;

@@ -94,7 +94,7 @@ TEST(FindAxis, FindsThePositionAmongWrongBits) {
 }
 
 TEST(FindAxis, HoldsForThePublishedCode) {
-    // In this code, eight consecutive lines are necessary to determine a position.
+    // In the code `libdots`, eight consecutive lines are necessary to determine a position.
     EXPECT_EQ(found_of_200(CodeVariant::libdots, 12, 0), 200) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 12, 0.05), 198) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 30, 0.2), 198) << "seed " << kSeed;

@@ -32,7 +32,7 @@ void for_each_band(const GreyImage& image, const ThresholdOptions& options,
         const int ready = take_row(image.view().row(v), threshold);
         ASSERT_GE(ready, 0);
         for (int i = 0; i < ready; ++i, ++next) {
-            // When a band is ready, its rows and those of the band below it must have been
+            // When a band is ready, all its rows and all rows of the band below it must have been
             // received.
             ASSERT_LE(std::min(band_end(threshold, next + 1), image.height_px), v + 1);
             measure_levels(next, options, threshold);
@@ -73,8 +73,8 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
                           for (int t = 0; t < 8; ++t) {
                               const Levels level = levels_of_tile(w.threshold, t);
                               // Only the third and the seventh row of a tile are measured. Ink
-                              // covers a quarter of the third row and none of the seventh, which is
-                              // an eighth of the measured pixels.
+                              // covers a quarter of the third row and none of the seventh, so it
+                              // covers an eighth of the measured pixels.
                               const double mean = std::floor(p - (p - i) / 8.0);
                               // The contrast is rounded to 1/64 of the paper level.
                               const double step = mean / 64 + 1;
@@ -211,7 +211,7 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
 }
 
 TEST(AdaptiveThreshold, ThresholdsFollowAShadow) {
-    // The right half of the image receives a third of the light of the left half.
+    // The light in the right half of the image is a third of the light in the left half.
     SmallWorkspace w;
     GreyImage image = dotted(160, 80, 210, 30);
     for (int v = 0; v < 80; ++v) {

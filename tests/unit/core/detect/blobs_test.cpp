@@ -135,8 +135,8 @@ TEST(Blobs, WhatTouchesTheBorderIsNoDot) {
 }
 
 TEST(Blobs, FoundInUnevenLight) {
-    // The dots are 9.3 px apart. The light decreases to a third from one corner to the opposite
-    // corner.
+    // The dots are 9.3 px apart. From one corner to the opposite corner, the light decreases to a
+    // third.
     GreyImage image = blank(190, 120);
     std::vector<Vec2> centres;
     for (double y = 7.2; y < 113; y += 9.3) {
@@ -238,8 +238,8 @@ TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
         w.open.max_runs = rows * 20;
         EXPECT_EQ(static_cast<int>(blobs_of(image, w).size()), rows * 10);
     }
-    // The first three rows of dots have 60 runs. The remaining five runs are used by the top rows
-    // of five dots in the fourth row.
+    // The first three rows of dots have 60 runs. The remaining five runs are the top halves of five
+    // dots in the fourth row.
     w.open.max_runs = 3 * 20 + 5;
     EXPECT_EQ(blobs_of(image, w).size(), 35u);
 }

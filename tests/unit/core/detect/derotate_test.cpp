@@ -32,7 +32,7 @@ core::ReadoutTurn turn_of(const CameraModel& camera) {
 }
 
 TEST(ReadoutTurn, SeparatesTheRotationFromTheMotion) {
-    // Projects each point with motion only, and with motion and rotation.
+    // Projects each point twice: with motion only, and with motion and rotation.
     const Vec2 motion{20, -12};
     const CameraModel moving = turning_camera(0, motion);
     for (const double turn_rad : {-0.9, 0.05, 0.6}) {

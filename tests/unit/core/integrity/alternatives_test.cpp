@@ -154,8 +154,8 @@ TEST(ExpectedAlternatives, OfOneLineAreAllInProportion) {
     Odds odds{};
     odds[0] = 1;
     odds[17] = 0.25F;
-    // Expected number of alternatives that differ in two or more sequences: the product of 1 +
-    // length over all sequences, minus 1 for the reading itself, minus the number of alternatives
+    // Expected number of alternatives that differ in two or more sequences: the product of (1 +
+    // length) over all sequences, minus 1 for the reading itself, minus the number of alternatives
     // that differ in one sequence.
     const double alternatives = 237.0 * 234 * 32 * 242 - 1 - (236 + 233 + 31 + 241);
     EXPECT_NEAR(static_cast<double>(sum_of(7, 4, {odds})) / (1.25 * alternatives), 1, 1e-5);

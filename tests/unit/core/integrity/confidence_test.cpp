@@ -53,11 +53,11 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
     for (const int bits : {100, 400, 3000}) {
         for (const int wrong : {0, 1, 5, 20}) {
             SCOPED_TRACE(testing::Message() << wrong << " wrong of " << bits);
-            // The fraction of wrong bits is 1 / (1 + odds). The estimate adds two errors to those
-            // observed, as a margin for small samples.
+            // The fraction of wrong bits is 1 / (1 + odds). The estimate adds two errors to the
+            // observed number, as a margin for small samples.
             const double expected = std::log2(bits / (wrong + 2.0) - 1);
             // Weights are quantised in steps of 8, which changes the largest weights by up to 3 %.
-            // The exponential is accurate to 2 %, and 0.1 is the tolerance for this error.
+            // The exponential is accurate to 2 %, which the 0.1 in the tolerance allows for.
             EXPECT_NEAR(odds_per_bit_q8(confidence(bits, 127, wrong)) / 256.0, expected,
                         0.1 + 0.03 * expected);
         }

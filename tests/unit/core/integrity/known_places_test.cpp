@@ -80,7 +80,8 @@ std::array<int, 2> wrong_bits(const core::BitBlock& block, CodeVariant code, con
     return wrong;
 }
 
-/// Returns the probability that at most `wrong` of `bits` random bits differ from given bits.
+/// Returns the probability that `bits` random bits differ from given bits in at most `wrong`
+/// places.
 double random_agreement(int bits, int wrong) {
     double term = std::exp2(-bits);
     double sum = 0;
@@ -172,9 +173,9 @@ TEST(KnownPlaces, UnknownSheetsMayHaveTheSameRows) {
         return best ? wrong_at(block, sheets, *best) : 1;
     };
     // The view contains 5 x 5 cells. An unknown sheet may have the same rolls along one axis and,
-    // by chance, also the same 25 bits along the other axis. Along each axis, the sheet is longer
-    // than the period of 63 cells, so two positions can have the same roll. The factor of 4 is the
-    // number of axes times this number of positions.
+    // by chance, also the same 25 bits along the other axis. Each axis of the sheet is longer than
+    // the period of 63 cells, so two positions on it can have the same roll. The factor of 4 is two
+    // axes times two positions.
     EXPECT_GE(wrong_if(OtherSheets::possible), 4 * std::exp2(-25.0));
     EXPECT_LT(wrong_if(OtherSheets::impossible), std::exp2(-25.0));
 }
@@ -205,7 +206,7 @@ TEST(KnownPlaces, OverlappingSheetsHaveTheSamePlace) {
         const auto best = core::find_known_place(core::kernels(), block, sheets);
         return best ? wrong_at(block, sheets, *best) : 1;
     };
-    // Two sheets have about twice as many other places as one sheet.
+    // On two sheets, there are about twice as many other places as on one sheet.
     const float once = wrong_on({&kSheet, 1});
     const float twice = wrong_on(std::array{kSheet, right});
     EXPECT_GT(twice, once);

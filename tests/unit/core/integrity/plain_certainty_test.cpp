@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Returns the verdict on the claim that the bits of a block are at the place `claimed`.
+/// Judges the claim that the bits of a block are at the place `claimed`. Returns the verdict.
 Verdict judge_plainly(const Block& block, const Place& claimed,
                       const IntegrityOptions& options = {}) {
     Block there = block;
@@ -123,7 +123,7 @@ TEST(IsPlainlyCertain, RefusesWhatASeamExplainsBetter) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
         Block block = cut_block(CodeVariant::anoto, any_place(rng), 16, 16);
         alone += judge_plainly(block, block.place).is_certain;
-        // Most columns belong to another section.
+        // The block now shows another section in most of its columns.
         Place other = block.place;
         other.section.u = static_cast<std::uint8_t>((other.section.u + 30) % 63);
         const Block beyond = cut_block(CodeVariant::anoto, other, 16, 16);

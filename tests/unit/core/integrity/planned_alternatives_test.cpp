@@ -85,8 +85,8 @@ TEST(SmallViews, EndAtTheWorkLimit) {
     int found = 0;
     for (int i = 0; i < 50; ++i) {
         const std::array axis{small_view(rng)};
-        // The limit leaves 5,000 instructions after the preparation, which takes 80,000. The search
-        // of one set of lines takes at least 1,500.
+        // The preparation takes 80,000 instructions, so the limit leaves 5,000 for the search. The
+        // search of one set of lines takes at least 1,500.
         EXPECT_GE(wrong_in(kernels(), axis, 0x1p-30F, 85'000), 1) << i;
         found += wrong_in(kernels(), axis, 0x1p-30F, kPlenty) < 0x1p-30F ? 1 : 0;
     }

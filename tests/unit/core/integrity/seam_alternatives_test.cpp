@@ -126,7 +126,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
         const Sum sum = sum_of_all(c);
         const double log2_ratio = std::log2((counted + limit) / (sum.odds + limit));
         EXPECT_GE(log2_ratio, -0.1);
-        // Every addition rounds up, by at most 0.012 in log2.
+        // Every addition rounds log2 of the sum up by at most 0.012.
         EXPECT_LE(log2_ratio, 0.1 + sum.terms * 0.012);
         ++(sum.terms > 0 ? some : none);
     }

@@ -24,7 +24,7 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns true if the loss of a place is below the limit.
+/// Returns true if `place` differs from `own` and is not excluded by a loss of kLimitParts or more.
 bool is_similar(const code::Secondary& a, std::uint32_t own, std::uint32_t place,
                 const Steps& steps) {
     if (place == own) return false;

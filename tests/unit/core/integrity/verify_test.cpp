@@ -88,8 +88,8 @@ TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
         Verdict verdict = judge(reading, options, how);
         EXPECT_EQ(verdict.status, Status::ok);
         EXPECT_EQ(verdict.fix.p_wrong_log2, usual.fix.p_wrong_log2);
-        // Lowers the limit below each result in turn. The exact sums may then still confirm the
-        // position.
+        // Repeatedly lowers the limit below the last result. The exact sums may then still confirm
+        // the position.
         int looks = 0;
         for (; verdict.status == Status::ok; ++looks) {
             ASSERT_LE(verdict.fix.p_wrong_log2, options.max_p_wrong_log2);
@@ -150,7 +150,7 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
             Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
         // Clears the stored scores. All rolls then have equal scores, so no alternative is
-        // excluded. `verify` must use the stored scores, and therefore refuse the position.
+        // excluded. `verify` must use the stored scores, and must therefore refuse the position.
         storage.fill({});
         EXPECT_EQ(
             verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),

@@ -96,7 +96,7 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
     int exact = 0;
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
-        // The tilt is up to 20 degrees, with a focal length of 350 px.
+        // The camera is tilted by up to 20 degrees, and its focal length is 350 px.
         const double tilt = std::tan(radians(rng.uniform(0, 20))) / 350;
         const double spacing_px = rng.uniform(6, 20);
         const FloatPlane truth = random_float_plane(spacing_px, tilt, rng);

@@ -96,8 +96,8 @@ TEST_P(OutwardGrid, RefusesScatteredDots) {
     }
 }
 
-/// The verdict requires that at least 7 of 10 dots are near their intersections, and that the mean
-/// squared offset is between 1/256 and 1/10.
+/// The verdict requires that at least 7 out of 10 dots are near their intersections, and that the
+/// mean squared offset is between 1/256 and 1/10.
 TEST(Regularity, JudgesByItsBounds) {
     const auto verdict = [](int near, double mean_square) {
         const Regularity regularity{100, near, 9};

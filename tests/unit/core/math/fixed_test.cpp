@@ -164,7 +164,7 @@ TEST(Fixed, ProductsOfVectorsDoNotOverflow) {
     constexpr FixedVec kFar{INT32_MAX, INT32_MIN};
     EXPECT_EQ(dot(kFar, {1, -1}), std::int64_t{INT32_MAX} - INT32_MIN);
     EXPECT_EQ(cross({1 << 30, 0}, {0, 1 << 30}), std::int64_t{1} << 60);
-    EXPECT_EQ(cross({0, 1}, {1, 0}), -1);  // from +x towards +y is positive
+    EXPECT_EQ(cross({0, 1}, {1, 0}), -1);  // positive from +x towards +y
     EXPECT_EQ(squared({3, -4}), 25);
 }
 

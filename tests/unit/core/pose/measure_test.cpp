@@ -46,7 +46,7 @@ void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int
     ASSERT_EQ(reading.status, Status::ok);
     const Nominal nominal(reading.grid(), view.code, reading.truth());
     PlaneFromImage pose = upright_plane(reading.plane, reading.turn);
-    // The pose from the first attempt has an error of a few hundredths of a spacing.
+    // Adds an error of a few hundredths of a spacing, as in a pose from the first attempt.
     const Vec2 off{rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03)};
     pose.at_centre_q16 = fixed(real(pose.at_centre_q16, 16) + off, 16);
     std::vector<DetectedDot> measured(1000);
@@ -168,7 +168,7 @@ TEST(MeasureDots, StopsWhereTheirMemoryEnds) {
                            nominal, reading.owned.grid, std::span(measured).first(10)),
               10);
     EXPECT_EQ(measured[10].centre_q8, FixedVec{});
-    // Cells refer to measured dots only.
+    // No cell may refer to a dot that was not measured.
     EXPECT_EQ(std::count_if(reading.owned.cells.begin(), reading.owned.cells.end(),
                             [](const GridCell& cell) { return cell.has_dot() && cell.dot < 10; }),
               10);

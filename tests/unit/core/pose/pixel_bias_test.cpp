@@ -116,7 +116,7 @@ class AlikeFrame {
     std::vector<Vec2> truth_;
 };
 
-/// Draws a dot with the given sub-pixel phase.
+/// A function that draws a dot with the given sub-pixel phase.
 using DotAt = std::function<DrawnDot(Vec2)>;
 
 /// Returns the rms errors per axis over frames with random phases.

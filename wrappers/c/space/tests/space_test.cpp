@@ -116,7 +116,8 @@ TEST_F(SpaceInC, FindsTheTipOfAPen) {
     ASSERT_EQ(dotpose_space_pen_init(&pen, sizeof pen), DOTPOSE_OK);
     dotpose_space_tip tip;
     ASSERT_EQ(dotpose_space_tip_init(&tip, sizeof tip), DOTPOSE_OK);
-    // The tip is on the optical axis, at the distance of the paper, so it touches the pose point.
+    // The tip is on the optical axis, at the distance of the paper, so it touches the paper at the
+    // image centre.
     pen.z_mm = kDistance_mm;
     ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
     const double mm = shot_.page.pattern.spacing_mm;

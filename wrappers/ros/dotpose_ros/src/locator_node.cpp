@@ -28,7 +28,7 @@ using sensor_msgs::msg::CameraInfo;
 using sensor_msgs::msg::Image;
 
 /// Declares a parameter and returns its value. Parameters are read-only, so `ros2 param set` cannot
-/// change them. Their types are dynamic, because numbers may be given without a decimal point.
+/// change them. Their types are dynamic, to allow floating-point numbers without a decimal point.
 /// `settings_of` checks the types.
 Value declare(rclcpp::Node& node, const Parameter& parameter) {
     rcl_interfaces::msg::ParameterDescriptor descriptor;

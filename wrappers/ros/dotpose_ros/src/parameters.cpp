@@ -11,7 +11,7 @@
 namespace dotpose_ros {
 namespace {
 
-/// Typed access to the values of parameters, with one function for each type.
+/// Reads parameter values, with one function for each type.
 class Values {
   public:
     explicit Values(const std::map<std::string, Value>& values) : values_(values) {}

@@ -50,7 +50,8 @@ RobotLocator::RobotLocator(const Settings& settings, std::string robot)
     restart();
 }
 
-/// Returns the problem caused by the missing lens, or an empty string if there is no problem.
+/// Returns a description of the problem that a missing lens causes, or an empty string if there is
+/// no problem.
 std::string RobotLocator::missing_lens() const {
     return options_.fits_space_pose ? "there are no poses in space until camera_info has a lens"
                                     : "";
@@ -94,7 +95,8 @@ RobotLocator::Answer RobotLocator::take(const RawImage& image, std::int64_t stam
     return answer;
 }
 
-/// Returns true if the status must be published, because it has changed or is a second old.
+/// Returns true if the status has changed or was last published at least a second ago. In this
+/// case, records the status as published.
 bool RobotLocator::is_status_due(const std::string& status, std::int64_t arrival_ns) {
     if (status == told_status_ && arrival_ns < told_ns_ + kSecond_ns) return false;
     told_status_ = status;
@@ -102,7 +104,8 @@ bool RobotLocator::is_status_due(const std::string& status, std::int64_t arrival
     return true;
 }
 
-/// Compares the time of an image with the newest processed image and the last received image.
+/// Compares the time of an image with the times of the newest processed and the last received
+/// image, and updates these times.
 RobotLocator::Order RobotLocator::order_of(std::int64_t time_us) {
     const bool is_newer_than_last = time_us > std::exchange(last_us_, time_us);
     if (time_us <= newest_us_ && !is_newer_than_last) return Order::left_out;

@@ -39,8 +39,8 @@ struct Lens {
 class RobotLocator {
   public:
     struct Answer {
-        /// Messages to publish. They contain a status only if it has changed, or if the previous
-        /// status is a second old.
+        /// Messages to publish. They contain a status only if it has changed, or if the last status
+        /// was published at least a second ago.
         dotpose::ros::RobotMessages messages;
         /// New warning about the images, to be logged. Empty if there is none.
         std::string warning;
@@ -82,7 +82,7 @@ class RobotLocator {
     std::int64_t half_exposure_ns_;
     bool has_lens_;
     std::optional<Lens> refused_lens_;
-    std::string lens_problem_;  ///< why the lens cannot be used, appended to each status
+    std::string lens_problem_;  ///< reason why the lens cannot be used; appended to each status
     std::optional<dotpose::Follower> follower_;
     dotpose::ros::RobotMessenger messenger_;
     dotpose::GreyImage grey_;
