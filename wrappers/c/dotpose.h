@@ -194,7 +194,7 @@ enum {
     DOTPOSE_SURFACE_UNEVEN = 2
 };
 
-/* The places that counted as possible: see `prior`. */
+/* Places considered possible, for the member `prior`. */
 enum {
     /* All places of the code. */
     DOTPOSE_PRIOR_PLANE = 0,
