@@ -106,7 +106,7 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the most difficult value of a condition at which at least the fraction `share` of the
+/// Returns the most difficult value of a condition at which at least a fraction `share` of the
 /// frames is still located. For the spacing, which has a lower and an upper limit, returns the
 /// range between the two limits.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {

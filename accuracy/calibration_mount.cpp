@@ -91,8 +91,8 @@ Camera calibrated(const CameraModel& model, std::uint64_t seed) {
     return calibrate_lens(kFramesOfCamera, frame_at, {}).camera;
 }
 
-/// Calls `work(camera, model, seed, errors)` `count` times with the true camera, and `count` times
-/// with calibrated cameras.
+/// Calls `work(camera, model, seed, errors)` `count` times with the true camera, and another
+/// `count` times with calibrated cameras.
 template <typename Work>
 void measure_both(const std::string& what, std::uint64_t count, const CameraModel& model,
                   const TableRun& run, Work work) {

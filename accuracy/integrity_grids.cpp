@@ -66,9 +66,9 @@ struct Noise {
     }
 };
 
-/// Draws random odds of a correct bit, which make a reading with this number of cells doubtful.
-/// Along one axis, there are 2^36.6 combinations of position, section and turn. The decoder needs
-/// 36.6 bits to distinguish them, and about 30 more bits to make a wrong position unlikely. The
+/// Draws random odds of a correct bit, such that a reading with `cells` cells is doubtful. Along
+/// one axis, there are 2^36.6 combinations of position, section and turn. The decoder needs 36.6
+/// bits to distinguish them, and about 30 more bits to make a wrong position unlikely. The wanted
 /// number of bits is drawn from a range around this sum.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
@@ -162,8 +162,8 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Returns true if p_wrong is probably near 1e-5. This range needs the most readings. The selection
-/// also includes enough readings with a p_wrong near 1e-4 and 1e-3. Other readings are skipped,
+/// Returns true if p_wrong is probably near 1e-5, where the most readings are needed. The selected
+/// readings also include enough with a p_wrong near 1e-4 and 1e-3. Other readings are skipped,
 /// because `verify` takes 20 times as long as all previous steps together.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {

@@ -106,8 +106,8 @@ void leave_strip(Shot& shot, const ViewSize& size, int rows) {
     shot.page.areas = {strip};
 }
 
-/// Estimates the fraction of the dots that the graphics touch, which is the fraction of the pixel
-/// positions at which a dot would touch them.
+/// Estimates the fraction of the dots that touch the graphics. It is computed as the fraction of
+/// the pixel positions at which a dot would touch the graphics.
 double fraction_hidden(const Shot& shot) {
     constexpr double kPaper = 255;
     constexpr int kDotRadius_px = 2;

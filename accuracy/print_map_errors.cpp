@@ -64,8 +64,8 @@ struct MapErrorSums {
 /// Error of a map in one view: the shift, in mm, and the turn, in radians.
 struct ViewError {
     Vector3d error;
-    /// The part of the variances that is due to the independent errors of the dots. The map does
-    /// not contain this part, because a fix estimates it from its residuals.
+    /// Variances due to the independent errors of the dots. The map does not contain these
+    /// variances, because a fix estimates them from its residuals.
     Vector3d of_dots;
 };
 

@@ -23,7 +23,7 @@ struct DestroyTags {
     void operator()(apriltag_family_t* family) const { tag36h11_destroy(family); }
     void operator()(apriltag_detector_t* detector) const { apriltag_detector_destroy(detector); }
     void operator()(zarray_t* detections) const { apriltag_detections_destroy(detections); }
-    // `free`, because libapriltag allocates matrices with calloc and does not export
+    // Calls `free`, because libapriltag allocates matrices with calloc and does not export
     // `matd_destroy`.
     void operator()(matd_t* matrix) const { std::free(matrix); }
 };

@@ -9,7 +9,8 @@
 namespace dotpose::tables {
 namespace {
 
-/// A drive at a constant speed with 200 frames per second. Every `every`-th frame is processed.
+/// A drive at a constant speed, recorded at 200 frames per second. Only every `every`-th frame is
+/// processed.
 struct DriveRate {
     double speed_mm_s;
     int every;

@@ -23,8 +23,9 @@ struct Along {
 
 using Places = std::array<std::uint32_t, 4>;
 
-/// Returns the maximum number of lines whose rolls differ by the same amount between two places in
-/// a secondary sequence. A constant difference between the rolls is equivalent to another section.
+/// Compares the rolls of `lines` consecutive lines at two places in a secondary sequence. Returns
+/// the largest number of lines whose rolls differ by the same amount, because a constant difference
+/// is equivalent to another section.
 int shared_lines(const code::Secondary& sequence, std::uint32_t place, std::uint32_t other,
                  int lines) {
     std::array<int, kSections> counts{};
@@ -56,7 +57,8 @@ std::uint8_t section_of(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
-/// Returns the section in which the lines starting at `position` match the most of the given rolls.
+/// Returns the section in which the lines starting at `position` match as many of the given rolls
+/// as possible.
 std::uint8_t likest_section(CodeVariant code, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {
     std::vector<std::uint8_t> there(rolls.size());

@@ -52,7 +52,7 @@ enum class Way : std::uint8_t {
     twice,
     once,
     narrow,   ///< first attempt with 16-byte vectors, as on a processor without AVX2
-    tracked,  ///< with predictions that are off by up to a third of a spacing and 2 degrees
+    tracked,  ///< tracking, with predictions off by up to a third of a spacing and 2 degrees
     device,
     floor,
     apriltag_1,

@@ -40,7 +40,7 @@ struct FrameHeader {
 
 /// Reads the next number in a header, and the character that follows the number. Returns false if
 /// there is no number, if its absolute value exceeds INT32_MAX, or if the character is neither a
-/// blank nor a newline.
+/// space nor a newline.
 bool read_number(std::int32_t& number) {
     char byte = 0;
     do {

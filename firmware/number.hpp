@@ -2,5 +2,5 @@
 
 #include <cstdint>
 
-/// Prints a blank, followed by the number in decimal.
+/// Prints a space, followed by the number in decimal.
 void print_number(std::int64_t number);

@@ -87,8 +87,8 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
 }
 
 /// Returns true if the pattern was printed in a code other than `frame.options.code`, but also
-/// matches that code at the fix. The pattern matches if at least three quarters of the bits that
-/// `frame.options.code` has around the fix equal the bits printed around the first answer.
+/// matches that code at the fix. It matches if at least three quarters of the bits of
+/// `frame.options.code` around the fix equal the bits printed around the first answer.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();

@@ -44,7 +44,7 @@ struct DrivePlan {
     double second_put_down = 3.55;  ///< put down a little to the side
     double stop = 4.5;  ///< beginning of the final rest, before which the robot slows down
     double end = 5.5;
-    /// Maximum speed, which is reached in the middle of the path. 0 for a robot that does not move.
+    /// Maximum speed, reached in the middle of the path. It is 0 for a robot that does not move.
     double speed_mm_s = 300;
 };
 

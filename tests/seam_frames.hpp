@@ -149,7 +149,7 @@ inline void add_side(const SeamShot& shot, int side, InkMap& map, Rng& rng) {
                 i - shot.fraction_x + dx(symbol) / 6.0 + shot.jitter_grid * rng.normal();
             const double y =
                 j - shot.fraction_y + dy(symbol) / 6.0 + shot.jitter_grid * rng.normal();
-            // The image x axis has the angle theta in the pattern, so the pattern is rotated by
+            // The image x axis is at angle theta in the pattern, so the pattern is rotated by
             // -theta.
             const double u = shot.spacing_px * (c * x + s * y) - hinge_x;
             const double v = shot.spacing_px * (c * y - s * x) - hinge_y;

@@ -238,8 +238,8 @@ void CalibrationGuide::show_guided() {
     changed_.notify_one();
 }
 
-/// Queues a copy of a frame for the calibration thread, unless the thread is busy or the last frame
-/// was queued less than `kOfferPeriod` ago. The caller must hold `mutex_`.
+/// Queues a copy of a frame for the calibration thread if the thread is idle and at least
+/// `kOfferPeriod` has passed since the last frame was queued. The caller must hold `mutex_`.
 void CalibrationGuide::offer(const capture::Frame& frame, ImageView image, double bits_per_px) {
     const Clock::time_point now = Clock::now();
     if (is_busy_ || !jobs_.empty() || now < next_offer_) return;

@@ -35,7 +35,7 @@ namespace dotpose::cli {
 enum class GuideStep { lens, spin, drive, readout, pivot };
 /// Returns the identifier of a step, such as "spin".
 const char* name(GuideStep step);
-/// Returns the step whose identifier is `name`, or none if there is no such step.
+/// Returns the step whose identifier is `name`, or nullopt if there is no such step.
 std::optional<GuideStep> guide_step(const std::string& name);
 
 /// Phase of the current step.
@@ -74,7 +74,7 @@ struct GuideState {
     int frames = 0;  ///< number of collected frames
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what the user should do now
-    std::optional<CalibrationStatus> lens;  ///< coverage, set only by the step `lens`
+    std::optional<CalibrationStatus> lens;  ///< progress of the step `lens`
     /// One flag for each heading of the turning robot, or for each direction in which the pen is
     /// tilted: true if enough frames have been collected for this direction.
     std::vector<bool> directions;
@@ -82,7 +82,7 @@ struct GuideState {
     std::vector<std::string> needs;  ///< unmet requirements; not used in the step `lens`
     std::string problem;             ///< reason why the step failed or the file was not written
     std::optional<GuideResult> result;
-    std::optional<Camera> camera;  ///< newest saved camera; initially the given camera
+    std::optional<Camera> camera;  ///< newest saved camera; initially GuideOptions::camera
 };
 
 class CalibrationGuide {
@@ -110,7 +110,8 @@ class CalibrationGuide {
     void take(const capture::Frame& frame, const Reading& reading, ImageView image,
               double bits_per_px);
 
-    /// Returns the camera that was saved since the previous call, or none if no camera was saved.
+    /// Returns the camera that was saved since the previous call, or nullopt if no camera was
+    /// saved.
     std::optional<Camera> take_camera();
 
     const std::string& file() const { return options_.file; }

@@ -33,8 +33,8 @@ class CalibrationJob {
     /// calibration must be running.
     bool wait(std::chrono::milliseconds patience);
 
-    /// Returns the result of the last finished calibration, or none if that calibration failed or
-    /// none has finished.
+    /// Returns the result of the last finished calibration, or nullopt if that calibration failed
+    /// or no calibration has finished.
     const std::optional<LensCalibration>& newest() const { return newest_; }
     /// Returns the reason why the last finished calibration failed, or an empty string if it
     /// succeeded.

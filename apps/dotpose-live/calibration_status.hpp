@@ -23,7 +23,8 @@ struct CalibrationStatus {
     CalibrationCoverage coverage;
     std::vector<CalibrationNeed> needs;  ///< unmet requirements, most urgent first
     /// Standard deviation of the undistorted position of the farthest image corner, according to
-    /// the last finished calibration. None if no calibration has finished or the last one failed.
+    /// the last finished calibration. nullopt if no calibration has finished or the last one
+    /// failed.
     std::optional<double> corner_sigma_px;
     std::optional<double> theta_rad;  ///< camera angle in the newest frame, if it was located
     std::vector<FrameTilt> tilts;     ///< tilts of the collected frames

@@ -100,8 +100,8 @@ std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& 
     return store ? std::optional(store->status()) : std::nullopt;
 }
 
-/// Returns the options for the web page, or none if --web is not given. The caller must set `now`
-/// and `services`.
+/// Returns the options for the web page, or nullopt if --web is not given. The caller must set
+/// `now` and `services`.
 std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
                                            const publish::MqttOptions& mqtt) {
     auto server = arguments.web.options();

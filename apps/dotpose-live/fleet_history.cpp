@@ -1,4 +1,4 @@
-// `dotpose fleet history`: reads the states that `dotpose fleet --store` has stored.
+// `dotpose fleet history`: reads the states stored by `dotpose fleet --store`.
 #include <chrono>
 #include <cmath>
 #include <memory>

@@ -36,10 +36,10 @@ struct FleetInputOptions {
     publish::MqttOptions mqtt;
     ShareArguments share;
     ConditionLimits limits;
-    std::string log;  ///< path of a CSV file for all states, or empty for none
+    std::string log;  ///< path of a CSV file for all states; empty to write no file
 };
 
-/// Maintains the state of the fleet. The subscriber calls `take` in its own thread.
+/// Maintains the state of the fleet. The subscriber calls `take` on its own thread.
 class FleetInput {
   public:
     /// `store` is null if the states are not to be stored. Otherwise, it must outlive this object.

@@ -12,9 +12,9 @@ namespace dotpose::cli {
 
 /// State of the connections from `dotpose fleet` to the broker and the database.
 struct FleetServices {
-    std::optional<bool> is_broker_connected;  ///< none if there is no broker
+    std::optional<bool> is_broker_connected;  ///< nullopt if there is no broker
     Delivery delivery = Delivery::all;
-    std::optional<store::QueueStatus> store;  ///< none if there is no database
+    std::optional<store::QueueStatus> store;  ///< nullopt if there is no database
 };
 
 /// Returns the metrics as text. `robots` is the result of `fleet.robots`. Reserved characters in

@@ -54,8 +54,8 @@ std::set<std::string, std::less<>> retained_robots(const publish::MqttOptions& o
                                            if (sender && !payload.empty())
                                                found.emplace(sender->robot);
                                        });
-    // The broker sends retained messages immediately after the subscription. It sends nothing if
-    // there are none, so the wait ends after kPatience.
+    // The broker sends retained messages immediately after the subscription. If there are none, it
+    // sends nothing, so the wait ends after kPatience at the latest.
     const auto end = std::chrono::steady_clock::now() + kPatience;
     const std::set<std::string> wanted(robots.begin(), robots.end());
     const auto has_all = [&] {

@@ -11,7 +11,7 @@
 namespace dotpose::cli {
 
 /// A subset of the robots, selected by a hash of the robot name. The hash is the same on all
-/// computers, so the instances of `dotpose fleet` need not communicate.
+/// computers, so the instances of `dotpose fleet` do not need to communicate.
 struct Shard {
     std::uint64_t index = 1;  ///< from 1 to `count`
     std::uint64_t count = 1;

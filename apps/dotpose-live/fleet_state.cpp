@@ -105,7 +105,7 @@ void FleetState::remove(std::string_view name) {
 }
 
 void FleetState::extend_path(Robot& robot) const {
-    constexpr double kStep_mm = 0.1;  // keeps a stationary robot from adding points
+    constexpr double kStep_mm = 0.1;  // minimum step, so a stationary robot adds no points
     const std::size_t max_points = std::min(kPath, kAllPaths / robots_.size());
     const RobotState& newest = robot.shown.newest;
     const draw::Point place{newest.x_m * 1000, newest.y_m * 1000};

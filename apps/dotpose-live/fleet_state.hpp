@@ -69,8 +69,8 @@ struct LatencyHistogram {
     std::array<std::int64_t, kLimits_s.size() + 1> counts{};
     double sum_s = 0;
 
-    /// Adds a latency. A negative latency, caused by a difference between the clocks of sender and
-    /// receiver, counts as 0.
+    /// Adds a latency. A negative latency, which can result from a clock difference, is counted as
+    /// 0.
     void add(double latency_s);
 };
 
@@ -87,7 +87,7 @@ class FleetState {
 
     using Listener = std::function<void(std::string_view robot, const RobotState& state)>;
 
-    /// `listener` is called with each state that has not been received before, in the thread that
+    /// `listener` is called with each state that has not been received before, on the thread that
     /// calls `take`.
     explicit FleetState(
         Listener listener = [](std::string_view, const RobotState&) {}, ConditionLimits limits = {})
@@ -95,9 +95,9 @@ class FleetState {
 
     /// Processes a message. A state that is older than the newest state of its robot is counted as
     /// late. It is passed to the listener, but does not change the robot. However, if several late
-    /// states arrive in ascending order of time, the sender's clock was set back, and the states
-    /// are accepted. An empty message on the connection topic removes the robot. Other invalid
-    /// messages are counted as bad. Thread-safe.
+    /// states arrive in ascending order of time, the sender's clock is assumed to have been set
+    /// back, and the states are accepted. An empty message on the connection topic removes the
+    /// robot. Other invalid messages are counted as bad. Thread-safe.
     void take(std::string_view topic, std::string_view payload, const Now& now);
 
     /// Returns the robots and their conditions, sorted by name in natural order.

@@ -15,7 +15,7 @@
 namespace dotpose::cli {
 
 struct StoreArguments {
-    std::string where;  ///< URL of PostgreSQL or path of a SQLite file, or empty for none
+    std::string where;  ///< PostgreSQL URL or path of a SQLite file; empty to store nothing
     std::int64_t max_states = 1'000'000;
     int keep_days = 0;  ///< number of days to keep states, or 0 to keep all
 
@@ -47,7 +47,7 @@ class StoredStates {
 class FleetStore {
   public:
     /// Throws Error if a database file cannot be opened, or if the library for the database is
-    /// missing. `tell` receives messages for the user and may be called in another thread.
+    /// missing. `tell` receives messages for the user and may be called on another thread.
     FleetStore(const StoreArguments& arguments, std::function<void(const std::string&)> tell);
 
     void add(std::string_view robot, const RobotState& state, std::int64_t received_us) {

@@ -79,7 +79,7 @@ class RowChoice {
 
   private:
     bool is_shown(const FleetRobot& robot) const {
-        constexpr int kNeedsNone = 3;  // rank of robots that do not need attention
+        constexpr int kNeedsNone = 3;  // minimum rank of robots that do not need attention
         if (show_ == "attention") return attention_rank(robot, map_) < kNeedsNone;
         if (show_ == "unknown") return !map_.has_place_of(robot);
         return show_.empty() || show_ == "all" || show_ == name_of(robot.condition);

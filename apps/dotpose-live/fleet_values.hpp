@@ -21,7 +21,7 @@ struct FleetSnapshot {
     Now now;
 };
 
-/// Maximum number of rows that a client receives, regardless of its request.
+/// Maximum number of rows that a client receives, even if it requests more.
 inline constexpr std::size_t kMaxTableRows = 200;
 
 /// Maximum number of alerts that a client receives.

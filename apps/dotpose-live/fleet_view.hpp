@@ -20,8 +20,8 @@ FleetMap read_fleet_map(const std::string& sheets);
 
 class FleetView {
   public:
-    /// `drawing` is the path of the map drawing, or empty for none. Throws Error if the drawing
-    /// cannot be written.
+    /// `drawing` is the path of the map drawing. If it is empty, no map is drawn. Throws Error if
+    /// the drawing cannot be written.
     FleetView(FleetMap map, std::string drawing, Delivery delivery);
 
     /// Processes the pressed keys, and updates the table if there are any. Returns false if the
@@ -29,8 +29,7 @@ class FleetView {
     bool take_keys(const FleetState& fleet, const Now& now);
 
     /// Updates the table if standard output is a terminal. Also draws the map, but spends at most a
-    /// tenth of the time on it: after a drawing that took a time t, waits at least 9 t before the
-    /// next one.
+    /// tenth of the time on it: after a drawing that took t seconds, waits at least 9 t seconds.
     void refresh(const FleetState& fleet, const Now& now);
 
     /// Displays the final table and draws the final map. On a terminal, only the first page of the

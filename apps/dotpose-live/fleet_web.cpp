@@ -90,7 +90,7 @@ const FleetWeb::Snapshot& FleetWeb::snapshot() {
     return snapshot_;
 }
 
-/// Stores new alerts, whether or not a browser is connected.
+/// Stores new alerts, even if no browser is connected.
 void FleetWeb::note_alerts(Clock::time_point now) {
     constexpr std::size_t kMaxRemembered = 2000;
     if (now < next_check_) return;

@@ -22,7 +22,7 @@ namespace dotpose::cli {
 struct FleetWebOptions {
     serve::ServerOptions server;
     ConditionLimits limits = {};
-    std::string store = {};   ///< database given to --store, for reading states, or empty
+    std::string store = {};   ///< database from which states are read, or empty
     std::string device = {};  ///< name of the robot for `dotpose listen`, or empty for a fleet
     // The following functions may be called from any thread.
     std::function<Now()> now;
@@ -31,7 +31,7 @@ struct FleetWebOptions {
     std::function<void(const std::string& robot)> remove = nullptr;
 };
 
-/// Serves the page in its own threads.
+/// Serves the page on its own threads.
 class FleetWeb {
   public:
     /// Starts the server and reports its address. `fleet` and `map` must outlive this object.

@@ -154,7 +154,7 @@ double ReadoutFrames::interval_ms() const {
 
 /// Computes the tilt from the perspective of the dots. The relative change of the image scale per
 /// pixel is the tangent of the tilt divided by the focal length. The camera leans away from the
-/// side of the view in which the paper is farther away.
+/// side of the view on which the paper is farther away.
 PenLean lean_in(const Fix& fix, double focal_px) {
     const FixedVec& perspective_q30 = fix.pattern_from_image.perspective_q30;
     const double u = std::ldexp(focal_px * perspective_q30.x, -30);

@@ -41,7 +41,7 @@ class HistoryPath {
     std::size_t points_ = 0;
     double step_mm_ = 0.1;                          ///< minimum distance between points
     store::State newest_;                           ///< newest state on the map
-    std::map<std::string, std::size_t> elsewhere_;  ///< number of states on each other map
+    std::map<std::string, std::size_t> elsewhere_;  ///< number of states on each of the other maps
 };
 
 }  // namespace dotpose::cli

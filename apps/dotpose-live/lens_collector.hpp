@@ -68,7 +68,8 @@ class LensCollector {
     /// Returns the trace of the newest frame.
     Trace trace() const { return reader_.trace(); }
 
-    /// Starts a calibration with the frames collected so far if it would improve on the last one.
+    /// Starts a calibration with the frames collected so far if the result is likely to be better
+    /// than the last one.
     void start_if_useful();
     bool is_calibrating() const { return job_.is_running(); }
     /// Waits up to `patience` for the running calibration. Returns true if it has finished.
@@ -115,7 +116,7 @@ class LensCollector {
     calibrate::FrameReader reader_;
     CalibrationJob job_;
     CalibrationJob::Frames taken_;
-    std::optional<CalibrationCoverage> coverage_;  ///< none until the first frame
+    std::optional<CalibrationCoverage> coverage_;  ///< nullopt until the first frame
     std::vector<FrameTilt> tilts_;
     int width_px_ = 0;
     int height_px_ = 0;

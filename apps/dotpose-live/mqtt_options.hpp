@@ -8,7 +8,7 @@
 
 namespace dotpose::cli {
 
-/// Returns the options, or none if --mqtt is not given. The password may be in the environment
+/// Returns the options, or nullopt if --mqtt is not given. The password may be in the environment
 /// variable DOTPOSE_MQTT_PASSWORD. Throws BadArgument if the URL is invalid.
 std::optional<publish::MqttOptions> mqtt_options(const MqttArguments& arguments);
 

@@ -33,7 +33,7 @@ class PageCalibrationArguments {
     /// as an output. --calibrate-to may name the same file as --camera.
     void add_files(const FollowerArguments& follower, RunFiles& files) const;
 
-    /// Returns the options for the calibration, or none if --calibrate-to is not given.
+    /// Returns the options for the calibration, or nullopt if --calibrate-to is not given.
     std::optional<GuideOptions> options(const FollowerArguments& arguments,
                                         const SourceArguments& sources,
                                         const Follower& follower) const;

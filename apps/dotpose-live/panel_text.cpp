@@ -21,7 +21,7 @@ struct Shown {
 };
 
 /// Returns the pose to display: the place on the sheet if it is known and the track is not in the
-/// world frame, and the pose of the track otherwise. Returns none if neither is available.
+/// world frame, and the pose of the track otherwise. Returns nullopt if neither is available.
 std::optional<Shown> shown_pose(const Reading& reading) {
     const std::optional<SheetPlace>& place = reading.record.place;
     const TrackedPose& pose = reading.track.pose;

@@ -16,10 +16,10 @@
 namespace dotpose::cli {
 
 struct RobotOutputOptions {
-    std::string mcap;         ///< path of the MCAP file, or empty for none
+    std::string mcap;         ///< path of the MCAP file; empty to write no file
     bool has_images = false;  ///< true to record images as well
     ImageEncoding image_format = ImageEncoding::png;
-    std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published over DDS
+    std::optional<dds::PublisherOptions> dds;  ///< nullopt if nothing is published over DDS
     std::string robot;
     std::string frame_prefix;      ///< prefix for the names of the robot's coordinate frames
     std::optional<Camera> camera;  ///< provides the mount and the exposure time

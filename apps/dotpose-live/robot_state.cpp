@@ -37,8 +37,8 @@ CameraInWorld with_y_down(const CameraInWorld& camera) {
     return down;
 }
 
-/// Returns the pose of the camera in space, with axes parallel to those of the track. Returns none
-/// if the pose is unknown or ambiguous.
+/// Returns the pose of the camera in space, with axes parallel to those of the track. Returns
+/// nullopt if the pose is unknown or ambiguous.
 std::optional<CameraInWorld> camera_pose_of(const Reading& reading) {
     const auto& space = reading.record.space;
     if (reading.plane == Plane::sheet_world) return certain_in_world(space, reading.record.place);

@@ -21,7 +21,7 @@ namespace dotpose::cli {
 
 class SheetEdits {
   public:
-    /// Reads the file. Throws Error like `read_sheets`.
+    /// Reads the file. Throws the same errors as `read_sheets`.
     SheetEdits(std::string path, SheetFileWait wait);
 
     /// Reads the file again if it has changed. Returns true if the sheets or `problem` have
@@ -50,8 +50,8 @@ class SheetEdits {
     /// `undo_text`, such as "move". Returns the new entry.
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
 
-    /// Removes a sheet. Throws Error if it is the only sheet, because a run needs one. Undoing the
-    /// removal appends the sheet to the file, without the keys that are unknown to dotpose.
+    /// Removes a sheet. Throws Error if it is the only sheet, because a run needs at least one.
+    /// Undoing the removal appends the sheet to the file, without keys that dotpose does not know.
     void remove(const Target& target);
 
     /// Replaces the places and print scales of several sheets with the values in `measured`, in one
@@ -85,8 +85,8 @@ class SheetEdits {
         std::array<double, 2> origin_mm{};
         bool operator==(const Values&) const = default;
     };
-    /// A change to one sheet. `before` is none if the sheet was added, and `after` is none if it
-    /// was removed.
+    /// A change to one sheet. `before` is nullopt if the sheet was added, and `after` is nullopt if
+    /// it was removed.
     struct SheetStep {
         std::optional<SheetEntry> before;
         std::optional<SheetEntry> after;

@@ -12,8 +12,8 @@ namespace dotpose::cli {
 void require_printable(const Sheet& sheet);
 
 /// Returns the PDF that `dotpose sheets reprint` would write for a sheet. Calls `goes_on`
-/// frequently, and throws Error when it returns false. Also throws like `reprint_options` and
-/// `write_sheet`.
+/// frequently, and throws Error when it returns false. Also throws the same errors as
+/// `reprint_options` and `write_sheet`.
 std::string pdf_of(const SheetEntry& entry, const std::function<bool()>& goes_on);
 
 }  // namespace dotpose::cli

@@ -44,7 +44,7 @@ struct MessageTopic {
     Subject subject = Subject::visualization;
 };
 
-/// Parses a topic. Returns none if it does not have the form of `topic_of`, or if the name is
+/// Parses a topic. Returns nullopt if it does not have the form of `topic_of`, or if the name is
 /// longer than kMaxNameBytes. The name of the sender is taken from the topic rather than the
 /// message, because brokers can restrict the topics of a client but not the contents of its
 /// messages.
@@ -95,8 +95,8 @@ struct RobotState {
 /// Returns the message with the subject `visualization`.
 std::string json_of(const RobotState& state);
 
-/// Parses a message with the subject `visualization`. Returns none if the message is invalid or any
-/// of its numbers is out of range.
+/// Parses a message with the subject `visualization`. Returns nullopt if the message is invalid or
+/// any of its numbers is out of range.
 std::optional<RobotState> parse_state(std::string_view json);
 
 struct RobotConnection {
@@ -111,7 +111,7 @@ struct RobotConnection {
 /// Returns the message with the subject `connection`.
 std::string json_of(const RobotConnection& connection);
 
-/// Parses a message with the subject `connection`. Returns none if the message is invalid.
+/// Parses a message with the subject `connection`. Returns nullopt if the message is invalid.
 std::optional<RobotConnection> parse_connection(std::string_view json);
 
 /// Reports that a robot has entered or left a condition that requires attention.
@@ -135,7 +135,7 @@ std::string json_of(const RobotAlert& alert);
 /// "2026-11-24T16:20:00.123456Z".
 std::string timestamp(std::int64_t time_us);
 
-/// Parses a time in the format of `timestamp`, with any number of decimals. Returns none for any
+/// Parses a time in the format of `timestamp`, with any number of decimals. Returns nullopt for any
 /// other text.
 std::optional<std::int64_t> parse_timestamp(std::string_view text);
 

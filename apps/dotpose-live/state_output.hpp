@@ -18,7 +18,7 @@ class CameraCounter {
     void count(const Reading& reading);
 
     /// Returns a report if at least one second has passed between the previous report and the
-    /// newest frame, and none otherwise.
+    /// newest frame, and nullopt otherwise.
     std::optional<CameraReport> take_report();
 
   private:
@@ -37,7 +37,7 @@ class StateSource {
     /// reading creates a state.
     StateSource(std::string robot, const std::string& sheets, double max_rate_hz);
 
-    /// Counts a reading. Returns its state, or none if no state is due.
+    /// Counts a reading. Returns its state, or nullopt if no state is due.
     std::optional<RobotState> next(const Reading& reading);
 
   private:

@@ -34,7 +34,7 @@ int digits(std::string_view text, std::size_t first, std::size_t count) {
 }
 
 /// Converts a fraction of a second, such as ".123456", to microseconds. Returns 0 for an empty
-/// string, and none for any other text.
+/// string, and nullopt for any other text.
 std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
     if (text.empty()) return 0;
     double fraction_s = 0;
@@ -78,7 +78,7 @@ std::size_t refused_index(std::string_view text) {
     return i;
 }
 
-/// Returns the camera report in a message, or none if there is none.
+/// Returns the camera report in a message, or nullopt if there is none.
 std::optional<CameraReport> camera_in(const object& message) {
     constexpr double kMax_hz = 1e5;
     object values;
@@ -102,7 +102,7 @@ Quaternion rotation_in(const object& values) {
 }
 
 /// Returns the pose of the tracked camera or, if it is missing, the pose of the camera in the
-/// newest frame. Returns none if the message contains neither pose.
+/// newest frame. Returns nullopt if the message contains neither pose.
 std::optional<CameraInWorld> camera_pose_in(const object& message, double max_m) {
     object values;
     if (message["cameraTrack"].get(values) != simdjson::SUCCESS &&
@@ -169,7 +169,7 @@ simdjson::dom::parser make_parser() {
     return parser;
 }
 
-/// Returns `read(message)`, or none if the message is invalid.
+/// Returns `read(message)`, or nullopt if the message is invalid.
 template <typename Read>
 auto parsed(std::string_view json, const Read& read) -> std::optional<decltype(read(object()))> {
     // An empty message, which removes a robot, may have a null data pointer. The parser must not

@@ -55,8 +55,8 @@ void StitchJob::offer(const Reading& reading, ImageView image) {
         if (!is_near_edge(reading.record, image) || !places_.take(reading.record.fix, image))
             return;
     } else {
-        // Frames without a fix are also tried, because a seam between two sheets may be in view.
-        // The two patterns then prevent a fix.
+        // Frames without a fix are also tried. They may show a seam between two sheets, where the
+        // two patterns prevent a fix.
         constexpr std::chrono::milliseconds kPause(500);
         const Clock::time_point now = Clock::now();
         if (now < unlocated_at_ + kPause) return;

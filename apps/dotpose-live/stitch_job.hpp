@@ -32,7 +32,7 @@ class StitchJob {
         std::optional<Stitching> result;
     };
 
-    /// `changed` is called in the job's thread after each frame.
+    /// `changed` is called on the job's thread after each frame.
     StitchJob(std::vector<SheetEntry> sheets, std::optional<Camera> camera,
               std::function<void(const Progress&)> changed);
     /// Stops the measurement after the current frame.
@@ -46,7 +46,7 @@ class StitchJob {
     void offer(const Reading& reading, ImageView image);
 
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
-    /// Returns the newest result, or none if there is no result yet.
+    /// Returns the newest result, or nullopt if there is no result yet.
     std::optional<Stitching> result() const;
 
   private:

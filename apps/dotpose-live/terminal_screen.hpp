@@ -26,7 +26,7 @@ class TerminalScreen {
 
     ScreenSize size() const;
 
-    /// Returns the next key that was pressed, or none if there is none. Does not block.
+    /// Returns the next key that was pressed, or nullopt if no key was pressed. Does not block.
     std::optional<Key> next_key();
 
     /// Replaces the contents of the screen. Lines that are too long are truncated.
@@ -35,7 +35,7 @@ class TerminalScreen {
   private:
     void read_input();
 
-    std::optional<termios> before_;  ///< original terminal settings, or none if no keys are read
+    std::optional<termios> before_;  ///< original terminal settings, or nullopt if no keys are read
     std::string input_;              ///< bytes that have not been recognised as keys yet
 };
 

@@ -119,8 +119,8 @@ class Pace {
     }
 
   private:
-    /// Time on the steady clock that corresponds to time 0 of the source, or none before the first
-    /// recorded frame.
+    /// Time on the steady clock that corresponds to time 0 of the source, or nullopt before the
+    /// first recorded frame.
     std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
@@ -214,7 +214,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     return 0;
 }
 
-/// Returns the options for the web page, or none if --web is not given.
+/// Returns the options for the web page, or nullopt if --web is not given.
 std::optional<WebOptions> web_options(const WatchArguments& arguments, const Follower& follower) {
     const auto server = arguments.web.options();
     if (!server) return std::nullopt;

@@ -21,8 +21,8 @@ struct DdsArguments {
     std::optional<int> domain;
 
     void add_to(Command& command);
-    /// Returns the options for the DDS publisher, or none if --dds is not given. Throws BadArgument
-    /// if the domain is taken from ROS_DOMAIN_ID and is invalid.
+    /// Returns the options for the DDS publisher, or nullopt if --dds is not given. Throws
+    /// BadArgument if the domain is taken from ROS_DOMAIN_ID and is invalid.
     std::optional<dds::PublisherOptions> publisher() const;
 };
 

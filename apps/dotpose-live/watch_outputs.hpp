@@ -31,7 +31,7 @@ struct OutputOptions {
     PublishArguments publish;     ///< the MQTT broker and the name of the robot
     std::string sheets;           ///< path of the sheet file
     video::ScreenOptions screen;
-    std::optional<WebOptions> web;  ///< options of the web page; none if no web page is served
+    std::optional<WebOptions> web;  ///< options of the web page, or nullopt to serve no web page
 };
 
 /// Writes pose packets to a file or serial device.
@@ -60,14 +60,14 @@ class WatchOutputs {
     /// be written.
     bool take(const capture::Frame& frame, const Reading& reading, const SourceState& source);
 
-    /// Returns the camera that was calibrated on the web page since the previous call, or none.
+    /// Returns the camera that was calibrated on the web page since the previous call, or nullopt.
     std::optional<Camera> take_camera();
 
     /// Writes the map, finishes the recording and sends the last states. Throws Error on failure.
     void finish();
 
     /// Returns the sheets if the web page or another program has changed them since the previous
-    /// call. Returns none otherwise, or if no web page is served.
+    /// call. Returns nullopt if they have not changed or no web page is served.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
     /// Displays the follower's new sheets. `was_in_world` is true if the earlier poses are in world
     /// coordinates. If the plane of the poses changes, a new path is started.

@@ -20,9 +20,9 @@ class WebArguments {
     /// Returns true if --web is given.
     bool is_wanted() const { return !page_.address.empty(); }
 
-    /// Returns the options for the server, or none if --web is not given. The caller must add the
-    /// pages. Creates a token if the server is reachable from other computers and no token file is
-    /// given. Throws BadArgument or Error if the options are invalid.
+    /// Returns the options for the server, or nullopt if --web is not given. The caller must add
+    /// the pages. Creates a token if the server is reachable from other computers and no token file
+    /// is given. Throws BadArgument or Error if the options are invalid.
     std::optional<serve::ServerOptions> options() const;
 
     const std::string& token_file() const { return page_.token_file; }

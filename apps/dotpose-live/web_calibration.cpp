@@ -81,7 +81,7 @@ json json_of(const ResidualField& field) {
             {"after", std::move(after)}};
 }
 
-/// Returns the rows of a report (calibrate_report.hpp), each consisting of a label and a text.
+/// Returns the rows of a report (calibrate_report.hpp), each consisting of a label and its text.
 json rows_of(std::string_view report) {
     constexpr std::size_t kLabelColumns = 12;
     json rows = json::array();

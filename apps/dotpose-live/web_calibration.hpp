@@ -15,7 +15,7 @@ namespace dotpose::cli {
 class WebCalibration {
   public:
     /// Adds the topic to the server. Must be called before the server is started. If `options` is
-    /// none, the page explains how to enable calibration, and all commands are rejected.
+    /// nullopt, the page explains how to enable calibration, and all commands are rejected.
     WebCalibration(std::optional<GuideOptions> options, serve::Server& server);
 
     /// Executes {"do": "calibrate", "action": "start", "step": NAME}, or a command with the action
@@ -31,7 +31,7 @@ class WebCalibration {
     void take(const capture::Frame& frame, const Reading& reading, ImageView image,
               double bits_per_px);
 
-    /// Returns the camera that was saved since the previous call, or none.
+    /// Returns the camera that was saved since the previous call, or nullopt.
     std::optional<Camera> take_camera();
 
   private:

@@ -53,7 +53,7 @@ double seconds_of(const serve::Command& request, std::string_view key, double ma
     throw BadArgument(fmt::format("{} must be a number from 0 to {:.0f}", key, max));
 }
 
-/// Returns the request, or none if the command does not name a robot. Throws BadArgument if the
+/// Returns the request, or nullopt if the command does not name a robot. Throws BadArgument if the
 /// request is invalid.
 std::optional<HistoryRequest> request_of(const serve::Command& command) {
     const auto* robot = command.argument<std::string>("robot");
@@ -110,7 +110,7 @@ struct WebHistory::Queries {
     std::string read_states(const HistoryRequest& request);
 };
 
-/// Returns the value for a client. Must not wait for the database, because it is called in the
+/// Returns the value for a client. Must not wait for the database, because it is called on the
 /// server's thread.
 std::string WebHistory::Queries::value_for(const serve::Command& command) {
     try {

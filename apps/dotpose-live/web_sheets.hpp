@@ -64,7 +64,7 @@ class WebSheets {
     void take(const Reading& reading, ImageView image);
 
     /// Returns the sheets if a web page or another program has changed them since the previous
-    /// call, and none otherwise.
+    /// call, and nullopt otherwise.
     std::optional<std::vector<SheetEntry>> take_changed();
 
   private:

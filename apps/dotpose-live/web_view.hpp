@@ -28,10 +28,10 @@ struct WebOptions {
     serve::ServerOptions server;
     std::vector<std::string> sources;  ///< names of the frame sources
     std::string recordings = ".";      ///< folder for recordings that are started on the page
-    std::string log;                   ///< path of the log to offer for download, or empty
+    std::string log;                   ///< path of the log that clients may download, or empty
     RobotOutputOptions messages;       ///< description of the robot for recordings
-    WebSheetsOptions sheets;           ///< its path is empty if there is no sheet file
-    /// Options for calibration on the web page, or none to disable calibration.
+    WebSheetsOptions sheets;           ///< `sheets.path` is empty if there is no sheet file
+    /// Options for calibration on the web page, or nullopt to disable calibration.
     std::optional<GuideOptions> calibration;
 };
 
@@ -51,11 +51,11 @@ class WebView {
     void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
               const PathMemory& path, const SourceState& source);
 
-    /// Returns the sheets if they have changed since the previous call, and none otherwise.
+    /// Returns the sheets if they have changed since the previous call, and nullopt otherwise.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
     /// Displays the follower's new sheets.
     void use_sheets();
-    /// Returns the camera that was calibrated on the web page since the previous call, or none.
+    /// Returns the camera that was calibrated on the web page since the previous call, or nullopt.
     std::optional<Camera> take_camera();
 
     /// Finishes a running recording.
@@ -112,7 +112,7 @@ class WebView {
     serve::Topic& path_topic_;
     serve::Topic& advice_;
     SheetTopics sheet_topics_;
-    std::optional<WebSheets> sheet_view_;  ///< none without a sheet file
+    std::optional<WebSheets> sheet_view_;  ///< nullopt if there is no sheet file
     WebCalibration calibration_;
     AdviceWorker adviser_;  ///< destroyed before the server, because its thread uses the server
 };

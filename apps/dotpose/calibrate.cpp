@@ -137,7 +137,7 @@ void write_result(const std::string& out, const Camera& camera) {
     output.finish();
 }
 
-/// Returns the camera for --pivot. Throws BadArgument if no camera is given, and Error if the
+/// Returns the camera for --pivot. Throws BadArgument if no camera is given. Throws Error if the
 /// camera has no focal length.
 Camera pivot_camera(const std::optional<Camera>& camera, const std::string& path) {
     if (!camera) throw BadArgument("--pivot needs --camera FILE, with a focal length");

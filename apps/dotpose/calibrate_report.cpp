@@ -21,9 +21,9 @@ void add(std::string& text, fmt::format_string<Values...> format, Values&&... va
     text += '\n';
 }
 
-/// Returns the radial displacement of the farthest image corner due to undistortion, as a
-/// percentage of the corner's distance from the distortion centre. It is positive if the corner
-/// moves outwards.
+/// Returns the radial displacement that undistortion causes at the farthest image corner, as a
+/// percentage of the corner's distance from the distortion centre. The displacement is positive if
+/// the corner moves outwards.
 double corner_displacement(const Camera& camera) {
     const PixelPoint corner = farthest_corner(camera);
     const PixelPoint straight = undistorted(camera, corner);

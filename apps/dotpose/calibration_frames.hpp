@@ -29,7 +29,8 @@ class CalibrationFrames {
     /// Returns frame `index`. Throws Error if the image cannot be read.
     GreyImage at(int index) const;
 
-    /// Returns true if one of the first frames is mirrored. Throws Error like `at`.
+    /// Returns true if one of the first frames is mirrored. Throws Error if an image cannot be
+    /// read.
     bool are_mirrored(const CalibrateOptions& options) const;
 
   private:

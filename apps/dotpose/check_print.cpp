@@ -104,8 +104,8 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
 /// actual shift cannot be measured, because the scan does not show the edges of the paper.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
-    // Maximum shift of the first dot along one axis. Most drivers scale the page about a corner or
-    // about its centre.
+    // Returns the maximum shift of the first dot along one axis. Assumes that the driver scales the
+    // page about a corner or about its centre, as most drivers do.
     const auto shift_mm = [](double scale, double first_mm, double side_mm) {
         return std::abs(1 - scale) * std::max(first_mm, std::abs(side_mm / 2 - first_mm));
     };

@@ -133,8 +133,8 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
     return exit_code;
 }
 
-/// Evaluates the frames in batches. After Ctrl-C, returns the outcomes of the completed batches,
-/// limited to the first `readable_frames()` frames.
+/// Evaluates the frames in batches. After Ctrl-C, returns only the outcomes of the completed
+/// batches, and at most `readable_frames()` outcomes.
 std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line,
                                        const std::function<std::size_t()>& readable_frames) {
     const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -300,8 +300,8 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // With --sweep or --protocol, --preset only sets the conditions. Otherwise, --preset is itself
-    // the job.
+    // The command line must name exactly one thing to evaluate. With --sweep or --protocol,
+    // --preset is not counted, because it only sets the conditions of the evaluation.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

@@ -42,8 +42,9 @@ std::string degrees(double angle_rad);
 /// and is at least 1e-30.
 std::string p_wrong_text(double p_wrong);
 
-/// Formats fields as one line, including the line break. In JSON, an empty field is null or omitted
-/// (`is_null_if_empty`), and invalid UTF-8 bytes are replaced. CSV always contains all columns.
+/// Formats fields as one line, including the line break. In JSON, an empty field is null or
+/// omitted, depending on `is_null_if_empty`, and invalid UTF-8 bytes are replaced. CSV always
+/// contains all columns.
 std::string json_line(const std::vector<Field>& fields);
 std::string csv_header(const std::vector<Field>& fields);
 std::string csv_line(const std::vector<Field>& fields);

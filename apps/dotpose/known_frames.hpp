@@ -27,8 +27,9 @@ struct KnownFrames {
 /// Returns the frames from the sources with their poses. The poses are read from `poses` or, if
 /// `poses` is empty, from truth.csv next to the images or the video. For a folder, returns the
 /// frames listed in the pose file. For an image, the pose is in the row whose `file` is the image
-/// name. If the sources include a video, a camera or a raw stream, row N is the pose of frame N,
-/// counted over all sources. Throws Error if there are no poses, or if an image has no pose.
+/// name. If the sources include a video, a camera or a raw stream, row N contains the pose of frame
+/// N, where frames are numbered across all sources. Throws Error if there are no poses, or if an
+/// image has no pose.
 KnownFrames known_frames(const SourceArguments& arguments, const std::string& poses,
                          std::optional<double> spacing_mm);
 

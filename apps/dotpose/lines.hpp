@@ -42,8 +42,8 @@ class Lines {
     /// An empty path or "-" means standard output. Throws Error if the file cannot be created.
     explicit Lines(const std::string& path);
 
-    /// Writes a line. Throws ReaderLeft if the reader closed the output and SIGPIPE is ignored, and
-    /// Error on any other failure.
+    /// Writes a line. Throws ReaderLeft if the reader closed the output and SIGPIPE is ignored.
+    /// Throws Error on any other failure.
     void write(const std::string& line);
 
   private:

@@ -22,7 +22,7 @@ std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
 /// Creates a video file: H.264 if the name ends in .mp4, and Motion JPEG if it ends in .avi. In
-/// `dotpose`, throws Error like `open_live`.
+/// `dotpose`, throws Error, because this requires dotpose-live.
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

@@ -30,7 +30,7 @@ struct Record {
     bool is_pen_down = false;
     MapUse map_use = MapUse::no_map;  ///< how the print map was used, see Located
     bool has_sheets = false;          ///< true if the record has fields for the place on a sheet
-    std::optional<SheetPlace> place;  ///< place of the fix on its sheet, if it is on one
+    std::optional<SheetPlace> place;  ///< place of the fix, or none if it is not on a sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
     double elapsed_us = 0;  ///< time to locate the image in µs, or NaN if not measured
     std::string advice;     ///< advice if there is no fix, or empty

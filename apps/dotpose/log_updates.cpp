@@ -133,7 +133,7 @@ std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
 }
 
 /// Returns the motion of the tracked camera. The log contains a single standard deviation for the
-/// velocity and one for the angular velocity, which are used for all components.
+/// velocity and one for the angular velocity. Each of them is used for all three components.
 std::optional<CameraMotion> camera_motion_in(const LogCells& row, bool is_in_world) {
     const auto pose = space_pose_in(row, "camera_track_", is_in_world);
     if (!pose) return std::nullopt;
@@ -173,8 +173,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // The plane is empty while the robot is lost. In this case, a value for x_m shows that the fix
-    // is on a sheet with a world pose.
+    // The column `plane` is empty while the robot is lost. In this case, a value in the column x_m
+    // shows that the fix is on a sheet with a world pose.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

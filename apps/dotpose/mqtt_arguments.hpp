@@ -20,8 +20,8 @@ struct MqttArguments {
 struct PublishArguments {
     MqttArguments mqtt;
     std::string robot = "robot";  ///< name of the robot in MQTT topics and in ROS
-    /// Maximum number of messages per second, not counting messages about events. If 0, a message
-    /// is sent for every frame.
+    /// Maximum number of messages per second, or 0 to send a message for every frame. Messages
+    /// about events are not counted.
     double max_rate_hz = 0;
 
     /// Adds the options of MqttArguments, --robot and --mqtt-rate. `robot_help` describes --robot.

@@ -14,9 +14,10 @@ class NewPlaces {
   public:
     /// Returns true and stores the place if the frame shows a new place. A place is new if it
     /// differs from every stored place in the same section in at least one of these properties:
-    /// - the centre of the frame, by a quarter of the shorter frame side and at least two spacings,
-    /// - the direction, by 15 degrees, or
-    /// - the distance from the paper, by 10 %.
+    /// - the centre of the frame: by at least a quarter of the shorter frame side and at least two
+    ///   spacings,
+    /// - the direction: by at least 15 degrees, or
+    /// - the distance from the paper: by at least 10 %.
     ///
     /// Each call to `thin_out` doubles these minimum differences. Returns false for a frame without
     /// a fix.

@@ -12,15 +12,15 @@
 
 namespace dotpose::cli {
 
-/// Returns the difference between the sequence numbers of two packets. The result is 0 or negative
-/// if the second packet is a repetition or arrived late.
+/// Returns the number of packets from `earlier` to `later`, two sequence numbers that wrap around.
+/// The result is 0 if the packet `later` is a repetition, and negative if it arrived late.
 inline int packets_since(std::uint16_t earlier, std::uint16_t later) {
     return static_cast<std::int16_t>(later - earlier);
 }
 
 /// Returns true if a packet is a repetition or arrived late. `packets` is the result of
-/// `packets_since` for the newest packet and this packet. A value below -16 indicates that the
-/// device was restarted, so the packet is not considered late.
+/// `packets_since`, called with the newest packet and this packet. A value below -16 indicates that
+/// the device was restarted, so the packet is not considered late.
 inline bool is_late(int packets) {
     constexpr int kMaxLate = 16;
     return packets <= 0 && packets >= -kMaxLate;
@@ -28,8 +28,9 @@ inline bool is_late(int packets) {
 
 class PacketFollower {
   public:
-    /// `spacing_mm` is the spacing of the pattern. It is used only if `sheets` is empty. The robot
-    /// is tracked in the world if any sheet has a world pose, and in the pattern frame otherwise.
+    /// `spacing_mm` is the spacing of the pattern. If there are sheets, the poses are computed with
+    /// the spacings of the sheets, and only the tracker uses `spacing_mm`. The robot is tracked in
+    /// the world if any sheet has a world pose, and in the pattern frame otherwise.
     PacketFollower(std::vector<SheetEntry> sheets, double spacing_mm);
 
     bool has_sheets() const { return !sheets_.empty(); }

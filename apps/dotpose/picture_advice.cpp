@@ -143,8 +143,9 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             };
             const auto a = seen(1, 0);
             const auto b = seen(0, 1);
-            // The singular values of the matrix (a b) are the length and width, in cells, of the
-            // area that one pixel covers on the paper: along the tilt and across it.
+            // The singular values of the matrix (a b) are the dimensions, in cells, of the area
+            // that one pixel covers on the paper: along the direction of the tilt and perpendicular
+            // to it.
             const double sum = a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1];
             const double area = std::abs(a[0] * b[1] - a[1] * b[0]);
             const double root = std::sqrt(std::max(sum * sum - 4 * area * area, 0.0));
@@ -190,7 +191,8 @@ bool is_out_of_focus(ImageView image) {
     return detail > kMinDetail && second_difference(image, 2) - noise < kFocused * detail;
 }
 
-/// Reduces the image by the factor `by` by averaging blocks of `by` x `by` pixels.
+/// Reduces the image by the factor `by`. Each pixel of the result is the mean of a block of `by` x
+/// `by` pixels.
 GreyImage reduced_by(ImageView image, int by) {
     GreyImage small{{}, image.width_px / by, image.height_px / by};
     for (int v = 0; v < small.height_px; ++v) {
@@ -204,8 +206,9 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Reduces the image until its dots form a grid. Returns the spacing of these dots in pixels of the
-/// original image if it exceeds kMaxSpacing_px, and none if no reduced image contains such a grid.
+/// Reduces the image by increasing factors until it contains a grid of dots whose spacing, in
+/// pixels of the original image, exceeds kMaxSpacing_px. Returns this spacing, or none if no
+/// reduced image contains such a grid.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
@@ -214,7 +217,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
-    blobs.effort = Effort::device;  // `Effort::device` records the grid of its blobs in the trace
+    blobs.effort = Effort::device;  // with this effort, the trace contains the blob grid
     blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
         if (std::min(image.width_px, image.height_px) / by < kMinFrameSide_px) break;
@@ -245,9 +248,9 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Returns the advice to specify the code if the position is certain in one of the codes, and an
-/// empty string otherwise. Without a given code, a position may be uncertain merely because places
-/// in all codes are possible.
+/// Returns the advice to specify the code if the position is certain in one of the codes.
+/// Otherwise, returns an empty string. If the code is not given, a position may be uncertain only
+/// because positions in the other codes are also possible.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {

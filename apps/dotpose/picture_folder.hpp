@@ -23,9 +23,9 @@ class PictureFolder {
     PictureFolder(std::filesystem::path path, const RunFiles& files);
 
     /// Writes a picture, with the name of the image as its title. In a folder, the file name is
-    /// STEM.svg, where STEM is the name of the image without its file extension: drive-17 for
-    /// drive.mp4#17, which is frame 17 of the video drive.mp4. If the name is already taken, it
-    /// becomes STEM-2.svg, and so on. Throws Error if the picture cannot be written.
+    /// STEM.svg, where STEM is the image name without its file extension. For frame 17 of the video
+    /// drive.mp4, the image name is drive.mp4#17 and STEM is drive-17. If the file name is already
+    /// taken, it becomes STEM-2.svg, and so on. Throws Error if the picture cannot be written.
     void add(const std::string& image_name, ImageView image, const Trace& trace,
              DrawOptions options);
 

@@ -54,7 +54,8 @@ constexpr const char* kPrintExamples =
 /// Output formats, as file extensions.
 const std::vector<std::string> kFormats = {"pdf", "svg", "png", "tif", "txt"};
 
-/// Returns the output format. Throws BadArgument if it is unknown or contradicts the file name.
+/// Returns the output format. Throws BadArgument if the format is missing, is unknown, or
+/// contradicts the file name.
 PrintFormat format_of(const PrintArguments& arguments) {
     if (arguments.out == kStandardOutput) {
         if (arguments.ending.empty()) {

@@ -17,7 +17,7 @@ void catch_interrupts();
 bool interrupted();
 
 /// Returns true if the first signal was SIGINT, the signal sent by Ctrl-C. In this case, also
-/// resets `interrupted`, which makes the next signal the first.
+/// resets `interrupted`, and the next signal is treated as a first signal.
 bool take_ctrl_c();
 
 /// Formats a duration with at most two units, rounded up, such as "12 s", "3 min 05 s" or

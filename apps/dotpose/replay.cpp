@@ -54,7 +54,8 @@ double share(std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-/// Lists the frames of reference of the poses. Adds advice if any pose is in the pattern frame.
+/// Returns a list of the frames of reference used for poses, or "none". Adds advice if any pose is
+/// in the pattern frame.
 std::string frames_of_poses(const RunStatistics& run) {
     std::string text;
     for (const std::string& plane : run.planes)

@@ -29,7 +29,7 @@ Content content_of(const ReportArguments& report);
 /// same identity, because some file systems ignore case.
 struct FileIdentity {
     std::uint64_t device = 0;
-    std::uint64_t file = 0;  ///< number of the file or, if the file does not exist, of its folder
+    std::uint64_t file = 0;  ///< identifies the file, or its folder if the file does not exist
     std::string new_name;    ///< file name in lower case, or empty if the file exists
     auto operator<=>(const FileIdentity&) const = default;
 };
@@ -47,8 +47,8 @@ class RunFiles {
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
     /// Registers an output. Rejects the file extension of an image or video if it does not match
-    /// `content`. Otherwise, `-o frames/*.png` without an output name would overwrite a frame,
-    /// because the shell replaces the glob with the names of the frames. The path "-" means
+    /// `content`. This check prevents a common mistake: in `-o frames/*.png` without an output
+    /// name, the shell expands the glob, and -o would overwrite the first frame. The path "-" means
     /// standard output for `-o` and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 

@@ -99,7 +99,7 @@ struct LogRow {
     bool has_fix() const { return status == "ok"; }
 };
 
-/// Reads a whole log. Throws Error like LogReader.
+/// Reads a whole log. Throws the same errors as LogReader.
 std::vector<LogRow> read_log(const std::filesystem::path& path);
 
 struct RunStatistics {

@@ -35,7 +35,7 @@ struct MeasuredLength {
     std::string along = "both";  ///< one of `kDirections`
 };
 
-/// Returns the entry with the print scale that a measured length implies.
+/// Returns the entry with the print scale computed from a measured length.
 SheetEntry scaled(SheetEntry entry, const MeasuredLength& length);
 
 /// Returns the entry with all dots shifted by the same amount. The first intersection is then

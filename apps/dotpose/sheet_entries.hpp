@@ -43,9 +43,9 @@ class SheetEntryArguments {
     /// Returns `command` with --origin appended. The result reprints the page with this origin.
     static std::string with_origin(const std::string& command, Cell origin);
 
-    /// Returns the options to omit from a command that reprints a page: the options for the sheet
-    /// file, which would add the page again under a name that is already in use, and the options
-    /// --pages and --origin, which are set for each page separately.
+    /// Returns the options to omit from a command that reprints a page. The options for the sheet
+    /// file are omitted because they would add the page again under a name that is already in use.
+    /// The options --pages and --origin are omitted because they are set for each page separately.
     static std::set<std::string> options_of_entering();
 
     /// Records that the reserved pages have been written to `out`. Throws Error if the sheet file

@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the default margin in mm. Unless the page is small, a PDF has a wider margin than other
-/// formats, because the margin contains labels and rulers.
+/// Returns the default margin in mm. The margin of a PDF contains labels and rulers. It is
+/// therefore wider than the margin in other formats, except on small pages.
 double default_margin_mm(PrintFormat format, const Paper& paper);
 
 /// Returns the file name for the PDF of a sheet, without special characters.
@@ -24,7 +24,7 @@ struct NewPage {
 };
 
 /// Adds a page and its print settings to a sheet file. Places the page in a free region. Returns
-/// the new entry. Throws BadArgument like `make_sheet` and `SheetFile::allocate`.
+/// the new entry. Throws BadArgument in the same cases as `make_sheet` and `SheetFile::allocate`.
 SheetEntry enter_page(SheetFile& file, const NewPage& page);
 
 }  // namespace dotpose::cli

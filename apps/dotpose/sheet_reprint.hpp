@@ -14,7 +14,7 @@ namespace dotpose::cli {
 PrintOptions reprint_options(const SheetEntry& entry);
 
 /// Reprints the page of a sheet from its entry. Warns if the entry does not contain the print
-/// options. Throws like `reprint_options` and `write_sheet`.
+/// options. Throws the same errors as `reprint_options` and `write_sheet`.
 void reprint_sheet(const SheetEntry& entry, const std::string& out);
 
 }  // namespace dotpose::cli

@@ -217,7 +217,8 @@ std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
 }
 
 /// Returns the drive over the sheets in the file, or none if --drive is not given. All frames have
-/// the imperfections of the first shot.
+/// the imperfections of the first shot. If `has_length` is false, also sets the number of frames to
+/// the number in one lap.
 std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
     if (!arguments.drives) return std::nullopt;
     const std::vector<SheetEntry> sheets = read_sheets(system::path_of(arguments.sheets));

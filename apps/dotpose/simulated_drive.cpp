@@ -78,7 +78,8 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
 
 void SimulatedDrive::lay_path() {
     constexpr double kMargin_mm = 5;
-    // Minimum ratio of the amplitude to the side of the bounding rectangle along the same axis.
+    // Minimum amplitude of the path along an axis, as a fraction of the side of the bounding
+    // rectangle along this axis.
     constexpr double kMinFraction = 0.25;
     Vec2 low{1e9, 1e9};
     Vec2 high{-1e9, -1e9};

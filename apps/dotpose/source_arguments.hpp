@@ -26,7 +26,7 @@ struct SourceArguments {
 
     bool is_given() const { return !names.empty() || !list.empty(); }
 
-    /// Returns how many times standard input is used, either as the list or for raw frames.
+    /// Returns the number of times that standard input is named, as a source or as the list.
     std::int64_t reads_of_standard_input() const;
 
     /// Adds the sources, --list, and the options for cameras, videos and raw frames.
@@ -51,7 +51,7 @@ class Sources {
     /// Collects the sources. If one of them is a camera or a video, which only dotpose-live can
     /// read, `dotpose` replaces this process with dotpose-live (live_sources.hpp). Therefore, no
     /// output may be open yet. Throws BadArgument if no source is given or if standard input is
-    /// given twice, and Error if the list, a folder or a glob cannot be read.
+    /// given twice. Throws Error if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
     /// Returns true if a pipe may deliver more names.
@@ -63,12 +63,12 @@ class Sources {
     /// Returns all names. Blocks until a pipe, if there is one, has delivered all its names.
     std::vector<std::string> all_names();
 
-    /// Returns the paths of all images. Blocks like `all_names`. Throws Error if a folder or glob
-    /// cannot be read, and BadArgument if a source is not an image.
+    /// Returns the paths of all images. Blocks like `all_names`. Throws Error if a folder or a glob
+    /// cannot be read. Throws BadArgument if a source is not an image.
     std::vector<std::string> all_images();
 
-    /// Returns the number of images, or 0 if it is unknown: if a pipe delivers names, if a source
-    /// cannot be read, or if a source does not consist of images.
+    /// Returns the number of images. Returns 0 if the number is unknown because image names are
+    /// read from a pipe, a source cannot be read, or a source does not consist of images.
     std::int64_t number_of_images() const;
 
     /// Opens all sources as one sequence of frames. `*this` must outlive the result.

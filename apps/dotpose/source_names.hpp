@@ -22,8 +22,8 @@ class SourceNames {
     /// Returns true if a pipe may deliver more names.
     bool has_pipe() const { return is_pipe_; }
 
-    /// Returns the next name, or none after the last name. Throws Error like the constructor. After
-    /// an error, all further calls return none.
+    /// Returns the next name, or none after the last name. Throws Error if the list cannot be read
+    /// or contains a line that is too long. After an error, all further calls return none.
     std::optional<std::string> next();
 
   private:

@@ -137,8 +137,7 @@ std::vector<Field> world_fields_of(const std::string& prefix, const CameraInWorl
     return fields;
 }
 
-/// Returns the largest of the standard deviations of three consecutive coordinates, starting at
-/// `first`.
+/// Returns the largest standard deviation of three consecutive coordinates, starting at `first`.
 double largest_sigma(const SpaceCovariance& covariance, std::size_t first) {
     return std::sqrt(std::max({covariance[first][first], covariance[first + 1][first + 1],
                                covariance[first + 2][first + 2]}));

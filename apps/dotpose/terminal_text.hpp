@@ -24,8 +24,8 @@ void tell(std::string_view message);
 /// enabled.
 void tell_failure(std::string_view message);
 
-/// Returns true if the stream is a terminal that supports colours, unless NO_COLOR (no-color.org)
-/// is set or TERM is "dumb".
+/// Returns true if the stream is a terminal that supports colours, and colours are not disabled by
+/// NO_COLOR (no-color.org) or TERM=dumb.
 bool wants_colour(std::FILE* stream);
 
 /// Colours the prefixes of report lines that contain a fault, a note, a warning or a verdict.

@@ -15,8 +15,7 @@ int input = -1;
 }  // namespace
 
 bool open(const char* path) {
-    // The first argument of the system call is the pointer to the path. `call` declares this
-    // argument as an int.
+    // The first argument of the system call is a pointer to the path, which `call` takes as an int.
     input = linux_o32::call(Call::open, static_cast<int>(reinterpret_cast<std::intptr_t>(path)),
                             nullptr, 0);
     return input >= 0;

@@ -90,7 +90,8 @@ constexpr char letter(Symbol symbol) {
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns the roll of column (or row) p in section 0, in O(1). The result is in [0, 63). `p` may
-/// be kPositionsPerAxis or more, but the rolls do not repeat with this period.
+/// be kPositionsPerAxis or more, but it does not wrap around: roll(p + kPositionsPerAxis) generally
+/// differs from roll(p).
 int roll(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns one bit of the cyclic main sequence. The index wraps around.

@@ -53,7 +53,8 @@ void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant co
                 nearest.try_emplace({found.dot.step.x, found.dot.step.y}, found);
             if (!is_new && found.off < entry->second.off) entry->second = found;
         }
-        // Keeps the dots that `locate` read if there are fewer than half as many candidates.
+        // If there are fewer than half as many candidates as dots read by `locate`, the frame keeps
+        // the dots read by `locate`.
         if (2 * nearest.size() < frame.dots.size()) continue;
         frame.dots.clear();
         for (const auto& [step, found] : nearest)

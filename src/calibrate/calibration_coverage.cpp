@@ -59,8 +59,8 @@ double corner_sigma_px(const Camera& camera) {
                                 const char* key) {
         Camera other = camera;
         double& changed = of_centre != nullptr ? other.centre_px.*of_centre : other.*value;
-        // Step of the difference quotient, in standard deviations. It is small because undistortion
-        // is nonlinear in the parameters.
+        // Finite-difference step, in standard deviations. It is small because undistortion is
+        // nonlinear in the parameters.
         constexpr double kPart = 1e-3;
         changed += kPart * camera.sigma.at(key);
         const PixelPoint moved = from_middle(other, corner);

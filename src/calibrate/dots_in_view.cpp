@@ -112,7 +112,7 @@ std::vector<CodedDot> coded_dots(const ImageView& image, const PatternView& view
             const Vector2d at = intersection + shift.x() * right + shift.y() * down;
             ExpectedDot expected;
             expected.pixel = pixel_of(view, state, at);
-            // Approximates the derivatives by difference quotients over the width of a dot.
+            // Approximates the derivatives by finite differences over the width of a dot.
             constexpr double kPart = 1.0 / 6;
             expected.px_per_spacing.col(0) = (pixel_of(view, state, at + kPart / 2 * right) -
                                               pixel_of(view, state, at - kPart / 2 * right)) /

@@ -77,9 +77,9 @@ class Series {
     std::vector<std::uint64_t> hashes_;
 };
 
-/// Returns the decrease in a frame's sum of squared residuals when the frame is fitted with its own
-/// scale, shear and perspective, in units of the residual variance. If height and tilt are the same
-/// in all frames, the expected value is 5, the number of these parameters.
+/// Fits a separate scale, shear and perspective to the residuals of one frame. Returns the
+/// resulting decrease in the sum of squares, in units of the residual variance. If height and tilt
+/// are the same in all frames, the expected decrease is 5, the number of additional parameters.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,

@@ -10,9 +10,9 @@
 
 namespace dotpose::calibrate {
 
-/// Arrangement of the camera over the paper.
+/// How the camera is held above the paper.
 enum class Stand {
-    ideal,    ///< camera perpendicular to the paper, at one height, without lens distortion
+    ideal,    ///< perpendicular to the paper, same height in all frames, no lens distortion
     mounted,  ///< same height and tilt in all frames
     by_hand,  ///< a different height and tilt in each frame
 };
@@ -23,7 +23,7 @@ struct SharedModel {
     std::array<double, 3> lens{};  ///< k reach^2, and the distortion centre in px
     /// Members of PaperScale, with the perspective multiplied by `reach`.
     std::array<double, 5> paper{};
-    std::array<double, 3> shape{0, 1, 0};  ///< by hand only: reach / focal length, aspect, skew
+    std::array<double, 3> shape{0, 1, 0};  ///< hand-held only: reach / focal length, aspect, skew
     double displacement = 1.0 / 6;         ///< displacement of the dots in the image, in spacings
 };
 

@@ -44,8 +44,9 @@ class MapDeformation {
   private:
     using Following = Eigen::Matrix<float, kFrameTerms, Eigen::Dynamic>;
 
-    /// Response of a frame to a deformation: for each unknown of the coarse nodes around its dots,
-    /// the terms of the frame if this unknown is 1 and all others are 0.
+    /// Response of a frame to a deformation. Each column of `terms` belongs to one unknown of the
+    /// coarse nodes around the dots: it contains the terms of the frame if this unknown is 1 and
+    /// all other unknowns are 0.
     struct Follower {
         std::vector<std::uint32_t> nodes;
         Following terms;  ///< columns: shift x, shift y and displacement of each node

@@ -31,12 +31,12 @@ class MapField {
     /// The prior is a sum of squared second differences, each divided by its variance.
     void add_prior(const std::vector<Eigen::Vector2d>& values,
                    std::vector<Eigen::Vector2d>& product) const;
-    /// Adds the diagonal of the matrix of the smoothness prior to the vector `diagonal`.
+    /// Adds the diagonal of the smoothness prior's matrix to `diagonal`.
     void add_prior_diagonal(std::vector<double>& diagonal) const;
 
     /// Returns a field of zeros with at most `max_nodes` nodes that covers all nodes of this field.
     MapField coarser(std::size_t max_nodes) const;
-    /// Returns the nodes of a coarser field that surround each node of this field.
+    /// Returns, for each node of this field, the four surrounding nodes of a coarser field.
     std::vector<Around> nodes_in(const MapField& coarse) const;
 
     /// Prior standard deviation of the second differences between adjacent nodes, in mm. The value

@@ -80,7 +80,7 @@ class MapView {
     Eigen::Matrix2d rotation_;
 };
 
-/// Adds the prior on the view terms to the normal equations of a frame, which are in units of 1 /
+/// Adds the prior on the view terms to the normal equations of a frame, which are scaled by
 /// `variance`. The block is then invertible even if the dots of the frame do not determine all
 /// terms.
 inline void add_view_prior(const MapSolution& solution, double variance, FrameBlock& block) {

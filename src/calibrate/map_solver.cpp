@@ -71,7 +71,7 @@ std::array<double, kViewTerms> view_sigma_of(const std::vector<FreeView>& views)
             squares.push_back(view.terms[k] * view.terms[k]);
             variances.push_back(view.variance[k]);
         }
-        constexpr double kMedianOfSquare = 0.455;  // of a Gaussian variable with variance 1
+        constexpr double kMedianOfSquare = 0.455;  // for a Gaussian variable with variance 1
         constexpr double kRigid = 0.01;
         const double error = upper_median(variances);
         const double variance = upper_median(squares) / kMedianOfSquare - error;
@@ -175,11 +175,11 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
         std::sqrt(jitter / static_cast<double>(std::max<std::size_t>(seen, 1))), kMinJitter_mm);
 }
 
-/// Removes from all offsets the mean offset, scale and turn of the dots that were seen, because
-/// views of the page do not determine them. Applies the inverse similarity to the complete
-/// positions of the dots, not only to their intersections, because offsets and displacements turn
-/// with the page. For example, a turn by 0.003 rad changes the 40 µm offsets of a feed wave by 0.13
-/// µm, and moves a dot that is displaced by 85 µm by 0.26 µm.
+/// Removes the mean offset, scale and turn from all offsets, because views of the page do not
+/// determine them. The means are computed from the dots that were seen. Applies the inverse
+/// similarity to the complete positions of the dots, not only to their intersections, because
+/// offsets and displacements turn with the page. For example, a turn by 0.003 rad changes the 40 µm
+/// offsets of a feed wave by 0.13 µm, and moves a dot that is displaced by 85 µm by 0.26 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;

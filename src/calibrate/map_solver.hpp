@@ -107,7 +107,8 @@ struct MapSolution {
     int iterations = 0;  ///< number of conjugate gradient iterations in all rounds
 };
 
-/// Called after each step with the completed fraction of the computation. May throw to cancel it.
+/// Called after each step with the completed fraction of the computation. May throw to cancel the
+/// computation.
 using MapProgress = std::function<void(double share)>;
 
 /// Computes the offsets of the dots, refines the poses of the frames, and marks outliers.

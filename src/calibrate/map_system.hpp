@@ -31,8 +31,8 @@ class MapSystem {
 
     MapUnknowns zeros() const;
     MapUnknowns unknowns_of(const MapSolution& solution) const;
-    /// Returns the product of the matrix and `at`. With Residuals::add, subtracts the right-hand
-    /// side, so the result is the gradient at `at`.
+    /// Returns the product of the matrix and `at`. If `residuals` is Residuals::add, subtracts the
+    /// right-hand side, so the result is the gradient at `at`.
     MapUnknowns product(const MapUnknowns& at, Residuals residuals);
     /// Sets `offsets_` to the most likely offsets, given the values `at` of the other unknowns.
     void eliminate(const MapUnknowns& at, Residuals residuals);

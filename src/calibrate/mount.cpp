@@ -44,7 +44,7 @@ struct Station {
 
 /// Stations of all frames with a fix.
 struct Stations {
-    Camera camera;  ///< has no reference point and no angle offset
+    Camera camera;  ///< without reference point and angle offset
     std::vector<Station> stations;
     double spacing_mm = 0;
     double mm_per_px = 0;  ///< mean over the frames
@@ -147,9 +147,9 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     return pixel_from_image_centre(stations.camera, {offset_mm.x(), offset_mm.y()});
 }
 
-/// Returns the standard deviation of the position of a point, per axis, due to the lens
-/// calibration. The standard deviation includes the errors of the position and direction of the
-/// image centre. `offset_mm` is relative to the image centre.
+/// Returns the standard deviation, per axis, of a point's position due to errors in the lens
+/// calibration. It includes the errors of the position and direction of the image centre.
+/// `offset_mm` is relative to the image centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
         const auto found = camera.sigma.find(key);
@@ -370,8 +370,8 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
     require_straight(on_line, result.length_mm);
     const double theta_rad = std::atan2(heading.y(), heading.x());
     result.residual_mm = std::sqrt(across_mm2 / count);
-    // The variance of the angle is the sum of two variances: that of the line's direction and that
-    // of the mean angle.
+    // The variance of the result is the variance of the line's direction plus the variance of the
+    // mean angle.
     const double line = result.residual_mm * result.residual_mm / along_mm2;
     double squares = 0;
     double swerve_rad = 0;

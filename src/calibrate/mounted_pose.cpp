@@ -23,8 +23,8 @@ using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinPoseDots = 12;
 
-/// Numbers of parameters in the equation for a dot (without motion, with motion, and with motion
-/// and turn of the camera):
+/// Numbers of parameters in the equation for a dot: without motion, with motion, and with both
+/// motion and turn of the camera. The equation is
 ///
 ///   printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v
 ///

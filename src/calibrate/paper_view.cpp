@@ -150,8 +150,8 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
 }
 
 void describe_centre(const LensFit& fit, double reach_px, Camera& camera) {
-    // Step of the difference quotients, in standard deviations. With this small step, the quotients
-    // are good approximations of the derivatives with respect to all parameters.
+    // Finite-difference step, in standard deviations. The step is small enough to approximate the
+    // derivatives with respect to all parameters.
     constexpr double kStep_sigmas = 0.01;
     const CentrePose here = centre_pose(camera, camera);
     Eigen::MatrixXd derivative(3, 8);

@@ -10,9 +10,8 @@ namespace dotpose::calibrate {
 void describe_mounted(const LensFit& fit, double reach_px, Camera& camera);
 
 /// Sets the standard deviations of the position and direction of the image centre relative to the
-/// dots in view. Requires `camera.paper`. These standard deviations are much smaller than the
-/// standard deviations of the parameters, because the errors of the parameters cancel at the image
-/// centre.
+/// dots in view. They are much smaller than the parameters' standard deviations suggest, because
+/// the errors of the parameters largely cancel at the image centre. Requires `camera.paper`.
 void describe_centre(const LensFit& fit, double reach_px, Camera& camera);
 
 /// Sets the focal length if the tilts of the frames determine it.

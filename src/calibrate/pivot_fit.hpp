@@ -43,7 +43,7 @@ struct PivotFit {
 double pivot_angle_rad(const std::vector<PivotView>& views);
 
 /// Fits the tip by weighted least squares. Views that contradict the majority are not used.
-/// `pivot_angle_rad` of the views must exceed 0.
+/// pivot_angle_rad(views) must be positive.
 PivotFit fit_pivot(const std::vector<PivotView>& views);
 
 }  // namespace dotpose::calibrate

@@ -135,8 +135,8 @@ class Trimmer {
         double worst_share = 1;
         for (const Outer& one : outer) {
             if (is_enough(one.line, one.longest)) continue;
-            // Treats short lines as the worst, because their fraction of correct dots is not
-            // significant.
+            // Lines with few correct dots are removed first, because their fraction of correct dots
+            // is not significant.
             const double share =
                 is_long(one.line, one.longest) ? double(one.line.right) / one.line.seen : 0;
             if (worst != nullptr && share >= worst_share) continue;

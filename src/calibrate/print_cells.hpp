@@ -7,7 +7,7 @@
 
 namespace dotpose::calibrate {
 
-/// Cells of a field: a rectangle of the code.
+/// Rectangular grid of the cells of a field.
 struct CellGrid {
     Cell origin;
     int columns = 0;

@@ -188,8 +188,9 @@ class Meter {
     }
 
   private:
-    /// Visits the pixels within reach of a point, with their darkness and weight. The weight
-    /// decreases to 0 over the last pixel, so that sums are continuous functions of the point.
+    /// Calls visit(u, v, darkness, weight) for each pixel near `p`. At the edge of the
+    /// neighbourhood, the weight decreases to 0 over a distance of one pixel, so that sums are
+    /// continuous functions of `p`.
     template <typename Visit>
     void visit_around(const Vector2d& p, Visit visit) const {
         const auto first = [&](double centre) {

@@ -283,8 +283,8 @@ class Findings {
                               "of {:.3f} mm; choose a larger --dot, and switch off toner saving",
                               field.dot_mm, field.pattern.dot_mm));
         }
-        // If pixels are as large as dots, all dots have a low contrast. In this case, pale dots are
-        // detected from `dot_mm`.
+        // Contrast is checked only at sufficient resolution. If pixels are as large as dots, all
+        // dots have a low contrast, and pale dots are detected from `dot_mm` instead.
         if (field.spacing_px >= kCoarse_px && field.contrast < kMinContrast) {
             fault(FindingKind::pale,
                   fmt::format("the dots are only {} darker than the paper: print in black, "
@@ -339,8 +339,7 @@ class Findings {
     std::optional<std::size_t> field_;  ///< index of the field being judged
 };
 
-/// Returns the absolute difference between the logarithms of the printed dot diameter and of the
-/// optimum, which is a sixth of the spacing.
+/// Returns |log(printed dot diameter / optimum)|. The optimum is a sixth of the spacing.
 double dot_error(const PrintField& field) {
     const double wanted_mm = field.pattern.spacing_mm / 6;
     return std::abs(std::log(std::max(field.dot_mm, 1e-6) / wanted_mm));

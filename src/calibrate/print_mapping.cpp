@@ -98,8 +98,7 @@ void write_page(const MapGrid& grid, const EarlierOffsets& earlier, const MapSol
     }
 }
 
-/// Returns the standard deviation of the map error, per axis, in spacings: the rms value over the
-/// dots that were seen.
+/// Returns the expected rms error of the map per axis, in spacings, over all dots that were seen.
 double typical_error(const MapPage& map) {
     double sum = 0;
     double seen = 0;
@@ -135,8 +134,8 @@ MappedPage statistics_of(const MapPage& map, const MapGrid& grid, const MapSolut
     }
     const double all = squares / static_cast<double>(std::max<std::size_t>(page.seen, 1));
     page.slow_mm = std::sqrt(std::max(all - solution.jitter_mm * solution.jitter_mm, 0.0));
-    // Maximum relative standard deviation of the scale between frames at which the mount is
-    // considered rigid.
+    // The mount is considered rigid if the relative standard deviation of the scale between frames
+    // is less than this value.
     constexpr double kRigid = 2e-4;
     page.is_rigid = solution.view_sigma[0] < kRigid * solution.reach_mm;
     return page;

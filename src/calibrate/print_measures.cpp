@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 constexpr double kInch_mm = 25.4;
 /// Minimum darkness between two merged dots, relative to the darkness of the dots.
 constexpr double kMergedShare = 0.6;
-/// Minimum number of dots in a bin for which distortion is reported.
+/// Minimum number of dots in a distortion bin. Bins with fewer dots are not reported.
 constexpr int kMinBinDots = 60;
 /// Quantile of the dots' darkness. The darkness of ink is the value at this quantile or the
 /// expected darkness of ink, whichever is greater.

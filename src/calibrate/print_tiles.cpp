@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kTileCells = 24;
 constexpr int kMaxTile_px = 2048;
-/// Tiles are magnified if their spacing is less than this value, because `locate` needs a spacing
-/// of at least 6 px.
+/// Tiles are magnified if their spacing is less than this value. The value includes a margin:
+/// `locate` needs a spacing of at least 6 px.
 constexpr double kSmallSpacing_px = 9;
-/// Number of crops that is sufficient to determine the spacing or the code.
+/// Number of crops that suffice to determine the spacing or the code.
 constexpr std::size_t kEnoughProbes = 40;
 /// Total number of pixels in a sample of crops, after magnification. The crops have the same size
 /// and are spread over the page.

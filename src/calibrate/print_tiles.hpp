@@ -17,7 +17,7 @@ struct LocatedTile {
     int tile = 0;
     TileMap map;
     Section section;
-    PrintLevels levels;  ///< levels around the dots that were read
+    PrintLevels levels;  ///< measured around the dots that were read
 };
 
 /// All tiles with a fix, in ascending order of their numbers.

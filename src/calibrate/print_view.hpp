@@ -9,8 +9,8 @@
 
 namespace dotpose::calibrate {
 
-/// Returns the perspective and the lens distortion, or an empty optional if a scanner can cause
-/// effects of this size.
+/// Returns the perspective and the lens distortion if they show that the image is a photo. Returns
+/// an empty optional if a scanner can explain the positions of the dots.
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Eigen::Vector2d& middle_px);
 

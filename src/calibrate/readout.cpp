@@ -1,6 +1,6 @@
-// Finds the readout time of a rolling shutter from a drive. The motion during the readout of a
-// frame is the velocity of the camera during this frame, multiplied by the readout time. The
-// velocity is computed from the previous and the next frame.
+// Finds the readout time of a rolling shutter from the frames of a drive. The motion during the
+// readout of a frame is the velocity of the camera during this frame, multiplied by the readout
+// time. The velocity is computed from the previous and the next frame.
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -88,8 +88,8 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, CodeVariant co
                         place->theta_rad};
 }
 
-/// Sets the place, axes and errors of `view` by fitting an affine map to the dots. The camera file
-/// must contain the map to the paper. `first` is the position of the intersection with
+/// Sets the place, axes and errors of `view` by fitting an affine map to the dots. `camera` must
+/// contain the view of the paper. `first` is the position of the intersection with
 /// `LocatedDot::step` (0, 0) on the sheet, in nominal mm.
 void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
@@ -117,7 +117,7 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
     view.rows = 6;
 }
 
-/// Sets the place, axes and errors of `view` if the map from the camera to the paper is unknown. In
+/// Sets the place, axes and errors of `view` if the camera file contains no view of the paper. In
 /// this case, the fix determines only the position of the image centre and the direction of the
 /// image x axis.
 void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,

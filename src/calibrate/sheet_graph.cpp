@@ -18,7 +18,7 @@ namespace {
 /// If the whitened residual of a view (scaled to a standard deviation of 1) exceeds this limit, the
 /// weight of the view is reduced. One view in 70 exceeds the limit by chance.
 constexpr double kRobust_sigmas = 4;
-/// Standard deviation that is small enough to fix a parameter.
+/// Standard deviation of a prior that effectively fixes a parameter.
 constexpr double kPinned = 1e-7;
 /// Prior relative standard deviation of the scale of a camera.
 constexpr double kCameraPrior = 0.03;
@@ -113,8 +113,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Converts a pose from the camera frame of a view to the page frame of its sheet. The pose is at
-/// the point `in_camera` and points along the x axis of the camera frame.
+/// Converts a pose from the camera frame of a view to the page frame of its sheet. The position of
+/// the pose is `in_camera`, and its direction is the x axis of the camera frame.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -294,7 +294,8 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
         }
         if (i == fixed_ && !has_scale()) {
             // Fixes the aspect to its value in the sheet file. Views computed from parts of frames
-            // would determine the aspect, but all of them with the same error.
+            // contain information about the aspect, but their errors are all the same and would not
+            // average out.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {
@@ -316,7 +317,7 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     const Camera& camera = *camera_;
     const double x = relative_sigma(camera, "mm_per_px_x", camera.paper->mm_per_px_x);
     const double y = relative_sigma(camera, "mm_per_px_y", camera.paper->mm_per_px_y);
-    // Standard deviation both of the mean of the two scales and of half their difference.
+    // The mean of the two scales and half their difference both have this standard deviation.
     const double half = std::hypot(x, y) / 2;
     const double skew = relative_sigma(camera, "skew", 1);
     const bool is_true = reference_.by == ScaleReference::By::camera;
@@ -332,7 +333,7 @@ std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) 
     const Cell first = sheets_[view.sheet].sheet.origin;
     const Eigen::Matrix2d camera_from_sheet = view.axes.inverse();
     std::vector<std::array<double, 3>> places;  // 1, x, y in the camera frame
-    NormalEquations equations(3);               // affine map along one axis
+    NormalEquations equations(3);               // fit of an affine map along one axis
     for (const std::uint64_t dot : view.dots) {
         const Eigen::Vector2d steps(static_cast<double>((dot >> 32) - first.x),
                                     static_cast<double>((dot & 0xffffffff) - first.y));
@@ -391,8 +392,8 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
     const int parameters =
         problem.NumParameters() - (has_scale() ? 0 : static_cast<int>(camera_scale_.size()));
     if (has_scale()) shared.push_back(camera_scale_.data());
-    // Scales the variances by the misfit between frames, because the residuals within frames do not
-    // include the bending of sheets.
+    // Multiplies the print variances by the misfit between frames. The misfit includes the effect
+    // of bent sheets, which the residuals within a single frame do not show.
     const double misfit = std::max(2 * cost / std::max(residuals - parameters, 1), 1.0);
     const Eigen::MatrixXd gain = normal_gain(problem, shared);
     const auto pins = gain.rightCols(gain.cols() - 6 * static_cast<Eigen::Index>(views_.size()));

@@ -28,8 +28,8 @@ using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Information = Eigen::Matrix<double, kParameters, kParameters>;
 using Derivative = Eigen::Matrix<double, 2, kParameters>;
 
-/// A dot that the fit uses. `whitening` transforms the residual into one with independent errors of
-/// equal variance.
+/// A dot that the fit uses. `whitening` transforms the residual so that the errors of its two
+/// components are independent and have the same variance.
 struct WeightedDot {
     SpaceDot dot;
     Matrix2d whitening = Matrix2d::Identity();
@@ -81,14 +81,15 @@ SpaceState moved(const SpaceState& state, const Parameters& step) {
     return result;
 }
 
-/// Normal equations of one linearisation.
+/// Normal equations of one linearisation, and the sum of the squared residuals.
 struct Sums {
     Information information = Information::Zero();
     Parameters gradient = Parameters::Zero();
     double squares = 0;
 };
 
-/// Returns the sums at a state. The squares are infinite if a dot is not in front of the camera.
+/// Returns the normal equations linearised at `state`. `squares` is infinite if a dot is not in
+/// front of the camera.
 Sums sums_at(const SpaceState& state, const std::vector<WeightedDot>& dots,
              const Vector2d& focal_px) {
     Sums sums;
@@ -183,8 +184,8 @@ class NoiseModel {
     }
 
   private:
-    /// Divides the covariances by the harmonic mean of their mean variances per axis. The harmonic
-    /// mean is used because a few large covariances hardly change it.
+    /// Scales the covariances so that the harmonic mean of their variances (trace / 2) is 1. The
+    /// harmonic mean is used because a few large covariances hardly change it.
     static void normalize(std::vector<Matrix2d>& covariances) {
         double sum = 0;
         for (const Matrix2d& covariance : covariances)
@@ -235,12 +236,13 @@ class NoiseModel {
         return (low + high) / 2;
     }
 
-    std::vector<Matrix2d> print_;   ///< covariances in the image due to the print
-    std::vector<Matrix2d> centre_;  ///< covariances in the image due to the measurement
+    std::vector<Matrix2d> print_;   ///< image covariances due to print errors
+    std::vector<Matrix2d> centre_;  ///< image covariances due to measurement errors
     std::vector<Vector2d> residuals_;
 };
 
-/// The two solutions. The dots and their weights come from the first solution.
+/// The one or two local minima of the pose fit. `dots` and their weights are determined with the
+/// first solution.
 struct Solutions {
     std::vector<WeightedDot> dots;
     Minimum first;
@@ -262,7 +264,7 @@ bool is_same(const SpaceState& a, const SpaceState& b) {
            kSame_rad;
 }
 
-/// Returns the solutions for a subset of the dots. A subset is used to save time.
+/// Returns the solutions for a subset of at most 300 dots. The subset saves time.
 Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
                           const std::vector<WeightedDot>& all, const Vector2d& focal_px) {
     constexpr std::size_t kDots = 300;
@@ -276,8 +278,8 @@ Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
     return result;
 }
 
-/// Refines both solutions. First rejects outliers and estimates the weights with the first
-/// solution. The second solution then uses the same dots and weights.
+/// Refines both solutions. Uses the first solution to reject outliers and to estimate the weights.
+/// Then refits the second solution with the same dots and weights.
 void refine(const std::vector<WeightedDot>& all, const Vector2d& focal_px, Solutions& solutions) {
     constexpr int kRounds = 2;
     solutions.first = minimum_from(solutions.first.state, all, focal_px);

@@ -65,8 +65,8 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
         });
         for (; first != last; ++first) {
             if (first == best || !graph.is_connected(first->sheet)) continue;
-            // Orders the two sheets by index, because the disagreements of a pair are summed
-            // regardless of the order of its sheets.
+            // Orders the two sheets by index, so that (a, b) and (b, a) are counted as the same
+            // pair.
             const bool is_lower = first->sheet < best->sheet;
             const SheetView& a = is_lower ? *first : *best;
             const SheetView& b = is_lower ? *best : *first;
@@ -90,7 +90,7 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
     }
 }
 
-/// Returns the index of the fixed sheet. Candidates are the sheets that at least one frame shows
+/// Returns the index of the fixed sheet. A sheet is a candidate if at least one frame shows it
 /// together with another sheet. The fixed sheet is the first candidate with a world pose, or the
 /// first candidate if no sheet has a world pose. Throws Error if there are sheets with a world
 /// pose, but none of them is a candidate.
@@ -132,8 +132,8 @@ void require_reference(const ScaleReference& reference, const std::vector<SheetE
     }
 }
 
-/// Throws Error if no printer can cause a print scale of this size. In this case, the view in the
-/// camera file or the spacing in the sheet file is wrong.
+/// Throws Error if the mean print scale deviates from 1 by more than a printer can cause. In this
+/// case, the view in the camera file or the spacing in the sheet file is wrong.
 void require_plausible(const AxisScale& scale, const SheetEntry& entry) {
     constexpr double kMaxScaleError = 0.25;
     const double mean = std::sqrt(scale.x * scale.y);

@@ -24,9 +24,9 @@ class SourceList : public FrameSource {
     /// frames is not specified.
     bool open();
 
-    /// Gets the next frame from the concatenated sources. Throws Error if a source fails. The
-    /// following call continues with the next source. Throws BadArgument if the region extends
-    /// beyond the frame.
+    /// Gets the next frame from the concatenated sources. Throws Error if a source fails. In this
+    /// case, the next call continues with the source after it. Throws BadArgument if the region
+    /// extends beyond the frame.
     bool next(Frame& frame) override;
     std::int64_t dropped() const override;
     double rate() const override { return source_ ? source_->rate() : 0; }
@@ -35,8 +35,8 @@ class SourceList : public FrameSource {
     /// Returns the number of frames in the open source, or 0 if unknown.
     std::int64_t length() const override { return source_ ? source_->length() : 0; }
 
-    /// Returns the name of the newest frame: the path of an image, or SOURCE#N for frame N from any
-    /// other source, counted from 0.
+    /// Returns the name of the newest frame: the path of an image, or SOURCE#N for frame N (counted
+    /// from 0) of any other source.
     std::string name_of_frame() const;
 
   private:

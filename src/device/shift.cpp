@@ -12,8 +12,8 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // Maximum distance of dots from the middle column, in px: two spacings. A rotation relative to
-    // the prediction changes the sums over these dots only slightly.
+    // Maximum distance of the summed dots from the middle column, in px: two spacings. A rotation
+    // relative to the prediction changes the sums over these dots only slightly.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
     // If the frame is rotated by 4 degrees (18/256 rad) about its centre, its first rows move

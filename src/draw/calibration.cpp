@@ -1,4 +1,4 @@
-// Draws the residuals before and after a calibration, and a map of how densely the dots cover the
+// Draws the residuals before and after a calibration, and a map of the dot density across the
 // image.
 #include <algorithm>
 #include <cmath>
@@ -61,8 +61,8 @@ class CalibrationPicture {
                  at.x, at.y, width(), height(), colour::kFrame);
     }
 
-    /// Calls `use(part, middle)` for each part of the image that has dots. `middle` is the centre
-    /// of the part in the drawing.
+    /// Calls `use(part, middle)` for each part of the image that contains dots. `middle` is the
+    /// centre of the part in the drawing.
     template <typename Use>
     void visit(int panel, Use use) const {
         for (int j = 0; j < field_.rows; ++j) {

@@ -12,7 +12,7 @@ struct Reached {
     bool undistorted = false;  ///< dot centres, corrected for lens distortion
     bool edges = false;        ///< edges between neighbouring dots
     bool axes = false;         ///< grid vectors
-    bool cells = false;        ///< likelihoods of the bits of each cell
+    bool cells = false;        ///< bit likelihoods of each cell
     bool window = false;       ///< 8 x 8 window with the clearest cells
     bool place = false;        ///< position and orientation, not necessarily certain
     bool pose = false;         ///< a fix
@@ -91,8 +91,8 @@ class FrameView {
     Point reference_px_;
 };
 
-/// Returns the grid cell at the corner of the 8 x 8 window that is top left when the pattern is
-/// upright. Requires `Reached::place`.
+/// Returns the grid cell at one corner of the 8 x 8 window: the top left corner if the pattern is
+/// viewed upright. Requires `Reached::place`.
 FixedVec window_corner(const Trace& trace);
 /// Returns the position of a grid cell in the code. Requires `Reached::place`.
 Place place_of(const Trace& trace, FixedVec grid_cell);

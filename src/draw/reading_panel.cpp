@@ -67,8 +67,8 @@ class Reading {
     void draw_symbol(int i, int j, const GridCell& cell) const;
     void draw_points() const;
     /// Calls `draw` with the column, row and cell of each dot that was read. Returns the centres of
-    /// the unread dots. An unread dot is far from all intersections, or another dot at the same
-    /// intersection has a higher quality.
+    /// the unread dots. A dot is unread if it is far from all intersections, or if another dot at
+    /// the same intersection has a higher quality.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
     /// Draws a line of the grid as several strokes, because lens distortion may bend the line.

@@ -29,7 +29,7 @@ struct MapRobot {
 
 struct Map {
     std::string title;
-    bool y_up = false;  ///< true if y points up, as in the world; false if down, as on a page
+    bool y_up = false;  ///< true if y points up (world), false if y points down (page)
     std::vector<MapSheet> sheets;
     std::vector<MapRobot> robots;
     std::vector<std::string> notes;  ///< lines of text below the drawing

@@ -38,7 +38,7 @@ double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Returns true if both the located and the true place of a frame are known and on the same sheet.
+/// Returns true if the located place and the true place of a frame are known and on the same sheet.
 /// If the sheet of the true place is not specified, the located place may be on any sheet.
 bool is_comparable(const MeasuredFrame& frame) {
     return frame.truth && frame.found &&
@@ -204,7 +204,8 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
         if (frame.truth) result.is_in_world = frame.truth->is_in_world;
         result.errors.push_back(frame.found ? std::optional(error_of(frame, alignment))
                                             : std::nullopt);
-        // A fix is wrong if its place in the coordinate frame of the true places is unknown.
+        // A fix is treated as wrong if its place is unknown in the coordinate frame of the true
+        // places.
         if (frame.status == Status::ok && !frame.found) ++result.wrong;
     }
     mark_wrong(frames, result.errors);

@@ -13,9 +13,8 @@ std::span<const double> sweep_values(SweepKind kind);
 /// Returns frame `index` of the sweep, with the condition set to `value`.
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index);
 
-/// Darkens all pixels on one side of a straight edge, which make up the fraction `share` of the
-/// image. `direction_rad` points away from the dark side. It is an angle in the image, from +u
-/// towards +v.
+/// Darkens the fraction `share` of the image: all pixels on one side of a straight edge.
+/// `direction_rad` is the direction away from the dark side, as an angle from +u towards +v.
 void cover(GreyImage& image, double share, double direction_rad);
 
 }  // namespace dotpose::evaluate_detail

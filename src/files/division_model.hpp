@@ -25,10 +25,10 @@ struct PlumbBob {
     PixelPoint undistorted(PixelPoint pixel) const;
 };
 
-/// Sets `k_per_px2` and `centre_px` to the division model nearest to `lens` over the image. Sets
-/// `pinhole` to the pinhole camera that, combined with this model, has the same viewing directions
-/// as `lens`. The image size must be set. Returns the rms difference between the two models over
-/// the image, in px, or infinity if the lens cannot be inverted.
+/// Sets `k_per_px2` and `centre_px` of `camera` to the division model nearest to `lens` over the
+/// image. Sets `camera.pinhole` to the pinhole camera that, combined with this model, has the same
+/// viewing directions as `lens`. The image size must be set. Returns the rms difference between the
+/// two models over the image, in px, or infinity if the lens cannot be inverted.
 double fit_division_model(const PlumbBob& lens, Camera& camera);
 
 }  // namespace dotpose::files

@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr std::string_view kMagic = "DOTPOSEM";
-/// Version of the format. Version 1 did not contain the errors of the map.
+/// Version of the file format. Files with version 1 do not contain the errors of the map.
 constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kMaxPages = 10'000;
 constexpr std::size_t kMaxName = 4096;

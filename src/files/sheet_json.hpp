@@ -10,8 +10,8 @@
 
 namespace dotpose::files {
 
-/// Parses the text of a sheet file. `file` is the name of the file in error messages. Throws Error
-/// like `read_sheets`.
+/// Parses the text of a sheet file. `file` is the name of the file in error messages. Throws the
+/// same errors as `read_sheets`.
 std::vector<SheetEntry> sheets_from_json(const std::string& text, const std::string& file);
 
 /// Returns the text of a sheet file. Preserves the unrecognised keys of `old_text`, which must be a

@@ -59,9 +59,9 @@ SheetReservation::~SheetReservation() {
 }
 
 void SheetReservation::confirm() {
-    // The destructor releases only entries that are still in `entries_`. If this function fails,
-    // the entries remain marked as reserved in the file, and their regions are not assigned to
-    // other sheets.
+    // Moves the entries out of `entries_`, so the destructor does not release them. If this
+    // function fails, the entries remain marked as reserved in the file, and their regions are not
+    // assigned to other sheets.
     const std::vector<SheetEntry> entries = std::move(entries_);
     entries_.clear();
     SheetFile file(path_, wait_);

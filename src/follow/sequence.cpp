@@ -116,8 +116,8 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
 }
 
 /// Locates an image, with the prediction if there is one. The tracked attempt measures dots in
-/// small windows at their nominal places, so the measured centre of a displaced dot is biased
-/// towards its nominal place. This bias matters with a print map, because the map contains the
+/// small windows at their nominal positions, so the measured centre of a displaced dot is biased
+/// towards its nominal position. This bias matters with a print map, because the map contains the
 /// displacements. With a print map, the prediction is therefore used only for images that have no
 /// fix without it.
 Fix Follower::locate_near(ImageView image, const DeviceOptions& options,
@@ -144,7 +144,7 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {
-        // The image may show two patterns. This fix only serves to find the edge of the page, so a
+        // The image may show two patterns. This fix is used only to find the edge of the page, so a
         // fix on the clearer pattern is sufficient.
         DeviceOptions any = used_;
         any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};

@@ -13,14 +13,14 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Place, velocity and acceleration, with their covariance.
+/// Position, velocity and acceleration, with their covariance.
 struct State {
     Vector3d mean;
     Matrix3d covariance;
 };
 
 /// Returns the state at the first sample. The standard deviations of velocity and acceleration are
-/// those of a fast hand.
+/// typical of a fast-moving hand.
 State start_of(const AxisSample& first) {
     constexpr double kVelocity_mm_s = 500;
     constexpr double kAcceleration_mm_s2 = 20'000;

@@ -186,8 +186,8 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
     return innovation.dot(covariance.ldlt().solve(innovation));
 }
 
-/// Adapts the agility to an innovation by two criteria. Their weights depend on the fraction of the
-/// innovation variance that is due to the prediction:
+/// Adapts the agility to an innovation, using two criteria. Their weights depend on the fraction of
+/// the innovation variance that is due to the prediction:
 /// - If this fraction is small, the agility determines the gain of the filter. With the correct
 ///   gain, consecutive innovations have equal signs as often as opposite signs. Equal signs
 ///   therefore increase the agility, and opposite signs decrease it.
@@ -211,7 +211,7 @@ void adapt_agility(Motion& motion, const Vector6& innovation, const Matrix6& cov
     }
 }
 
-/// Adapts the fraction of independent errors to an innovation by two criteria. With the correct
+/// Adapts the fraction of independent errors to an innovation, using two criteria. With the correct
 /// fraction, the derivative of the log-likelihood of the innovation has mean 0, and consecutive
 /// innovations are uncorrelated. If the fraction is too large, the filter lags behind the
 /// sightings, and innovations are too small or correlated. `noise` is the independent part of the

@@ -22,8 +22,8 @@ using images::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
 /// Returns the maximum size of a file in bytes. A limit is needed because a pipe or device may be
-/// endless. The limit exceeds the size of any image of `max_pixels` pixels with four channels of 16
-/// bits.
+/// endless. The limit exceeds the size of any image of `max_pixels` pixels with four 16-bit
+/// channels.
 std::size_t max_file_bytes(int max_pixels) {
     return std::size_t{8} * static_cast<std::size_t>(max_pixels) + (std::size_t{1} << 20);
 }

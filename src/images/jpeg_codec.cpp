@@ -138,8 +138,8 @@ class JpegReader {
             }
             jpeg_finish_decompress(&jpeg_);
         });
-        // libjpeg replaces missing or damaged pixels with invented values, and only warns about
-        // them.
+        // libjpeg replaces missing or damaged pixels with invented values, and only issues a
+        // warning.
         if (report_.num_warnings > 0) fail();
         if (source_.is_short) {
             // In progressive files, whole scans may be missing without a warning, so a file that

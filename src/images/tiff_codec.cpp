@@ -100,7 +100,7 @@ class TiffReader {
     }
 
     /// Returns true if the page has EXIF data written by a camera. If the page has an EXIF
-    /// directory, libtiff's current directory changes from the page to this directory.
+    /// directory, makes it libtiff's current directory.
     bool read_is_of_camera() {
         toff_t exif = 0;
         if (TIFFGetField(tiff_.get(), TIFFTAG_EXIFIFD, &exif) == 0 ||

@@ -14,8 +14,8 @@ inline constexpr std::size_t kPlainBytes = 27;
 /// Number of bytes after COBS encoding (Cheshire and Baker, 1999). COBS adds a single byte if there
 /// are at most 254 plain bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
-/// Number of bytes that encode the CRC. Each byte contains at most 7 bits of the CRC. Its top bit
-/// is set, so the byte is never zero.
+/// Number of bytes that encode the CRC. Each byte contains up to 7 bits of the CRC, and its top bit
+/// is set, so it is never zero.
 inline constexpr std::size_t kCheckBytes = 3;
 inline constexpr std::size_t kFramedBytes = kCodedBytes + kCheckBytes;
 

@@ -77,7 +77,7 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
                      Measurement& measurement, Fix& fix);
 
 /// Returns true if `count` cells are too few for a reliable position: even if all their bits are
-/// clear and agree with the code, so few bits may agree by chance. Returns false if sheets are
+/// clear and agree with the code, the agreement may be due to chance. Returns false if sheets are
 /// known, because fewer cells can then be sufficient.
 bool are_too_few_cells(const Frame& frame, int count);
 

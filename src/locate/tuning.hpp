@@ -215,10 +215,9 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// If the image contains fewer cells than this, bits are also read from dots that are cut off by
 /// the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels in a small view. A small view also contains fewer than
-/// kMaxCellsWithCutDots cells. The effort spent on testing a place is limited only in small views.
-/// Larger images rarely contain that few cells. One exception is an image in which a rolling
-/// shutter stretches the cells.
+/// Maximum number of pixels in a small view. A view is small only if it also contains fewer than
+/// kMaxCellsWithCutDots cells. Larger images rarely contain so few cells, except if a rolling
+/// shutter stretches the cells. The effort spent on testing a place is limited only in small views.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Minimum number of cells in a small view for which a second attempt is made. Of 241 frames of 72
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,
@@ -252,10 +251,11 @@ inline constexpr float kRough = 0.027F;
 
 /// Views of known sheets (locate/hypothesis, locate/on_sheets).
 namespace known {
-/// If the shorter image side is less than kSmallView spacings, dots are read up to a distance of
-/// kMargin_px from the image border. The usual margin is at least 1.7 px. Of 300 views of 36 x 36
-/// px at 6 px per spacing, 97 % are located with a margin of 1.0 px, and 88 % with the usual
-/// margin. The pose errors are equal in both cases (`dotpose_tables known`).
+/// If the shorter image side is less than kSmallView spacings, the margin at the image border is
+/// reduced to kMargin_px: dots closer than this to the border are not read. The usual margin is at
+/// least 1.7 px. Of 300 views of 36 x 36 px at 6 px per spacing, 97 % are located with a margin of
+/// 1.0 px, and 88 % with the usual margin. The pose errors are equal in both cases
+/// (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of a bit, in units of 1/127. The second attempt uses a cell only if each of its

@@ -27,8 +27,8 @@ struct CardGrid {
 CardGrid card_grid(Paper paper, Paper card);
 
 /// Returns the sheet of a card in the coordinate frame of the page. `slot` is the index of the card
-/// on the page, row by row. The card is shifted by less than a pixel at 300 dpi to align its dots
-/// with the printer pixels, as on a page of its own.
+/// on the page, counted row by row. The card is shifted by less than a pixel at 300 dpi to align
+/// its dots with the printer pixels, as on a page of its own.
 Sheet on_page(const CardGrid& grid, int slot, Sheet card);
 
 /// Returns the cut marks as PDF content, in points from the bottom left corner of the page.

@@ -117,8 +117,8 @@ QPDFObjectHandle cmy_space(QPDF* pdf) {
 
 /// Converts the colours of an image by changing its /Decode array, which maps samples to colour
 /// values, and if necessary its colour space. The pixel data do not change. Returns false and
-/// changes nothing if the image is in CMYK and its black is to be converted. /Decode cannot express
-/// this conversion.
+/// changes nothing if the image is in CMYK and its black is to be converted, because /Decode cannot
+/// express this conversion.
 bool convert_decode(InkChange change, QPDFObjectHandle dict, ColourKind kind, QPDF* pdf) {
     if (kind == ColourKind::cmyk && change.black_to_cmy) return false;
     const std::size_t count = 2 * components(kind);

@@ -23,9 +23,9 @@ inline constexpr const char* kCreator = "dotpose";
 /// Prefix of the resource names of the dots on a page.
 inline constexpr const char* kDotsName = "/Dots";
 
-/// Progress of writing the rows of all pages. qpdf requests the rows while it writes the file. If
-/// `progress` throws an exception, qpdf replaces its message. The first exception is therefore
-/// stored in `stopped`.
+/// Counts the rows that are written on all pages, and reports the progress. qpdf requests the rows
+/// while it writes the file. If `progress` throws an exception, qpdf replaces its message. The
+/// first exception is therefore stored in `stopped`.
 struct RowCount {
     Progress progress;
     std::int64_t done = 0;
@@ -50,7 +50,7 @@ class DotContent {
     DotContent(QPDF& pdf, double dpi, DotDrawing asked, std::shared_ptr<RowCount> rows);
 
     /// Returns the dots of the sheet as content streams that are independent of each other. Throws
-    /// BadArgument like `resolve_drawing`.
+    /// the same errors as `resolve_drawing`.
     std::vector<QPDFObjectHandle> streams(const Sheet& sheet);
 
     /// Returns the resource dictionary of the content streams. It may be empty.

@@ -15,9 +15,9 @@ struct PageNumber {
 };
 
 /// Returns the labels as PDF content, in points from the bottom left corner of the page. The page
-/// must have Helvetica as font resource /Label. Its resources must also contain the forms of
-/// `script`, which draws lines with letters that Helvetica lacks. Labels that do not fit into the
-/// margins are omitted, starting with the command, so no label touches a dot.
+/// must define Helvetica as the font resource /Label. Lines of text with letters that Helvetica
+/// lacks are drawn by the forms of `script`, which the page resources must also contain. Labels
+/// that do not fit into the margins are omitted, the command line first, so no label touches a dot.
 std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                           ScriptText& script);
 

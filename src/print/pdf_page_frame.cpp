@@ -59,7 +59,7 @@ PageFrame page_frame(QPDFPageObjectHelper page) {
     frame.box = box;
     frame.paper.width_mm = (turns % 2 == 0 ? width : height) * unit / kPointsPerMm;
     frame.paper.height_mm = (turns % 2 == 0 ? height : width) * unit / kPointsPerMm;
-    // Matrices of the rotations by 0 to 3 quarter turns. Pages are displayed rotated clockwise (PDF
+    // Rotation matrices for 0 to 3 quarter turns. Pages are displayed rotated clockwise (PDF
     // 32000-1, 8.3.3).
     constexpr int kTurned[4][4] = {{1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}};
     const auto& [a, b, c, d] = kTurned[turns];

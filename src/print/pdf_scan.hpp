@@ -24,9 +24,9 @@ struct PageContent {
     std::string after() const;
 };
 
-/// Scans the content of a page and of its forms, and counts their bytes in `unpacked`. Throws Error
-/// if the content cannot be read completely. Viewers stop at damaged content, so they would not
-/// show dots that follow it.
+/// Scans the content of a page and of its forms, and adds their unpacked size to `unpacked`. Throws
+/// Error if the content cannot be read completely. Viewers stop at damaged content, so they would
+/// not show dots that follow it.
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 
 /// Returns true if dotpose printed the document, or has already added dots to the page.

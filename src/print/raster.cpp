@@ -31,7 +31,7 @@ int first_px(double centre_mm, double dpi, int dot_px, int page_px) {
     return std::clamp(static_cast<int>(std::floor(first + 0.5 + kTie_px)), 0, page_px - dot_px);
 }
 
-/// First pixels of a dot for the displacements -1, 0 and 1 along one axis.
+/// First pixel of a dot along one axis, for each of the displacements -1, 0 and 1.
 using Firsts = std::array<int, 3>;
 
 /// Pixels `first` to `end` - 1 of one row of a dot, relative to the left edge of the dot.

@@ -1,4 +1,4 @@
-// PDF writers for a build without qpdf. All of them throw Error.
+// PDF writers for builds without qpdf. They always throw Error.
 #include "writers.hpp"
 
 namespace dotpose::print {

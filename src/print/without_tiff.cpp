@@ -1,4 +1,4 @@
-// TIFF writer for a build without libtiff. It throws Error.
+// TIFF writer for builds without libtiff. Always throws Error.
 #include "writers.hpp"
 
 namespace dotpose::print {

@@ -32,7 +32,7 @@ enum class Presence {
 struct MqttOptions {
     std::string host = "localhost";
     int port = 1883;
-    std::string user;  ///< user name, or empty for none
+    std::string user;  ///< user name; empty to connect without one
     std::string password;
     bool has_tls = false;
     /// File with trusted certificates, or empty to use the system's certificates.
@@ -95,8 +95,8 @@ class MqttClient {
     std::string place() const;
 
     /// Maximum number of messages in flight: not yet sent by libmosquitto (QoS 0), or not yet
-    /// acknowledged by the broker (QoS 1). The limit is small, because libmosquitto sends its
-    /// messages in order, but the publisher sends the newest messages first.
+    /// acknowledged by the broker (QoS 1). The limit is small, because the publisher sends the
+    /// newest messages first, but cannot reorder messages in flight.
     static constexpr std::size_t kMaxUnderWay = 20;
     /// Quality of service for presence messages: at least once.
     static constexpr int kPresenceQos = 1;
@@ -124,7 +124,7 @@ class MqttClient {
 
 class MqttPublisher : public MqttClient {
   public:
-    /// Connects. Throws Error like MqttClient::start.
+    /// Connects. Throws the same errors as MqttClient::start.
     explicit MqttPublisher(MqttOptions options);
     ~MqttPublisher() override;
 
@@ -170,7 +170,8 @@ class MqttSubscriber : public MqttClient {
   public:
     using Handler = std::function<void(std::string_view topic, std::string_view payload)>;
 
-    /// Subscribes to topics. Another thread calls `handle`. Throws Error like MqttClient::start.
+    /// Subscribes to topics. Another thread calls `handle`. Throws the same errors as
+    /// MqttClient::start.
     MqttSubscriber(MqttOptions options, std::vector<std::string> topics, Handler handle);
     ~MqttSubscriber() override;
 

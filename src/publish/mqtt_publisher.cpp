@@ -19,8 +19,8 @@ MqttPublisher::~MqttPublisher() {
     stop();
 }
 
-// Waits until the broker has acknowledged all presence messages before the connection is closed.
-// Otherwise, the broker would detect a broken connection and publish the last will.
+// Publishes `Presence::offline`, then waits until the broker has acknowledged all presence
+// messages. If the connection were closed earlier, the broker would publish the last will.
 void MqttPublisher::send_offline() {
     constexpr std::chrono::seconds kPatience(1);
     {

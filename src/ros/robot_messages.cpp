@@ -40,8 +40,8 @@ TransformStamped transform_of(const Header& header, std::string child, const Pla
         header, std::move(child), {{planar.x_m, planar.y_m, 0}, rotation_about_z(planar.yaw_rad)}};
 }
 
-/// Returns the pose of a camera. The covariance needs no conversion, because it refers to rotations
-/// about the axes of `map`, as in the message.
+/// Returns the pose of a camera. The covariance needs no conversion, because the message also uses
+/// rotations about the axes of `map`.
 PoseWithCovariance pose_of(const CameraInWorld& camera) {
     const dotpose::Quaternion& q = camera.rotation;
     PoseWithCovariance result;
@@ -115,9 +115,8 @@ PlanarCovariance turned_covariance(const PlanarMotion& motion, double yaw_rad) {
     return propagated({{{c, s, 0, 0, 0, 0}, {-s, c, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0}}}, motion);
 }
 
-/// Returns the velocities in the frame of the robot. The covariance of the velocities includes the
-/// uncertainty of the yaw, because an uncertain yaw makes the directions of the velocities
-/// uncertain.
+/// Returns the velocities in the frame of the robot. Their covariance includes the uncertainty of
+/// the yaw, which makes the directions of the velocities uncertain.
 TwistWithCovariance twist_of(const PlanarMotion& motion) {
     const double c = std::cos(motion.pose.yaw_rad);
     const double s = std::sin(motion.pose.yaw_rad);

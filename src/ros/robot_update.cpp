@@ -1,5 +1,5 @@
-// Converts the results for a frame to metres with y up. The results are in mm with y down, or in
-// the world frame, which is already in metres with y up.
+// Converts the results for a frame to metres with y up. Results in the pattern frame are in mm with
+// y down. Results in the world frame are already in metres with y up.
 #include <cmath>
 #include <cstdio>
 #include <utility>

@@ -39,7 +39,7 @@ struct RequestHead {
 
 enum class Verdict {
     allowed,
-    allowed_by_url,  ///< allowed by the token in the URL; the answer should store it as a cookie
+    allowed_by_url,  ///< allowed by the token in the URL; the response should store it as a cookie
     wrong_host,      ///< the host is not a name of this server (DNS rebinding)
     wrong_origin,    ///< the request is from a page on another site
     wrong_token,     ///< the token is missing or wrong

@@ -28,8 +28,8 @@ struct Command {
     }
 };
 
-/// Parses a command. Returns none if the text is too long, if it is not a JSON object whose members
-/// are booleans, numbers and strings, or if the command has no name.
+/// Parses a command. Returns nullopt if the text is too long, if it is not a JSON object whose
+/// members are booleans, numbers and strings, or if the command has no name.
 std::optional<Command> parse_command(std::string_view text);
 
 }  // namespace dotpose::serve

@@ -23,7 +23,7 @@ struct FrameOverlay {
         draw::Point x;
         draw::Point y;
     };
-    std::optional<Axes> axes;  ///< none without a fix
+    std::optional<Axes> axes;  ///< nullopt if there is no fix
 };
 
 /// Returns the overlay for the last frame that a Locator processed. `image` must be the located
@@ -31,7 +31,7 @@ struct FrameOverlay {
 FrameOverlay overlay_of(ImageView image, const Trace& trace);
 
 /// Returns the message: the size of the JSON in bytes (32 bits, little-endian), the JSON, and the
-/// frame as JPEG, reduced until its longer side is at most `max_side_px`. The JSON contains the
+/// frame as JPEG, reduced so that its longer side is at most `max_side_px`. The JSON contains the
 /// number of the frame, the original size, and the overlay. `image` must not be empty.
 std::string frame_message(ImageView image, const FrameOverlay& overlay, std::int64_t index,
                           int max_side_px);

@@ -1,4 +1,4 @@
-// Limits of a server. They bound the memory and the time that clients can use.
+// Limits on the memory and the time that the clients of a server can use.
 #pragma once
 
 #include <cstddef>

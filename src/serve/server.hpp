@@ -40,19 +40,19 @@ struct Page {
     std::string_view content;
 };
 
-/// Answer to a GET request.
+/// Response to a GET request.
 struct Answer {
     std::string type = {};  ///< MIME type
     std::string body = {};
-    /// Path of a file that is sent instead of `body`, or empty for none. The path must not be
+    /// Path of a file that is sent instead of `body`, or empty to send `body`. The path must not be
     /// derived from a request.
     std::string file = {};
-    /// File name under which browsers save the answer, or empty if they should display it. Must
-    /// consist of letters, digits, '.', '-' and '_'.
+    /// File name under which browsers save the response, or empty if they should display it. The
+    /// name must consist of letters, digits, '.', '-' and '_'.
     std::string download = {};
 };
 
-/// Returns the answer to a GET request. Called on the server's thread. Must not throw.
+/// Returns the response to a GET request. Called on the server's thread. Must not throw.
 using Route = std::function<Answer()>;
 
 /// Format in which the values of a topic are sent.
@@ -101,8 +101,8 @@ class Server {
     /// (Topic::publish_for_each), and wakes the server.
     void publish_for_each(Topic& topic, Topic::EncodeFor encode);
 
-    /// Returns the next command from a client, or none. The queue contains at most 32 commands. If
-    /// it is full, a client that sends another command is disconnected.
+    /// Returns the next command from a client, or nullopt if there is none. The queue contains at
+    /// most 32 commands. If it is full, a client that sends another command is disconnected.
     std::optional<Command> take_command();
 
     /// Returns the number of connected clients.

@@ -56,8 +56,8 @@ std::shared_ptr<const std::string> Topic::message(std::uint64_t& version, const 
         if (encode) message_version_ = version_;
         version = encode_for ? version_ : message_version_;
     }
-    // The value is encoded without the lock, so that the program can publish in the meantime. Only
-    // the server's thread uses `message_`.
+    // The value is encoded without holding the lock, so that the program can publish in the
+    // meantime. Only the server's thread uses `message_`.
     if (encode_for) return message_of(encoded(*encode_for, request));
     if (encode) message_ = message_of(encoded(encode));
     return message_;

@@ -138,8 +138,8 @@ class Sensor {
         }
     }
 
-    // Adds a range of row_, weighted, to all pixel rows within the reach of row `row`. Row 0 is the
-    // top of the border.
+    // Adds a range of row_ to all pixel rows that the kernel reaches from pixel row `row`, with one
+    // weight for each of these rows. Row 0 is the top of the border.
     void add_row(int row, const std::vector<float>& weights, Reach reach) {
         const int top = row - 2 * kernel_.border_px;
         const int first = std::max(0, -top);
@@ -162,8 +162,8 @@ class Sensor {
         const auto height = static_cast<std::size_t>(height_);
         const std::size_t reach = 2 * border_ + 1;
         const std::size_t stride = row_.size();
-        // Zeros precede the light, because the taps of the first pixels read elements to the left
-        // of the first pixel.
+        // The light is preceded by zeros, because the taps of the first pixels read elements to the
+        // left of the first pixel.
         std::vector<float> light(2 * border_ + stride);
         std::vector<float> along_rows(stride * (height + 2 * border_));
         for (const Kernel::Moment& moment : kernel_.moments) {

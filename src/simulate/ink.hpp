@@ -70,7 +70,7 @@ struct Stroke {
 };
 void add_stroke(Ink& ink, const View& view, const Stroke& stroke, double reflectance);
 
-/// Letters on a line. `at_mm` is the bottom left corner of the first letter, as an offset from the
+/// A row of letters. `at_mm` is the bottom left corner of the first letter, as an offset from the
 /// pose point.
 struct Word {
     Vec2 at_mm;

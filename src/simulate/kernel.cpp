@@ -22,7 +22,8 @@ double integral_of_edge(double x, double sigma) {
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
-    // edges[i] is `integral_of_edge` half a pixel to the left of the left edge of sub-pixel i.
+    // edges[i] is `integral_of_edge` at the point half a pixel to the left of sub-pixel i's left
+    // edge.
     std::vector<double> edges;
     for (std::size_t i = 0; i <= (pixels + 1) * per_pixel; ++i) {
         edges.push_back(integral_of_edge(
@@ -48,8 +49,8 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     return result;
 }
 
-// Returns the number of sub-pixels per pixel and axis. With about 6 or more sub-pixels across a
-// dot, sampling moves its centroid by less than 0.003 px.
+// Returns the number of sub-pixels per pixel along each axis. With about 6 or more sub-pixels
+// across a dot, sampling moves its centroid by less than 0.003 px.
 int sub_pixels_for(double dot_px) {
     if (dot_px < 1.5) return 8;
     return dot_px < 6 ? 4 : 2;

@@ -9,7 +9,7 @@ namespace dotpose::simulate {
 
 struct Kernel {
     static constexpr int kMaxPerPixel = 8;
-    int per_pixel = 2;     ///< sub-pixels per pixel and axis: 2, 4 or 8
+    int per_pixel = 2;     ///< sub-pixels per pixel along each axis: 2, 4 or 8
     int border_px = 0;     ///< number of pixels by which the kernel extends beyond its centre pixel
     std::size_t taps = 1;  ///< 2 * border_px + 1, rounded up to a multiple of 4
 

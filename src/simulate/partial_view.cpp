@@ -142,7 +142,7 @@ void cover_partly(Shot& shot, const PartialView& view) {
         return;
     }
     // At the border of the sheet, some dots are only partly visible. The visible part of the sheet
-    // therefore contains at least 15 % more than `min_dots` dots.
+    // must therefore contain at least 15 % more than `min_dots` dots.
     const double min_share = std::max(view.min_share, 1.15 * view.min_dots / intersections(shot));
     const double share = rng.uniform(min_share, std::max(min_share, view.max_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);

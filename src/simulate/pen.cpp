@@ -32,7 +32,7 @@ Vector on_pattern(const PenPose& pose, const Vector& in_camera) {
     return about_z(pose.azimuth_rad, about_y(-pose.tilt_rad, turned));
 }
 
-/// Sets the cell and the fraction of a pose from a position in spacings.
+/// Sets the cell and the fractions of `pose` to the given position, in spacings.
 void move_to(double x_grid, double y_grid, CameraPose& pose) {
     pose.cell = {static_cast<std::uint32_t>(std::floor(x_grid)),
                  static_cast<std::uint32_t>(std::floor(y_grid))};
@@ -66,8 +66,8 @@ struct Stroke {
         return lift_mm * std::sin(std::numbers::pi * (is_last ? part / 2 : part));
     }
 
-    /// Returns the place of the tip on the stroke. `part` is the elapsed fraction of the duration
-    /// of the stroke, from 0 to 1.
+    /// Returns the position of the tip on the stroke. `part` is the elapsed fraction of the
+    /// stroke's duration, from 0 to 1.
     Vec2 at(double part) const {
         const double s = smooth_step(part);
         const double phase = kTurn_rad * loops * s;
@@ -106,7 +106,7 @@ std::vector<Stroke> strokes_of(const Handwriting& options) {
     return strokes;
 }
 
-/// Sets the angles of the pen at the time `t_s`. They vary like those of a pen in a writing hand.
+/// Sets the angles of the pen at time `t_s`. The angles vary as in natural handwriting.
 void lean(double t_s, std::uint64_t seed, PenPose& pose) {
     Rng rng(seed, 2);
     const double phase = rng.uniform(0, kTurn_rad);

@@ -44,8 +44,9 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
     const std::array<double, 3> s_axis{cy, sx * sy, -cx * sy};
     const std::array<double, 3> t_axis{0, cx, sx};
 
-    // At the pose point, a step along the image x axis is a step (s, t) on the paper with s *
-    // s_axis + t * t_axis = (1, 0, any). Theta is the angle of this step in the pattern.
+    // At the pose point, a step along the image x axis corresponds to a step (s, t) on the paper,
+    // where s * s_axis + t * t_axis = (1, 0, z) for some z. Theta is the angle of this step in the
+    // pattern.
     const double step_angle_rad = std::atan2(-sx * sy / cx, 1);
     const double turn_rad = pose.theta_rad - step_angle_rad;
     const double c = std::cos(turn_rad);

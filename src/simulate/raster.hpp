@@ -28,7 +28,7 @@ class Raster {
 
     /// The sub-pixels of one pixel in one sub-row.
     struct Spot {
-        std::size_t pixel = 0;  ///< counted from the left of the border
+        std::size_t pixel = 0;  ///< index in the row, including the border
         /// Fraction of the light that the ink absorbs in each sub-pixel. Only the first
         /// Layout::per_pixel elements are used. The others are 0.
         std::array<float, Kernel::kMaxPerPixel> darkness{};
@@ -42,7 +42,7 @@ class Raster {
     // An ellipse in sub-pixel coordinates, in which sub-pixel i extends from i to i + 1.
     struct Ellipse {
         double x, y;
-        double slant;       // change in x of the chord midpoints per unit of y
+        double slant;       // horizontal shift of the chord midpoints per unit of y
         double half_width;  // half the length of the chord through the centre
         double half_height;
         double darkness;  // 1 - reflectance

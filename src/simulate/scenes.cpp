@@ -1,5 +1,5 @@
-// Renders frames that show no valid position. The camera, the light and the printing errors are
-// those of the shot.
+// Renders frames that contain no valid position. The camera, lighting and printing errors are taken
+// from the shot.
 #include <algorithm>
 #include <cmath>
 
@@ -18,8 +18,8 @@ Symbol random_symbol(std::uint64_t seed, Cell cell) {
 
 simulate::DisplacementOf displacement_in(Scene scene, const Shot& shot) {
     const Pattern pattern = shot.page.pattern;
-    // The section beyond the seam differs in u and v, so neither x nor y can be read across the
-    // seam.
+    // The section beyond the seam differs in both u and v, so neither x nor y can be read across
+    // the seam.
     Pattern beyond = pattern;
     beyond.section = {static_cast<std::uint8_t>((pattern.section.u + 29) % kSections),
                       static_cast<std::uint8_t>((pattern.section.v + 31) % kSections)};

@@ -51,7 +51,7 @@ void Queue::push(State state) {
         }
         if (waiting_.size() == kMaxBatch) changed_.notify_all();
     }
-    // Calls `tell` without the lock, because the function may use the queue.
+    // Calls `tell` without holding the lock, because the function may use the queue.
     if (is_first_dropped) {
         options_.tell(fmt::format("{}: more than {} states wait; the oldest are dropped",
                                   database_->label(), options_.max_states));

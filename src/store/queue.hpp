@@ -27,7 +27,7 @@ struct QueueOptions {
     std::chrono::milliseconds period{5000};
     int keep_days = 0;  ///< number of days to keep, or 0 to keep all days
     /// Called with messages for the user, for example when the database is not available. May be
-    /// called in another thread.
+    /// called on another thread.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -52,8 +52,8 @@ class Queue {
 
     QueueStatus status() const;
 
-    /// Writes all states in the queue. Gives up if a write attempt fails after `patience` has
-    /// elapsed. Returns false if some states were not stored. No states may be added afterwards.
+    /// Writes all states in the queue. Gives up when an attempt fails after `patience` has elapsed.
+    /// Returns false if some states were not stored. No states may be added afterwards.
     bool finish(std::chrono::milliseconds patience);
 
   private:

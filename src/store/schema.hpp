@@ -1,4 +1,4 @@
-// The tables of all databases, and the conversion between rows and states.
+// The tables that all databases contain, and the conversion between rows and states.
 #pragma once
 
 #include <array>
@@ -32,7 +32,8 @@ inline constexpr std::string_view kColumns =
     "time_us, number, x_nm, y_nm, robot, place, delay_us, theta_urad, deviation_nm, vx_um_s, "
     "vy_um_s, omega_urad_s, state, reason";
 inline constexpr int kColumnCount = 14;
-inline constexpr int kIntegerCount = 12;  ///< the remaining columns are text
+/// Number of integer columns. The columns after them contain text.
+inline constexpr int kIntegerCount = 12;
 /// Number of 64-bit integer columns. The 32-bit integer columns follow them.
 inline constexpr int kWideCount = 4;
 

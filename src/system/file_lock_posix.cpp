@@ -19,8 +19,7 @@ std::error_code FileLock::try_lock() {
             return {error_number, std::generic_category()};
         }
         // The previous owner removes the lock file when it releases the lock. If `path_` no longer
-        // refers to the locked file, the lock has no effect, and the loop tries again with a new
-        // file.
+        // refers to the locked file, the lock is useless, so the loop tries again with a new file.
         const auto named = numbers_of(path_);
         if (named && named == numbers_of(descriptor)) {
             handle_ = descriptor;

@@ -87,7 +87,8 @@ std::vector<double> rates_at(const Device& device, std::uint32_t format, std::ui
     for_each_entry<v4l2_frmivalenum>(
         device, VIDIOC_ENUM_FRAMEINTERVALS, asked, [&rates](const v4l2_frmivalenum& found) {
             const bool is_one = found.type == V4L2_FRMIVAL_TYPE_DISCRETE;
-            // For a range of intervals, adds only the rate of the shortest interval.
+            // If the driver reports a range of intervals, only the rate of the shortest one is
+            // added.
             rates.push_back(rate_of(is_one ? found.discrete : found.stepwise.min));
         });
     return rates;

@@ -25,7 +25,7 @@ struct FoundCamera {
 std::vector<FoundCamera> find_cameras();
 
 /// Lists the cameras in a sentence without a full stop: "cameras are /dev/video0 (name), ...". If
-/// there are no cameras, the sentence reports that none was found.
+/// there are no cameras, the sentence says that none were found.
 std::string in_one_line(const std::vector<FoundCamera>& cameras);
 
 }  // namespace dotpose::video

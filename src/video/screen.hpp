@@ -61,7 +61,7 @@ struct ScreenOptions {
     bool has_window = false;
     std::string record;  ///< path of the video file, or empty for none
     double fps = 30;     ///< frame rate of the video file
-    /// Called with a message for the user if H.264 is not available, which makes the file larger.
+    /// Called with a message for the user if H.264 is not available and the file will be larger.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -70,7 +70,7 @@ struct ScreenOptions {
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;
-    /// These functions implement the functions of the same names in Screen.
+    /// Implementations of the functions of the same names in Screen.
     virtual bool show(const Scene& scene) = 0;
     virtual void finish() = 0;
     virtual bool is_wanted() = 0;
@@ -103,8 +103,8 @@ class Screen {
     std::unique_ptr<ScreenOutput> output_;
 };
 
-/// Returns true if an X server answers, so a window can be opened. The X server may belong to a
-/// Wayland session.
+/// Returns true if a window can be opened. Tests whether an X server answers, which may be part of
+/// a Wayland session.
 bool has_display();
 
 }  // namespace dotpose::video

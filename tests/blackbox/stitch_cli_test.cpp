@@ -123,7 +123,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
         EXPECT_NEAR(entry.print_scale_y, 1, 5e-4) << entry.name;
     }
     // The given width of the right sheet is 0.5 % larger than nominal, so the scales of all sheets
-    // increase by this factor.
+    // increase by 0.5 %.
     const double width_mm = 1.005 * (kSide_cells - 1) * kSpacing_mm;
     ASSERT_EQ(run(stitch + "--true-scale right=" + std::to_string(width_mm) + " seam*.pgm"), 0)
         << errors_;

@@ -240,7 +240,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         EXPECT_NEAR(packet.y_grid(), fix.y_grid(), 0.012) << packet.time_us;
     }
     EXPECT_EQ(reader.damaged(), 0U);
-    // At most 1 % of about 300 frames may fail to be tracked.
+    // Tracking may fail in at most 1 % of about 300 frames.
     EXPECT_LE(missed, 3);
     ASSERT_GT(times_us.size(), 300U);
     // During the drive and for 5 s after it, every frame is processed. After that, one frame per

@@ -32,7 +32,7 @@ struct Arguments {
 struct Outcome {
     std::int64_t published = 0;
     std::int64_t answered = 0;
-    std::int64_t latest_us = 0;  ///< maximum time between due time and publication of a state
+    std::int64_t latest_us = 0;  ///< maximum delay from due time to publication
 };
 
 /// Publishes all states of the robots over a connection. Within each publication period, the states

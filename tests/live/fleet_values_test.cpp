@@ -216,7 +216,7 @@ TEST(FleetMapValues, TrailsAreLimitedInTotal) {
     const MapMessage message(trails_value(snapshot_of(r), r.fleet, {}, {}));
     EXPECT_EQ(message.head["count"], 150);
     const auto points = message.at<std::uint32_t>(4);
-    EXPECT_EQ(points, 100U);  // the newest 200 points, thinned to every other one
+    EXPECT_EQ(points, 100U);  // every second one of the newest 200 points
     EXPECT_LE(150 * points, cli::kMaxTrailPoints);
     EXPECT_EQ(message.records.size(), 150 * (8 + 8 * points));
     const double origin_mm = message.head["origin_mm"][0];

@@ -114,8 +114,8 @@ TEST_F(Recording, TellsWhereTheCameraSits) {
     const json& mount = mounts[0]["message"]["transforms"][0];
     EXPECT_EQ(mount["child_frame_id"], "camera_optical");
     EXPECT_NEAR(mount["transform"]["translation"]["x"], 0.00458, 1e-9);
-    // `ros2 bag play` publishes the topic with the recorded quality of service. Its durability must
-    // be transient local, because transform listeners require this.
+    // `ros2 bag play` publishes the topic with the recorded quality of service. The recorded
+    // durability must be transient local because transform listeners require it.
     EXPECT_THAT(mounts[0]["offered"], HasSubstr("\n  durability: 1\n"));
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_THAT(poses.at(0)["offered"], HasSubstr("\n  durability: 2\n"));

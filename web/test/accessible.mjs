@@ -5,7 +5,7 @@ import { createRequire } from "node:module";
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
-/** Requires that axe finds no violation, and that nothing is wider than the screen. */
+/** Requires that axe finds no violations, and that nothing is wider than the screen. */
 export async function audit(page) {
     // The content security policy of the page does not restrict the test's scripts.
     await page.evaluate(kAxe);

@@ -143,7 +143,9 @@ class Run {
         [this.#frames, this.#next] = [frames, 0];
     }
 
-    /** Writes the next frame if the program has read all previous ones. A program on a busy machine may be late. */
+    /**
+     * Writes the next frame if the program has read all previous ones. On a busy machine, the program may lag behind.
+     */
     #write() {
         if (this.#reads && this.#frames.length > 0 && this.program.stdin.writableLength === 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
     }
@@ -329,7 +331,7 @@ test("the tip of a pen is calibrated by pivoting, and the run uses it", async ()
         await page.waitForFunction(() => document.querySelectorAll("#calibration-needs li").length === 9);
         assert.match(await page.textContent("#calibration-needs"), /tilt the pen farther.*towards the right edge.*towards the upper right corner/);
         assert.match(await page.textContent("#calibration-now"), /the tip stays at its point/);
-        // Fewer than six frames from the pen do not determine its tip.
+        // Fewer than six frames are not enough to determine the tip of the pen.
         await page.waitForFunction(() => /^1 frame /.test(document.getElementById("calibration-frames").textContent));
         run.show(shots.pivot.slice(0, 2));
         await page.waitForTimeout(6 * kPeriod_ms);

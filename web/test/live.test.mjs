@@ -139,7 +139,7 @@ test("frames without a sheet do not count as sharp", async () => {
         await page.waitForFunction(() => Number.parseInt(document.getElementById("live-sharpness-text").textContent, 10) >= 95);
         shown = table;
         await page.waitForFunction(() => Number.parseInt(document.getElementById("live-sharpness-text").textContent, 10) < 20);
-        // Smooth paper in uneven light is not out of focus.
+        // A picture of smooth paper in uneven light must not be reported as out of focus.
         shown = Buffer.from(still.map((_, i) => 100 + ((i % 320) * 100) / 320));
         await page.waitForFunction(() => document.getElementById("live-picture-advice").textContent.startsWith("No dots are found"));
         await page.close();

@@ -159,7 +159,7 @@ function viewsOf(at, size, frames = 1) {
     return makeClip(still, { frames, size, options: ["--section", "0,0", "--at", at.join()] });
 }
 
-/** Opens a picture. `ok` is true if it must be located. */
+/** Opens a picture, and waits for its result. If `ok` is true, the picture must be located, otherwise refused. */
 async function openPicture(page, buffer, ok) {
     await page.setInputFiles("#look-file", { name: "view.png", mimeType: "image/png", buffer });
     await page.waitForFunction((is_ok) => (document.getElementById("look-x").textContent !== "–") === is_ok, ok);

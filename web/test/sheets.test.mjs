@@ -250,7 +250,8 @@ test("sheets are renamed and removed like on the command line, and both are undo
         assert.deepEqual(names(), [kTable, "door", "shelf"]);
         assert.deepEqual(placeOf("shelf"), { x_mm: 150, y_mm: 0, yaw_deg: 0 });
 
-        // Another program prints a page, which gets the free cells. The removal can then no longer be undone.
+        // Another program prints a page on the cells that the removal has freed, so the removal can no longer be
+        // undone.
         await select(page, "shelf");
         await page.click("#sheet-remove");
         await message(page, /^shelf is removed/);
@@ -285,7 +286,7 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         dotpose("sheets", "place", "shelf", "--sheets", file, "--x", "333", "--y", "44", "--yaw", "5");
         const list = page.locator("#sheets-list tr", { hasText: "shelf" });
         await list.getByText("333.0, 44.0 mm, 5.0°").waitFor();
-        // A number that is being typed stays, and the other numbers are updated.
+        // The number being edited is not overwritten. The other numbers are updated.
         assert.equal(await page.inputValue("#place-x"), "777");
         assert.equal(await page.inputValue("#place-y"), "44");
 
@@ -295,7 +296,7 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         assert.match(answer.message, /'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
 
-        // Values that were typed before the change are refused once, and saved if the user saves them again.
+        // Values typed before the change are refused the first time. They are saved if the user tries again.
         await save(page, "place");
         await message(page, /^Refused: 'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
@@ -309,7 +310,7 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         await message(page, /^Refused: 'shelf' was changed by someone else since/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 1, y_mm: 2, yaw_deg: 3 });
 
-        // While another program holds the lock, an edit is refused, and the typed number stays.
+        // While another program holds the lock, an edit is refused, and the typed number is not lost.
         const lock = spawn("flock", [join(folder, ".sheets.json.lock"), "sleep", "60"], { stdio: "ignore", detached: true });
         await new Promise((resolve) => setTimeout(resolve, 500));
         await page.fill("#place-x", "55");

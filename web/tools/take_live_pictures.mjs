@@ -16,7 +16,7 @@ const kPictures = fileURLToPath(new URL("../../docs/pictures/", import.meta.url)
 const folder = mkdtempSync(join(tmpdir(), "dotpose-pictures-"));
 const browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 const programs = [];
-// The pages show the names of the files, so the files are named without their folder.
+// The pages show file names as they are passed, so the files are passed without their folder.
 process.chdir(folder);
 
 function pause(seconds) {

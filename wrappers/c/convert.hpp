@@ -69,7 +69,7 @@ dotpose_status to_core(const dotpose_measured_motion& given, MeasuredMotion& mot
 /// Reads a prediction. Returns BAD_VALUE if the code does not contain the predicted place.
 dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction);
 
-/// Returns OK if a fix can be read and written, otherwise NULL_POINTER or BAD_SIZE.
+/// Returns OK if `fix` can be read and written, and otherwise NULL_POINTER or BAD_SIZE.
 dotpose_status check(const dotpose_fix* fix);
 
 /// Reads a fix with any status. Returns the errors of `check`, or BAD_VALUE if the fix was not
@@ -84,7 +84,8 @@ bool can_move(const Prediction& prediction);
 
 void to_c(const Prediction& prediction, dotpose_prediction& result);
 
-/// Writes a fix without a pose as the result of an invalid call, and returns `status`.
+/// Sets `result` to a fix that has no pose and the given status of an invalid call. Returns
+/// `status`.
 dotpose_status refuse(dotpose_status status, dotpose_fix& result);
 
 }  // namespace dotpose::c

@@ -154,7 +154,8 @@ dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int3
 
 /* ---- Results -------------------------------------------------------------------------------- */
 
-/* Maps image points to the paper plane, in spacings: 44 bytes. With (u, v) in px from `centre`:
+/* Mapping from image points to the paper plane, in spacings: 44 bytes. For a point (u, v), in px
+ * relative to `centre`:
  *     plane = at_centre + (du u + dv v) / (1 + perspective . (u, v) + lens (u^2 + v^2)). */
 typedef struct dotpose_plane {
     int32_t centre_u_q8;       /*  0: px */
@@ -385,7 +386,7 @@ dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
                                     const dotpose_options* options, dotpose_locator** locator);
 
 /* Sets up a locator of DOTPOSE_KIND_DEVICE. If a program uses only this function to set up
- * locators, the linker can remove the other kinds as unused sections. */
+ * locators, the linker can remove the code of the other kinds, because its sections are unused. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
 /* Like dotpose_device_init, but for DOTPOSE_KIND_DEVICE_36X36, DOTPOSE_KIND_DEVICE_160X120 and
@@ -461,8 +462,9 @@ dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pix
                                     int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                     const dotpose_measured_motion* since_last, dotpose_fix* fix);
 
-/* Returns the code from the options or, if the code is detected, the code of the last image. Use
- * this code in dotpose_packet_of, and to move predictions made from the fix of the last image. */
+/* Returns the code set in the options or, if the code is detected, the code of the last image. Pass
+ * this code to dotpose_packet_of, and to dotpose_prediction_move for a prediction made from the fix
+ * of the last image. */
 dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code);
 
 /* Locate an image row by row: call dotpose_begin, then dotpose_push_row for each row from the top,
@@ -516,8 +518,8 @@ dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* 
                                        dotpose_code_evidence* evidence,
                                        dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Locates an image in the code from the options. Reports in `reading` whether another code also
- * explains the image. `reading` may be null. Returns WRONG_KIND for device locators. */
+/* Locates an image using the code set in the options. Reports in `reading` whether another code
+ * also explains the image. `reading` may be null. Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* pixels,
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
@@ -558,7 +560,7 @@ typedef struct dotpose_track_options {
     float max_speed_mm_s;                  /* 20: 1000 */
     float max_turn_rad_s;                  /* 24: 20 */
     float gate_sigmas;                     /* 28: 5 */
-    int32_t confirmations;                 /* 32: sightings that confirm a jump; 3 */
+    int32_t confirmations;                 /* 32: number of sightings that confirm a jump; 3 */
     float still_mm;                        /* 36: maximum movement of a stationary robot; 0.1 */
     float still_rad;                       /* 40: 0.02 */
     float min_sigma_mm;                    /* 44: standard deviation of printing errors; 0.0002 */
@@ -643,8 +645,8 @@ dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
 /* Like dotpose_tracker_update, with the motion of the robot since the previous update. The motion's
- * `right_mm` is measured along the direction theta of the sightings. If `sighting` is null, only
- * the motion changes the pose. */
+ * `right_mm` is the displacement along the image x axis, whose angle is the theta of the sightings.
+ * If `sighting` is null, only the motion changes the pose. */
 dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
                                             const dotpose_sighting* sighting,
                                             const dotpose_measured_motion* motion,
@@ -676,7 +678,7 @@ typedef struct dotpose_packet {
     int32_t theta_bam16;     /* 32: 2^15 is half a turn */
     uint32_t section_u;      /* 36 */
     uint32_t section_v;      /* 40 */
-    uint32_t certainty;      /* 44: p_wrong is at most 2^-certainty; at most 255 */
+    uint32_t certainty;      /* 44: 0 to 255; p_wrong is at most 2^-certainty */
     uint32_t deviation_q12;  /* 48: max sigma of x and y, spacings; 255 if too large or unknown */
 } dotpose_packet;
 
@@ -714,7 +716,7 @@ typedef struct dotpose_pacer {
 /* Movement criteria and frame periods: 40 bytes. Each comment ends with the default. */
 typedef struct dotpose_pacer_options {
     uint32_t size;                /*  0: set by dotpose_pacer_options_init */
-    int32_t moved_q16;            /*  4: movement threshold per axis, spacings; 6554 */
+    int32_t moved_q16;            /*  4: movement threshold per axis, in spacings; 6554 */
     int32_t turned_bam;           /*  8: turn threshold; 11930465, one degree */
     int32_t lost_is_moved;        /* 12: 1 if losing the pattern counts as movement; 1 */
     int64_t stationary_after_us;  /* 16: 5000000 */

@@ -1,5 +1,5 @@
-// Implementation of dotpose_locator. An object contains a core locator with its memory, and
-// pointers to the functions of its kind.
+// Implementation of dotpose_locator. Each object contains a core locator with its memory, and a
+// pointer to the function table of its kind.
 #pragma once
 
 #include <cstddef>
@@ -83,7 +83,7 @@ inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
 /// Members common to all kinds of locators, at the beginning of each object.
 struct dotpose_locator {
     std::uint32_t mark = 0;
-    std::int32_t rows_left = 0;  ///< number of rows of the current frame not pushed yet
+    std::int32_t rows_left = 0;  ///< number of rows of the current frame that were not pushed yet
     bool has_begun = false;      ///< true if a frame has been begun but not finished
     const dotpose::c::Actions* actions = nullptr;
     dotpose::RowLocator* locator = nullptr;
@@ -125,8 +125,8 @@ struct LocatorOf : dotpose_locator {
     Kind kind;
 };
 
-/// Returns the number of bytes that suffice for a T at any address that is a multiple of
-/// kAlignment.
+/// Returns the number of bytes needed to place a T in memory that is aligned to kAlignment.
+/// Includes padding if T needs a larger alignment.
 template <typename T>
 constexpr std::size_t bytes_of() {
     return sizeof(T) + (alignof(T) > kAlignment ? alignof(T) - kAlignment : 0);

@@ -10,7 +10,8 @@
 
 namespace dotpose::c {
 
-/// A T stored in a struct of dotpose.h. The mark before it shows that the struct was set up.
+/// A T stored in a struct of dotpose.h. `mark` precedes the T and equals kMark if the struct was
+/// set up.
 template <typename T, std::uint32_t kMark>
 struct Object {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>,

@@ -62,7 +62,7 @@ TrackOptions options_of(const dotpose_track_options& o) {
             .spacing_mm = o.spacing_mm};
 }
 
-/// Returns true if a number is from 0 to 1e9. The squares of such numbers do not overflow.
+/// Returns true if a number is in [0, 1e9]. Squares of numbers in this range do not overflow.
 bool is_size(float value) {
     return value >= 0 && value <= 1e9F;
 }

@@ -23,7 +23,7 @@ PACKED = HERE / "source"
 ROOT = PACKED if PACKED.exists() else HERE.parents[1]
 NEEDED = ["CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "CONTRIBUTING.md"]
 NEEDED += ["apps", "cmake", "docs", "examples", "include", "src", "wrappers"]
-# Files and folders that builds generate in the source tree, including the source distribution.
+# Files and folders that builds and source distributions leave in the source tree.
 UNWANTED = ["build", "dist", "dotpose-[0-9]*", "node_modules", "*.egg-info", "__pycache__"]
 
 

@@ -56,8 +56,8 @@ struct Tilt {
 /// that dark are too noisy to show dots.
 inline constexpr double kMinFlatField = 0.05;
 
-/// Pinhole model of the undistorted image. Undistorted pixel (u, v) shows the points in the
-/// direction
+/// Pinhole model of the undistorted image. The undistorted pixel (u, v) shows the scene points in
+/// this direction from the projection centre:
 ///
 ///     ((u - centre_px.u) / focal_u_px, (v - centre_px.v) / focal_v_px, 1).
 ///

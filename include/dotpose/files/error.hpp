@@ -12,7 +12,7 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Thrown if an operation fails. `what()` is one sentence for the user, without a trailing full
-/// stop. It contains the name of the file or the value concerned.
+/// stop. It contains the file name or the value that caused the error.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -75,7 +75,7 @@ struct MapPage {
     std::vector<DotOffset> offsets;
     /// Number of frames in which each dot was measured, at most 255.
     std::vector<std::uint8_t> views;
-    MapErrors errors;  ///< empty in a map of file version 1
+    MapErrors errors;  ///< empty in maps with file version 1
 
     /// Returns the index of a dot in `offsets` and `views`. Returns none if the place of the dot is
     /// not on the page.
@@ -107,8 +107,8 @@ const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& pla
 enum class MapUse : std::uint8_t {
     no_map,  ///< there is no map of the page, or there is no fix
     used,    ///< the fix is corrected by the map
-    /// Fewer than 20 of the dots in view, or less than 75 % of them, were seen in the frames from
-    /// which the map was made.
+    /// The map contains measurements of fewer than 20 of the dots in view, or of less than 75 % of
+    /// them.
     not_covered,
     /// The dots in view contradict the map, for example because the print was moved or replaced.
     contradicted
@@ -125,10 +125,10 @@ PrintMap parse_print_map(std::string_view bytes);
 /// contents are not valid (see `parse_print_map`).
 PrintMap read_print_map(const std::filesystem::path& path);
 
-/// Returns the contents of a map file. Throws BadArgument if a page is not valid: its region is not
-/// in the code plane, one of its numbers is out of range, its name is longer than 4096 bytes,
-/// `offsets` or `views` do not contain one element per dot, or `errors` is not a grid of
-/// covariances.
+/// Returns the contents of a map file. Throws BadArgument if a page is not valid. A page is not
+/// valid if its region is not in the code plane, if a number is out of range, if the name is longer
+/// than 4096 bytes, if `offsets` or `views` does not contain exactly one element per dot, or if
+/// `errors` is not a grid of covariances.
 std::string print_map_bytes(const PrintMap& map);
 
 /// Throws Error if a page of the map is not one of `sheets`. A page matches a sheet if their code

@@ -22,7 +22,7 @@ inline constexpr double kMaxPage_mm = 100'000;
 /// III-A.3).
 inline constexpr int kMinSheetCells = 8;
 
-/// Dimensions of a printed pattern, in mm.
+/// A printed pattern: its code variant, its section, and its dimensions in mm.
 struct Pattern {
     CodeVariant code = CodeVariant::anoto;
     Section section;

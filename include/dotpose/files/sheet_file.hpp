@@ -63,7 +63,7 @@ struct SheetPrint {
     int pages = 1;              ///< number of pages with dots in the document
     double dpi = 600;           ///< resolution of the printer
     std::string dots = "auto";  ///< method of drawing dots in a PDF: "auto", "glyphs" or "strokes"
-    bool has_labels = true;     ///< true if a PDF has text and rulers in the margins
+    bool has_labels = true;     ///< true if the PDF has text and rulers in the margins
     std::string command;        ///< command that reprints the page
     std::string document;       ///< PDF document to which the dots were added, or empty
 };

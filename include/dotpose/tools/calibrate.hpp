@@ -209,9 +209,10 @@ struct PivotCalibration {
     double min_tilt_rad = 0;
     double max_tilt_rad = 0;
     double residual_mm = 0;  ///< rms distance of the tip from the point of rest, per axis
-    /// Rms ratio of actual to expected error: the distance between the tip and the point of rest,
-    /// divided by its standard deviation according to the covariances of the poses. If the ratio is
-    /// above 1, the standard deviations of the tip are increased accordingly.
+    /// Rms ratio of the actual to the expected error. The actual error is the distance between the
+    /// tip and the point of rest. The expected error is the standard deviation of this distance,
+    /// computed from the covariances of the poses. If the ratio is above 1, the standard deviations
+    /// of the tip are increased accordingly.
     double error_ratio = 0;
 };
 
@@ -277,8 +278,8 @@ struct ScaleReference {
         /// There is no absolute reference. The mean of the two print scales of the fixed sheet
         /// remains unchanged.
         fixed_sheet,
-        /// The scale of the camera, in mm per px, is assumed to be true. Requires a camera that was
-        /// calibrated with the true spacing.
+        /// The scale of the camera, in mm per px, is assumed to be correct. Requires a camera that
+        /// was calibrated with the true spacing.
         camera,
         width  ///< the width of one sheet was measured
     };
@@ -332,7 +333,8 @@ struct Stitching {
     std::vector<SheetEntry> sheets;
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
-    std::vector<SeamMeasurement> measurements;  ///< from all frames that show two connected sheets
+    /// Measurements in all frames that show two connected sheets.
+    std::vector<SeamMeasurement> measurements;
     /// Names of the sheets that are not connected to the fixed sheet by any chain of frames.
     std::vector<std::string> unconnected;
     int frames = 0;

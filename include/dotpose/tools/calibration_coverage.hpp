@@ -1,5 +1,5 @@
-/// Coverage of a lens calibration: which parts of the image, places and directions the frames cover
-/// so far, and which requirements are not met yet. Intended for programs that capture frames while
+/// Coverage of a lens calibration: the image parts, places and directions that the frames cover so
+/// far, and the requirements that are not met yet. Intended for programs that capture frames while
 /// the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
@@ -101,7 +101,7 @@ class CalibrationCoverage {
     /// Creates an empty coverage for images of the given size, which must be positive.
     CalibrationCoverage(int width_px, int height_px);
 
-    /// Returns the number of parts of the image that the frame would add to the coverage.
+    /// Returns the number of image parts that the frame would add to the coverage.
     int parts_added_by(const CalibrationView& view) const;
     /// Adds a frame.
     void add(const CalibrationView& view);

@@ -10,8 +10,8 @@
 ///
 /// Calls `locate` on overlapping crops to find the pattern anywhere in the image, at any angle.
 /// Neighbouring crops with consistent positions form a field, and every dot of a field is measured
-/// in the image. Comparing the measured with the nominal positions of the dots gives the scale,
-/// rotation and skew of the print.
+/// in the image. The scale, rotation and skew of the print are computed from the measured and the
+/// nominal positions of the dots.
 ///
 /// A page may contain several fields: patches of a test page (test_page.hpp), or sheets side by
 /// side. Functions throw Error or BadArgument. They share no state.
@@ -53,8 +53,8 @@ struct CheckPrintOptions {
     /// perspective and lens distortion, and does not judge the scale. If the resolution contradicts
     /// the spacing, the check reports a fault.
     std::optional<Resolution> resolution;
-    /// True if the image was taken with a camera, according to its file. In this case, the
-    /// resolution is ignored.
+    /// True if the image was taken with a camera, according to the metadata in its file. In this
+    /// case, the resolution is ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. It cannot be measured, because
     /// dots are only a few pixels wide. The measured diameter of a dot is the diameter of a disc of
@@ -105,7 +105,7 @@ struct PrintField {
     int columns = 0;        ///< number of columns of the region
     int rows = 0;           ///< number of rows of the region
     bool is_patch = false;  ///< true if the field is a patch of a test page
-    /// Index in CheckPrintOptions::sheets of the sheet whose region contains the field.
+    /// The sheet whose region contains the field, as an index into CheckPrintOptions::sheets.
     std::optional<std::size_t> sheet;
 
     std::optional<PrintScale> scale;        ///< only for scans
@@ -198,8 +198,9 @@ struct RepeatedCells {
 
 /// Evidence that the image is a photo instead of a scan.
 struct CameraSigns {
-    double perspective = 0;  ///< relative change in length across the page
-    double lens = 0;         ///< relative displacement of the outermost dots by lens distortion
+    double perspective = 0;  ///< relative change in scale across the page, due to perspective
+    /// Relative displacement of the outermost dots due to lens distortion.
+    double lens = 0;
 };
 
 /// Result of a print check.

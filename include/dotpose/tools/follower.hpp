@@ -94,7 +94,8 @@ struct Located {
     bool is_pen_down = false;  ///< true if `tip` is on the paper (see PenContact)
     /// Result of applying `FollowerOptions::print_map` to the fix.
     MapUse map_use = MapUse::no_map;
-    /// True if the options or the sheets limit the code variants. False if all were tried.
+    /// True if the options or the sheets determine which code variants are tried. False if all code
+    /// variants are tried.
     bool code_is_given = false;
     int reduced_by = 1;  ///< factor by which the image was downscaled before it was located
 };
@@ -151,7 +152,7 @@ class Follower {
     void set_sheets(std::vector<SheetEntry> sheets);
 
     bool fits_space_pose() const { return options_.fits_space_pose; }
-    /// Returns true if the pose of the tip of a pen is computed.
+    /// Returns true if the pose of a pen tip is computed for each image.
     bool finds_tip() const {
         return options_.fits_space_pose && options_.camera && options_.camera->tip;
     }

@@ -22,7 +22,7 @@ namespace dotpose {
 struct InkSample {
     double t_s = 0;
     std::string page;  ///< name of the page under the tip, or empty if there are no sheets
-    double x_mm = 0;   ///< place on the page, or in the pattern frame: x right, y DOWN
+    double x_mm = 0;   ///< place in the page or pattern frame: x right, y DOWN
     double y_mm = 0;
     double height_mm = 0;
     double sigma_x_mm = 0;  ///< standard deviations, above 0

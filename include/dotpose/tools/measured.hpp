@@ -28,7 +28,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Place of the fix of a frame, in the coordinate frame of the true places.
+/// Place of a frame's fix, in the coordinate frame of the true places.
 struct FoundPlace {
     std::string sheet;
     double x_mm = 0;
@@ -41,8 +41,8 @@ struct MeasuredFrame {
     std::string file;
     std::optional<TruePlace> truth;  ///< none if the frame has no readable pattern
     Status status = Status::ok;
-    /// None if there is no fix, or if the place of the fix in the coordinate frame of the truth is
-    /// not known.
+    /// None if there is no fix, or if the fix has no known place in the coordinate frame of the
+    /// true places.
     std::optional<FoundPlace> found;
     double spacing_mm = kDefaultSpacing_mm;
 };

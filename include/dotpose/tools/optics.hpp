@@ -36,8 +36,8 @@ struct Optics {
     /// Maximum permitted motion in the image during the exposure, in px.
     double largest_blur_px = 1;
 
-    /// Measured size of a pixel on the paper, and measured field of view after the correction of
-    /// distortion. If given, they replace the values of the thin-lens model.
+    /// Measured size of a pixel on the paper, and measured field of view after distortion
+    /// correction. Values given here replace those of the thin-lens model.
     std::optional<double> mm_per_px;
     std::optional<double> field_width_mm;
     std::optional<double> field_height_mm;

@@ -30,7 +30,8 @@ struct Outcome {
     Fix fix;
     Truth truth;
     double elapsed_us = 0;  ///< duration of `locate`, without the time to read the frame
-    /// Error while reading the file, or empty. If not empty, `fix` and `elapsed_us` are not valid.
+    /// Reason why the frame could not be read, or empty. If not empty, `fix` and `elapsed_us` are
+    /// not valid.
     std::string problem;
 
     /// Returns true if the frame was read and located, correctly or not.

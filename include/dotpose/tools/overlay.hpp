@@ -80,8 +80,8 @@ struct OverlayReport {
 /// Adds dots to the document `in`, and writes the result to `out`. Writes `out` atomically.
 ///
 /// `black_to_cmy` and `lighten` change colours only on pages with dots. They change the colours of
-/// text, drawings, forms, fonts and appearances, and of images if their colour space permits. The
-/// report lists content that was not changed.
+/// text, drawings, forms, fonts and annotation appearances, and of images if their colour space
+/// permits. The report lists content that was not changed.
 ///
 /// Throws BadArgument in these cases:
 /// - The pattern, margin, page range or number of copies is invalid.

@@ -33,8 +33,8 @@ struct TipPose {
     double sigma_mm(std::size_t axis) const;
 };
 
-/// Returns the place of the tip in the frame of the pose. `sigma` is `Camera::sigma`. If it
-/// contains no standard deviations for the tip, the tip in the camera file is assumed to be exact.
+/// Returns the place of the tip in the coordinate frame of `pose`. `sigma` is `Camera::sigma`. If
+/// `sigma` contains no standard deviations for the tip, `tip` is assumed to be exact.
 TipPose tip_of(const SpacePose& pose, const PenTip& tip,
                const std::map<std::string, double>& sigma = {});
 

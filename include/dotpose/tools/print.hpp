@@ -56,17 +56,17 @@ struct SheetOptions {
 
 /// Lays out a sheet: fills the page inside its margins with whole cells, from the top left.
 ///
-/// The top left intersection is as far to the top left as two conditions permit: its dot must be
-/// inside the margins, and its coordinates must be odd multiples of half a 300 dpi printer pixel.
-/// With these coordinates, every dot of the default pattern covers whole printer pixels at 300, 600
-/// and 1200 dpi (paper, section III-A.1, figure 11).
+/// The first intersection is as close to the top left corner as two conditions permit: its dot must
+/// be inside the margins, and its coordinates must be odd multiples of half a 300 dpi printer
+/// pixel. With these coordinates, every dot of the default pattern covers whole printer pixels at
+/// 300, 600 and 1200 dpi (paper, section III-A.1, figure 11).
 ///
 /// Throws BadArgument if the options do not give a valid sheet (see `validate`), if the margins
 /// leave less space than kMinSheetCells columns and rows, or if the region would extend past the
 /// end of the code plane.
 Sheet make_sheet(const SheetOptions& options);
 
-/// Lays out `pages` sheets with adjacent regions that share no cell. Each region begins to the
+/// Lays out `pages` sheets with adjacent regions that do not overlap. Each region begins to the
 /// right of the previous one. When the right edge of the plane is reached, the next region is
 /// below, at `options.origin.x`.
 ///
@@ -98,7 +98,7 @@ using Progress = std::function<bool(int rows_done, int rows)>;
 
 /// Methods of drawing dots in a PDF.
 enum class DotDrawing {
-    automatic,  ///< `glyphs` where they are exact, otherwise `strokes`
+    automatic,  ///< `glyphs` if they are exact, otherwise `strokes`
     /// Text in a font of four glyphs: small and fast. Renderers round the position of every glyph
     /// to whole pixels. Spacing, displacement and dot diameter must therefore be integer multiples
     /// of the pixel size.

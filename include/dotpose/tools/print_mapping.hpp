@@ -108,7 +108,7 @@ struct MappedFix {
 /// scale to the dots at their mapped places. Also fits perspective and shear if they are
 /// significant. The covariance is that of the absolute position on the page. It is computed from
 /// the residuals and from the error of the map (`MapPage::error_covariance`). It does not include
-/// the errors of the print. Fixes at the same place share the same map error. To obtain the
+/// the errors of the print. Fixes at the same place have the same map error. To obtain the
 /// covariance of the difference between two such fixes, first subtract the covariance of the map
 /// error from the covariance of each fix.
 ///

@@ -8,7 +8,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// A model of the errors of a printer over a page: a smooth, low-frequency shift of the ink. The
+/// Model of the printing errors over a page: a smooth, low-frequency shift of the ink. The
 /// shape of the shift is invented, not measured. By default, the maximum errors in an area of
 /// kSide_mm x kSide_mm are those of Table III of the paper, rounded down to 0.01 mm: 0.15 mm along
 /// x, and 0.27 mm along y, which is the direction of paper feed.
@@ -21,7 +21,8 @@ class PrintModel {
     /// `run_protocol` uses.
     PrintModel(double worst_x_mm = 0.15, double worst_y_mm = 0.27);
 
-    /// Returns printed minus intended position, at a position relative to the middle of the area.
+    /// Returns the printed minus the intended position, for a point given relative to the middle of
+    /// the area.
     Vec2 shift_mm(Vec2 from_middle_mm) const;
 
   private:

@@ -43,9 +43,9 @@ struct Spread {
 struct Station {
     Vec2 place_mm;  ///< position relative to the middle of the area, y down
     double theta_deg = 0;
-    Spread x_mm;  ///< error in x of the correct fixes
+    Spread x_mm;  ///< errors of the correct fixes along x
     Spread y_mm;
-    Spread theta;  ///< error in theta of the correct fixes, in degrees
+    Spread theta;  ///< errors of the correct fixes in theta, in degrees
     int samples = 0;
     int located = 0;
     int wrong = 0;

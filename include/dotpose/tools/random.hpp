@@ -73,7 +73,7 @@ class Rng {
             x -= (x >> 1) & 0x5555555555555555u;
             return (x & kOdd2) + ((x >> 2) & kOdd2);
         };
-        const std::uint64_t fours = in_fours(a) + in_fours(b);  // each field is at most 8
+        const std::uint64_t fours = in_fours(a) + in_fours(b);  // each 4-bit field is at most 8
         const std::uint64_t eights = (fours & kOdd4) + ((fours >> 4) & kOdd4);
         return static_cast<int>((eights * 0x0101010101010101u) >> 56);
     }

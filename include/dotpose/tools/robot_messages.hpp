@@ -84,7 +84,8 @@ struct RobotUpdate {
     /// Motion of the tracked camera in `map`. None if poses in space are not fitted, or while the
     /// camera is lost.
     std::optional<CameraMotion> camera_motion;
-    /// TrackedPose::plane of the motion. Poses in different planes are unrelated.
+    /// ID of the plane of the motion (see TrackedPose::plane). Poses in different planes are
+    /// unrelated.
     std::uint32_t plane = 0;
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"

@@ -29,7 +29,7 @@ Quantiles quantiles_of(std::vector<double> values);
 
 /// Counts and error statistics of many frames.
 struct Score {
-    /// Number of frames that could be read. `unreadable` is the number of other frames. Each
+    /// Number of frames that could be read. `unreadable` is the number of remaining frames. Each
     /// readable frame has a correct fix, a wrong fix, or a status other than ok.
     int frames = 0;
     int unreadable = 0;

@@ -71,7 +71,7 @@ struct CameraModel {
 /// Pose of the camera. The pattern point under the image centre is cell + fraction.
 struct CameraPose {
     Cell cell;
-    double fraction_x = 0;  ///< distance from `cell` in grid units, usually in [0, 1)
+    double fraction_x = 0;  ///< offset from `cell` along x, in grid units, usually in [0, 1)
     double fraction_y = 0;
     /// Angle of the image x axis at the image centre, in the pattern frame. Measured from +x
     /// towards +y, which is clockwise as seen on the paper.
@@ -121,7 +121,7 @@ struct Imperfections {
     /// Tilt that `draw_shot` adds to the pose. `render` ignores it.
     double tilt_x_rad = 0;
     double tilt_y_rad = 0;
-    /// Number of sub-pixels per pixel along each axis: 2, 4 or 8. With 0, the number is chosen so
+    /// Number of sub-pixels per pixel along each axis: 2, 4 or 8. If 0, the number is chosen so
     /// that the position error of every dot is at most 0.003 px. Larger numbers take longer.
     int sub_pixels = 0;
 };
@@ -172,9 +172,9 @@ struct Page {
     /// Areas with printed dots: a dot is printed if its intersection is in one of the areas. If
     /// empty, all dots are printed.
     std::vector<PageArea> areas;
-    /// Extent of the paper (none if unlimited), and reflectance of the surrounding table relative
-    /// to the paper.
+    /// Extent of the paper. None if unlimited.
     std::optional<PageArea> paper;
+    /// Reflectance of the table around the paper, relative to the paper.
     double table_reflectance = 0.2;
     /// Optional function that returns the offset in mm of a dot from its intended place, due to
     /// printing errors or bent paper. The argument is the intersection of the dot, in grid units.
@@ -191,12 +191,13 @@ class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// Returns the pixel that shows the point at an offset, or (1e9, 1e9), a pixel far outside the
-    /// image, if the camera cannot see the point.
+    /// Returns the pixel that shows the point at an offset. If the camera cannot see the point,
+    /// returns (1e9, 1e9), which is far outside the image.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
     /// Returns the offset in mm of the point that a pixel shows.
     Vec2 offset_from_pixel(Vec2 pixel) const;
-    /// Computes `offset_from_pixel` for adjacent pixels, from `first_pixel` to the right.
+    /// Computes `offset_from_pixel` for adjacent pixels of a row, starting at `first_pixel` and
+    /// proceeding to the right.
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
@@ -246,7 +247,7 @@ struct PageImage {
 GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// The common parameters of all frames of a run.
+/// Parameters common to all frames of a run.
 struct Setup {
     Preset preset = Preset::nominal;
     Pattern pattern;             ///< the section is used only if `random_section` is false

@@ -123,10 +123,10 @@ struct Motion {
     std::array<double, 6> velocity{};      ///< mm/s, rad/s
     std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
     std::array<double, kStates * kStates> covariance{};
-    /// Process noise along each axis: the ratio of the variance of the acceleration noise to the
-    /// variance in the options. The first three axes are those of the position, from which the
-    /// position error that is correlated with the sighting's rotation error has been subtracted.
-    /// The last three axes are those of the rotation.
+    /// Process noise along each axis: the variance of the acceleration noise, divided by its
+    /// variance in the options. The first three axes are the position axes. The part of the
+    /// position that is correlated with the rotation in `noise` is subtracted. The last three axes
+    /// are the rotation axes.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
     /// Innovation of the latest accepted sighting, along the axes of `agility`.
     std::array<double, 6> innovation{};
@@ -146,9 +146,9 @@ class SpaceTracker {
   public:
     explicit SpaceTracker(const SpaceTrackOptions& options = {}) : options_(options) {}
 
-    /// Processes the sighting of a frame. A sighting in another plane, or not later than the
-    /// previous frame, starts a new track. An ambiguous sighting cannot start a track, so the
-    /// camera is then lost.
+    /// Processes the sighting of a frame. A sighting starts a new track if it is in another plane,
+    /// or if it is not later than the previous frame. An ambiguous sighting cannot start a track,
+    /// so the camera is then lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
     /// Processes a frame without a sighting. The camera is lost if the frame is earlier than the
     /// previous frame, or too late (see `lost_after_us`).

@@ -19,11 +19,11 @@ namespace dotpose {
 
 /// The degraded condition, with its unit.
 enum class SweepKind : std::uint8_t {
-    noise,    ///< sensor noise, grey levels
-    blur,     ///< sigma of the lens blur, px
-    missing,  ///< fraction of dots that are not printed, %
-    tilt,     ///< tilt of the camera about a random axis in the image, degrees
-    spacing,  ///< grid spacing in the image, px
+    noise,    ///< sensor noise, in grey levels
+    blur,     ///< sigma of the lens blur, in px
+    missing,  ///< percentage of dots that are not printed
+    tilt,     ///< tilt of the camera about a random axis in the image, in degrees
+    spacing,  ///< grid spacing in the image, in px
     /// Percentage of the image covered by a dark area, which extends from a random side and has a
     /// straight edge.
     occlusion,

@@ -13,7 +13,8 @@ namespace dotpose {
 /// Returns "lost", "stationary" or "moving".
 std::string state_name(const Track& track);
 
-/// Returns the names of the events, separated by spaces. Empty if there are none.
+/// Returns the names of the events, separated by spaces. Returns an empty string if there are
+/// no events.
 std::string event_names(const TrackEvents& events);
 
 }  // namespace dotpose

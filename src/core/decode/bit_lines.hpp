@@ -31,8 +31,8 @@ struct BlockRanges {
 /// range has more than `max_count` lines, keeps the lines nearest the middle of the block.
 BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
-/// The scored lines of a block. `first_column` and `first_row` are the block indices of the first
-/// scored lines.
+/// The scored lines of a block. `first_column` and `first_row` are the indices, within the block,
+/// of the first scored column and the first scored row.
 struct BlockLines {
     int first_column = 0;
     int first_row = 0;

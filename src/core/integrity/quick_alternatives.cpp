@@ -73,8 +73,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     // by the probability that all digits so far are equal. An element therefore does not change
     // while its alternatives continue to share lines.
     std::array<int, kMaxShared + kMaxLines> sharing;
-    // pairs[n] is log2 of the sum of the odds in sharing[n] and sharing[n - 1]. Adding pairs halves
-    // the number of additions.
+    // pairs[n] is log2 of the sum of the odds in sharing[n] and sharing[n - 1]. With these
+    // precomputed sums, the loop below needs only half as many calls to add_log2.
     std::array<int, kMaxShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMaxShared, kNever_q8);
     std::fill_n(pairs.begin(), kMaxShared, kNever_q8);

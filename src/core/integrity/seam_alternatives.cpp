@@ -81,8 +81,10 @@ class LossesByBorder {
 
     const LikelihoodRatios& ratios_;
     int loss_limit_;
-    std::array<int, kMaxLines> before_;  ///< minimum loss in all lines before each line
-    std::array<int, kMaxLines> from_;    ///< minimum loss in each line and all later lines
+    /// Element n is the minimum total loss in all lines before line n.
+    std::array<int, kMaxLines> before_;
+    /// Element n is the minimum total loss in line n and all later lines.
+    std::array<int, kMaxLines> from_;
 };
 
 /// Tests whether a seam alternative may lose less than a loss limit. Uses only the minimum losses

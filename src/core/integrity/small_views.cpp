@@ -10,8 +10,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Estimated cost per axis of `RankedLines`, the list of single alternatives, `SetPlan`, and the
-/// seam alternatives, in processor instructions.
+/// Estimated cost per axis, in processor instructions, of constructing `RankedLines` and `SetPlan`,
+/// and of summing the single alternatives and the seam alternatives.
 constexpr std::size_t kPreparation = 80'000;
 
 /// Returns an upper bound on the summed odds of the reading's position in all other sections.

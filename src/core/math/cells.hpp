@@ -41,9 +41,10 @@ class Cells {
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
-    // Plane centre minus 1/16 px, and plane point at the centre plus half a spacing. With these
-    // offsets, right shifts round to the nearest 1/8 px and to the nearest cell.
+    // Plane centre, shifted by -1/16 px so that a right shift rounds to the nearest 1/8 px.
     FixedVec rounding_centre_q8_;
+    // Plane coordinates of the centre, plus half a spacing so that a right shift rounds to the
+    // nearest cell.
     FixedVec rounding_at_centre_q16_;
     FixedVec du_q18_;
     FixedVec dv_q18_;

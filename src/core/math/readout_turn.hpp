@@ -61,7 +61,7 @@ struct ReadoutTurn {
     /// while a row is read. Otherwise, several rows or none may show the scene point.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
-        constexpr float kMaxRow = 4096;  // larger than the row number in any image
+        constexpr float kMaxRow = 4096;  // larger than any row number
         const FloatVec p{still.x - still.y * drift.x - axis.x,
                          still.y - still.y * drift.y - axis.y};
         for (;; --steps) {

@@ -215,7 +215,7 @@ class Publisher::Writers {
     dds_entity_t tf_static_ = 0;
     std::int64_t sent_ = 0;
     std::int64_t dropped_ = 0;
-    std::int64_t confirmed_ = 0;  ///< number of messages that reliable readers have received
+    std::int64_t confirmed_ = 0;  ///< number of messages that were received or counted as dropped
     int unconfirmed_frames_ = 0;
 };
 

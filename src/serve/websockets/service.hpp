@@ -24,10 +24,10 @@ namespace dotpose::serve {
 
 inline constexpr std::size_t kSecurityHeaders = 7;
 
-/// A client that is connected through a WebSocket.
+/// A client connected through a WebSocket.
 struct Client {
     std::vector<Subscription> subscriptions;     ///< one per topic, in the order of the topics
-    std::shared_ptr<const std::string> message;  ///< message that is being sent; null for none
+    std::shared_ptr<const std::string> message;  ///< message that is being sent, or null
     std::size_t sent_bytes = 0;
     bool is_binary = false;
     std::size_t newest_topic = 0;  ///< index of the topic of the last message
@@ -36,7 +36,7 @@ struct Client {
     Reports::Clock::time_point counted_at;
 };
 
-/// The body of an answer that is being sent.
+/// The body of a response that is being sent.
 struct Transfer {
     std::string body;
     std::size_t sent_bytes = 0;

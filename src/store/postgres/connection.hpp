@@ -52,7 +52,7 @@ class PostgresConnection {
     /// Refused.
     Rows next();
 
-    /// Runs a statement COPY ... FROM STDIN with `data`, which must be in the binary format. Throws
+    /// Runs a COPY ... FROM STDIN statement with `data`, which must be in the binary format. Throws
     /// Refused.
     void copy(const std::string& statement, std::string_view data);
 

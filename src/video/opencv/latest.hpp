@@ -1,5 +1,5 @@
-// Passes values from one thread to another without a queue. If a value is not taken before the next
-// one arrives, it is dropped and counted.
+// Passes values from one thread to another without a queue. A value that has not been taken when
+// the next one arrives is dropped and counted.
 #pragma once
 
 #include <chrono>

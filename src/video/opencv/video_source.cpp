@@ -54,7 +54,7 @@ class GreyConverter {
             const int* colours = sws_getCoefficients(SWS_CS_DEFAULT);
             sws_setColorspaceDetails(converter_.get(), colours, 1, colours, 1, 0, 1 << 16, 1 << 16);
         }
-        // The converter requires aligned rows, so FFmpeg allocates the image.
+        // The converter requires aligned rows, so the image is allocated by FFmpeg.
         const auto grey = owned(av_frame_alloc());
         grey->format = AV_PIX_FMT_GRAY8;
         grey->width = width;
@@ -156,8 +156,8 @@ class VideoFile : public capture::FrameSource {
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
-    /// Returns the number of frames that the file reports, or an estimate from the duration if the
-    /// file does not report a number.
+    /// Returns the number of frames given in the file, or an estimate from the duration if no
+    /// number is given.
     std::int64_t expected_frames() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }

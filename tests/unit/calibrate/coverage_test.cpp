@@ -23,7 +23,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using Kind = CalibrationNeed::Kind;
 
-/// Image size. Each of the 12 x 8 parts of the image is a square of 10 x 10 px.
+/// Image size. The image consists of 12 x 8 parts, each of 10 x 10 px.
 constexpr int kWidth_px = 120;
 constexpr int kHeight_px = 80;
 
@@ -150,8 +150,9 @@ TEST(CornerSigma, IsThatOfTheDivisionModel) {
     const double y = 60;
     const double d = 1 + camera.k_per_px2 * (x * x + y * y);
     camera.sigma = {{"k_per_px2", 2e-8}, {"centre_u_px", 0}, {"centre_v_px", 0}};
-    // With p = r / (1 + k r^2) (paper, equation 2), dp/dk is -r r^2 / (1 + k r^2)^2. The derivative
-    // at the middle of the image would be subtracted, but it is zero to eight digits.
+    // With p = r / (1 + k r^2) (paper, equation 2), dp/dk is -r r^2 / (1 + k r^2)^2.
+    // `corner_sigma_px` also subtracts the derivative at the middle of the image, which is zero to
+    // eight digits here.
     const double by_k = std::pow(std::hypot(x, y), 3) / (d * d) * 2e-8;
     EXPECT_NEAR(corner_sigma_px(camera), by_k, 1e-5 * by_k);
 

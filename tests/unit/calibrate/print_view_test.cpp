@@ -16,7 +16,7 @@ const Eigen::Vector2d kMiddle_px(1999.5, 1499.5);
 
 /// Returns a photo of a 240 x 180 mm page with 3 dots per cm, from a camera with a focal length of
 /// 3000 px at a distance of 260 mm. The camera is tilted by `tilt` about an axis in the paper with
-/// the direction `azimuth`. The print is wider than nominal by a factor of 1 + `wide`.
+/// the direction `azimuth`. The print is (1 + `wide`) times as wide as nominal.
 std::vector<Match> photo(double tilt, double azimuth, double wide) {
     std::vector<Match> matches;
     for (double x_mm = -120; x_mm <= 120; x_mm += 10.0 / 3) {

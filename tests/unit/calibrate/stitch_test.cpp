@@ -215,8 +215,8 @@ TEST(StitchSheets, SaysWhichScalesTheFramesDoNotTell) {
     }
     EXPECT_NEAR(stitching.sheets[0].print_scale_x, 1, 1e-5);
     EXPECT_NEAR(stitching.sheets[0].print_scale_y, 1, 1e-5);
-    // Along the seam, the frames determine the scale of the second sheet relative to the first more
-    // accurately than across the seam.
+    // The frames determine the scale of the second sheet, relative to that of the first, more
+    // accurately along the seam than across it.
     EXPECT_NEAR(stitching.sheets[1].print_scale_y, 1, 5e-4);
     EXPECT_NEAR(stitching.sheets[1].print_scale_x, 1, 2e-3);
     EXPECT_LT(off_mm(*stitching.sheets[1].world, kTable[1]), 0.05);

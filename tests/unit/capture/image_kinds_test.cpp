@@ -143,7 +143,7 @@ class TiffKinds : public testing::Test {
 TEST_F(TiffKinds, HaveTilesAndStripsOf16BitsAndCompression) {
     std::vector<std::uint16_t> levels(kWidth * kHeight);
     std::iota(levels.begin(), levels.end(),
-              std::uint16_t{64});  // below 1024, so 10 bits are in use
+              std::uint16_t{64});  // all below 1024, so samples use 10 bits
     Bytes expected;
     for (const std::uint16_t level : levels)
         expected.push_back(static_cast<std::uint8_t>((level * 255 + 511) / 1023));

@@ -1,7 +1,7 @@
-// Tests the table with the minimum number of unshared lines for two places in different code
-// variants. Two places share a line at shift s if their rolls of this line differ by s. The
-// expected numbers are obtained by counting lines with different rolls in the sequences of the
-// reference implementation.
+// Tests the table of the minimum number of unshared lines of two places in different code variants.
+// Two places share a line at shift s if their rolls of this line differ by s. The expected numbers
+// are obtained by counting lines with different rolls in the sequences of the reference
+// implementation.
 #include "code/unshared_codes.hpp"
 
 #include <algorithm>

@@ -55,8 +55,8 @@ const Range kRanges[] = {
 
 #undef FIELD
 
-/// Does not compile if DeviceOptions has a new field. The field must then be added here and to the
-/// tests below.
+/// This code does not compile if a field is added to DeviceOptions. The new field must then be
+/// added here and to the tests below.
 [[maybe_unused]] void has_all_fields(const DeviceOptions& o) {
     [[maybe_unused]] const auto& [code, effort, decoder, lens, threshold, blobs, lattice, integrity,
                                   contrast, max_dots, spacing, show_stages, dx, dy] = o;

@@ -33,9 +33,9 @@ void expect_affine_pose(const Reading& reading, const PlaneFromImage& found, dou
     EXPECT_TRUE(is_affine(found));
 }
 
-/// Tolerance in spacings. The rounding to 1/8 px gives each dot an error of 0.036 px rms. A view
-/// has at least 100 dots with a spacing of at least 6 px. The tolerance is four standard deviations
-/// of their mean, plus a margin for other rounding.
+/// Tolerance in spacings. Rounding to 1/8 px gives each dot an error of 0.036 px rms. A view has at
+/// least 100 dots, with a spacing of at least 6 px. The tolerance is four standard deviations of
+/// the mean error of 100 dots, plus a margin for other rounding errors.
 constexpr double kExact = 4 * 0.036 / 10 / 6 + 1e-4;
 
 TEST(AffinePose, FittedToExactDotsIsExact) {

@@ -16,7 +16,7 @@ namespace {
 using core::Axis;
 
 constexpr std::uint64_t kSeed = 4219;
-/// A sheet with more than 63 columns and rows. Two places at a distance of 63 cells along one axis
+/// A sheet with more than 63 columns and rows. Two places that are 63 cells apart along one axis
 /// have equal bits on the other axis.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {3, 5}, {1000, 2000}, 140, 130};
 
@@ -84,7 +84,8 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
             term *= (2.0 * block.dots() - k) / (k + 1);
         }
         const double expected_log2 = std::log2(std::exp2(sum_log2) + 4 * 145 * 135 * chance);
-        // Rounding up adds at most 1. The Chernoff bound exceeds the binomial sum by at most 3.
+        // In log2, rounding up adds at most 1, and the Chernoff bound exceeds the binomial sum by
+        // at most 3.
         EXPECT_LE(fix.p_wrong_log2, expected_log2 + 4) << trial;
     }
 }

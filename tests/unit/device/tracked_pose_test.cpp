@@ -15,8 +15,8 @@ namespace {
 
 using namespace core;
 
-/// Cells 11 px apart, rotated about the centre of an image of 188 x 120 px. `add` defines the
-/// offset of a dot from its cell.
+/// Dots in cells that are 11 px apart. The grid is rotated about the centre of an image of 188 x
+/// 120 px. `add` defines the offset of a dot from its cell.
 struct Frame {
     explicit Frame(double angle_rad) {
         const double along = 11 * 65536 * std::cos(angle_rad);

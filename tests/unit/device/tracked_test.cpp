@@ -135,7 +135,7 @@ TEST_F(DeviceTracked, FollowsTheShearOfRollingShutters) {
     Locator desktop;
     struct Motion {
         double px;          ///< motion of the scene during the readout
-        int min_predicted;  ///< minimum number of frames, out of 40, that a desktop locates
+        int min_predicted;  ///< minimum number of located frames on a desktop, out of 40
         int min_percent;    ///< minimum percentage of these frames that a device tracks
     };
     for (const Motion& motion : {Motion{24, 40, 85}, Motion{36, 38, 65}, Motion{72, 28, 55}}) {
@@ -175,8 +175,8 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
     EXPECT_EQ(fix.cell, before.cell);
 }
 
-/// Returns the wrong place that is hardest to distinguish from `place` by its first 20 columns. It
-/// differs in one secondary sequence and in the section, and shares the maximum number of rolls.
+/// Returns the wrong place whose first 20 columns are hardest to distinguish from those of `place`.
+/// It differs in one secondary sequence and in the section, and shares the maximum number of rolls.
 Place worst_alternative(Place place) {
     constexpr std::size_t kLines = 20;
     const code::Basis& basis = code::basis(CodeVariant::anoto);

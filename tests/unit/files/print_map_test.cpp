@@ -54,7 +54,7 @@ PrintMap small_map() {
     return {{page}};
 }
 
-/// Returns the bytes of a map in format version 1, which does not contain the errors.
+/// Returns the bytes of a map in format version 1, which has no error grid.
 std::string version_1_bytes() {
     PrintMap map = small_map();
     map.pages[0].errors = {};

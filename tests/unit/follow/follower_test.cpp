@@ -120,7 +120,7 @@ TEST(Follower, TracksInTheWorldOfReplacedSheets) {
     EXPECT_FALSE(placed.track.is_lost);
     EXPECT_NEAR(placed.track.pose.x_mm(), 1000 + placed.located.place->x_mm, 0.05);
     EXPECT_NEAR(placed.track.pose.y_mm(), 2000 - placed.located.place->y_mm, 0.05);
-    // The sheet gets another pose in the world. The track must move with the sheet, although a
+    // The sheet is given another pose in the world. The track must move with the sheet, although a
     // robot cannot drive this far between two frames.
     sheets[0].world = WorldPose{-4, 2, 0};
     follower.set_sheets(sheets);

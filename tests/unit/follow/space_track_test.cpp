@@ -111,7 +111,8 @@ class Eye {
     Rng rng_;
 };
 
-/// Sums of normalised squared errors, in total and per axis, and sums of squared errors.
+/// Sums over all sightings: the normalised squared errors (in total and per axis), and the squared
+/// errors per axis.
 struct Tally {
     double all = 0;
     Vector6 axes = Vector6::Zero();
@@ -183,8 +184,9 @@ TEST_P(SpaceTrackRates, FollowsSightingsWithCommonErrors) {
         tracked.add(error_of(track.camera, truth), matrix_of(track.covariance));
         predicted.add(error_of(before->camera, truth), matrix_of(before->covariance));
     }
-    // The series covers only 240 correlation times, so the mean normalised square of one axis has a
-    // standard deviation of 0.09. The axes are therefore compared with the axes of the sightings.
+    // The series covers only 240 correlation times, so the mean normalised squared error of an axis
+    // has a standard deviation of 0.09. Each axis is therefore compared with the same axis of the
+    // sightings.
     for (const Tally& tally : {tracked, predicted}) {
         EXPECT_GT(tally.all / tally.count, 0.8);
         EXPECT_LT(tally.all / tally.count, 1.25);

@@ -130,8 +130,8 @@ TEST(LocateRefuses, EveryStageCanRefuse) {
     options = {};
     options.lattice.min_dots = 10000;
     EXPECT_EQ(Locator(memory, options).locate(frame.view()).status, Status::too_few_dots);
-    // The sequence a4 of another code variant is different, so almost all differences between
-    // adjacent rolls are different, too.
+    // Another code variant has a different sequence a4, which changes almost all differences
+    // between adjacent rolls.
     options = {};
     options.code = CodeVariant::microdots;
     const Status other = Locator(memory, options).locate(frame.view()).status;

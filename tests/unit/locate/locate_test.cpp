@@ -122,8 +122,8 @@ TEST(Locate, ADeviceGetsTheSameFromRowsAndImage) {
     for (const GreyImage& frame : mixed_frames()) {
         const Fix fix = Locator(at_once, device).locate(frame.view());
         expect_same(pushed(frame, Locator(by_rows, device)), fix);
-        // For any effort, a DeviceLocator gives the same fix whether the frame is passed as an
-        // image or row by row.
+        // A DeviceLocator must give the same fix whether the frame is passed as an image or row by
+        // row.
         expect_same(pushed(frame, DeviceLocator(little)),
                     DeviceLocator(little).locate(frame.view()));
         found += fix.status == Status::ok ? 1 : 0;

@@ -124,7 +124,7 @@ TEST(PlaceEvidence, FindsBlocksOfShortLinesThoroughly) {
                               result->place.section == place.section;
         right += is_right ? 1 : 0;
     }
-    // The brief search finds only 8 of the kBlocks blocks.
+    // The brief search would find only 8 of the kBlocks blocks.
     EXPECT_GE(right, kBlocks * 99 / 100);
 }
 

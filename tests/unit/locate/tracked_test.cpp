@@ -31,8 +31,8 @@ Prediction true_prediction(const Shot& shot) {
     plane.at_centre_q16 = fixed({shot.pose.fraction_x, shot.pose.fraction_y}, 16);
     plane.du_q24 = fixed(0.5 * (at(1, 0) - at(-1, 0)), 24);
     plane.dv_q24 = fixed(0.5 * (at(0, 1) - at(0, -1)), 24);
-    // Along the image x axis, the pattern point at distance x is at(x, 0) = du x / (1 + tilt x).
-    // The tilt is computed from two opposite points, x and -x.
+    // On the image x axis, the pattern point shown at distance x from the centre is at(x, 0) = du x
+    // / (1 + tilt x). The tilt is computed from two opposite points, x and -x.
     constexpr double kFar_px = 50;
     const auto tilt = [](Vec2 ahead, Vec2 behind) {
         const double a = length(ahead);
@@ -259,7 +259,7 @@ Prediction garbled(Prediction p, Rng& rng) {
                              &p.displacement_q16,
                              &p.sigma_q16,
                              &p.sigma_theta_bam};
-    // Either one field is random, or about half of the fields are.
+    // Randomises either a single field or about half of the fields.
     const std::uint32_t share = rng.below(2) == 0 ? 1 : 8;
     const std::size_t one = rng.below(static_cast<std::uint32_t>(numbers.size() + 4));
     const auto is_hit = [&](std::size_t i) { return i == one || rng.below(16) < share - 1; };

@@ -102,7 +102,7 @@ TEST(PrintPage, what_cannot_be_printed_leaves_no_file) {
 }
 
 TEST(PrintPage, text_is_drawn_with_rectangles) {
-    // A dash is a single row of five pixels, the fourth of seven rows.
+    // A dash consists of five pixels in the fourth of seven rows.
     const auto marks = ink_text(" -", 10, 20, 7);
     ASSERT_EQ(marks.size(), 5U);
     for (std::size_t i = 0; i < marks.size(); ++i) {

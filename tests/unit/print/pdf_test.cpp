@@ -160,8 +160,8 @@ TEST(labels, stay_clear_of_the_dots) {
             x *= mm_per_pt;
             y = sheet.height_mm - y * mm_per_pt;
             EXPECT_TRUE(x > 0 && y > 0 && y < sheet.height_mm) << line;
-            // The position of a text is the position of its baseline. Capitals extend above the
-            // baseline by 0.718 * 6 pt = 1.52 mm.
+            // The position of a line of text is that of its baseline. Capitals extend 0.718 * 6 pt
+            // = 1.52 mm above the baseline.
             EXPECT_TRUE(x < left || y < top || y > bottom + (is_text ? 1.52 : 0))
                 << margin_mm << ": " << line;
         }
@@ -197,7 +197,7 @@ TEST(pdf, glyphs_need_whole_pixels) {
                 ThrowsMessage<BadArgument>(HasSubstr("whole pixels")));
     print.drawing = DotDrawing::automatic;
     write_sheet(make_sheet(options), directory / "b.pdf", print);
-    print.dpi = 1000;  // 20 pixels per spacing, but a fraction of a pixel in the displacement
+    print.dpi = 1000;  // a spacing is 20 pixels, but a displacement is not a whole number of pixels
     write_sheet(make_sheet(options), directory / "c.pdf", print);
     EXPECT_EQ(directory.names(), (std::vector<std::string>{"a.pdf", "b.pdf", "c.pdf"}));
 }

@@ -21,7 +21,7 @@ void expect_refused(const SheetOptions& options, const char* part_of_message) {
 }
 
 /// Returns the distances of the ink from two opposite edges of the page (left and right, or top and
-/// bottom), if the outermost dots are displaced towards these edges.
+/// bottom), for outermost dots that are displaced towards these edges.
 std::pair<double, double> free_mm(double first_mm, int count, double size_mm,
                                   const Pattern& pattern) {
     const double ink_mm = pattern.displacement_mm + pattern.dot_mm / 2;
@@ -36,7 +36,7 @@ TEST(make_sheet, fills_a4_inside_the_default_margin) {
     options.pattern.code = CodeVariant::microdots;
     const Sheet sheet = make_sheet(options);
     // Computed by hand: a width of 200 mm has room for 1 + floor((200 - 0.254) / 0.508) = 394
-    // columns, and a height of 287 mm for 565 rows.
+    // columns, and a height of 287 mm has room for 565 rows.
     EXPECT_EQ(sheet.columns, 394);
     EXPECT_EQ(sheet.rows, 565);
     EXPECT_EQ(sheet.width_mm, 210);

@@ -16,7 +16,7 @@
 namespace dotpose::serve {
 namespace {
 
-/// A frame message, parsed in the same way as by the web page.
+/// A frame message, parsed as the web page parses it.
 struct Read {
     nlohmann::json head;
     GreyImage picture;

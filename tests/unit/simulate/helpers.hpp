@@ -61,8 +61,8 @@ Darkness measure(const Levels& levels, int width_px, double paper) {
     double square_v = 0;
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const double dark = 1 - static_cast<double>(levels[i]) / paper;
-        // Single precision causes errors of 1e-6 in all pixels, which would add up over the frame,
-        // so small values are ignored.
+        // Ignores small values. Rounding to single precision causes errors of 1e-6 in every pixel,
+        // which would add up over the frame.
         if (std::abs(dark) < 1e-5) continue;
         const double u = static_cast<double>(i % static_cast<std::size_t>(width_px));
         const double v = static_cast<double>(i / static_cast<std::size_t>(width_px));

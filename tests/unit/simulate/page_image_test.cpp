@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPageWidth_mm = 14;
 constexpr double kPageHeight_mm = 12;
-/// Distance of the first intersection from the left edge and from the top edge.
+/// Distance of the first intersection from the left and top edges of the page.
 constexpr double kFirst_mm = 1.3;
 
 /// Returns a page with discs of solid ink, painted with 4 x 4 samples per pixel. Does not use code

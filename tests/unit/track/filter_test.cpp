@@ -88,9 +88,9 @@ std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6
     return b;
 }
 
-/// A robot that moves as the filter assumes for an agility of 1. Its accelerations are constant
-/// within a frame and have the standard deviations in TrackOptions. From each frame to the next, an
-/// acceleration is multiplied by 0.5 / 0.505, and random noise is added.
+/// A robot whose motion matches the model of the filter for an agility of 1. The accelerations are
+/// constant within a frame and have the standard deviations in TrackOptions. From one frame to the
+/// next, each acceleration is multiplied by 0.5 / 0.505, and random noise is added.
 struct ModelRobot {
     explicit ModelRobot(Rng& rng) {
         pose[2] = rng.uniform(-kPi, kPi);
@@ -173,8 +173,8 @@ struct Errors {
 };
 
 /// Tracks a robot that drives a figure eight at up to `speed_mm_s` and is not lifted. The error of
-/// each sighting is the sum of an independent error and a constant error. Errors in the first
-/// second are not counted.
+/// each sighting is the sum of an independent error and a constant error. The returned errors
+/// exclude the first second.
 Errors track_eight(double speed_mm_s, double sigma_mm, double constant_mm = 0) {
     Drive drive(
         {.put_down = 1e9, .second_put_down = 1e9, .stop = 9, .end = 10, .speed_mm_s = speed_mm_s});

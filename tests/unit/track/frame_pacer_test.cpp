@@ -77,8 +77,9 @@ TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     EXPECT_EQ(device.frames_us.back(), 64 * kSecond_us);
 }
 
-/// Expects that a device at rest wakes, or does not wake, if its fix changes from `rest` to
-/// `after`. The fix changes at 10.5 s, so the frame at 11 s is the first with the new fix.
+/// Changes the fix of a device at rest from `rest` to `after`, and expects that the device wakes if
+/// and only if `wakes` is true. The fix changes at 10.5 s, so the frame at 11 s is the first with
+/// the new fix.
 void expect_wakes(const Fix& rest, const Fix& after, bool wakes, const PacerOptions& options = {}) {
     Device device(options);
     device.run_until(12 * kSecond_us,

@@ -23,7 +23,7 @@ struct Pose {
 };
 
 /// Returns a pose on a circle with a radius of 50 mm. The robot drives at 100 mm/s, and the x axis
-/// of its camera points ahead. If the y axis of the plane points up, the robot turns the other way.
+/// of its camera points ahead. If the y axis of the plane points up, y and the angle change sign.
 Pose pose_at(double time_s, bool is_y_up) {
     const double theta = 2 * time_s;
     const double sign = is_y_up ? -1 : 1;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kFrame_us = 5000;
 constexpr double kPi = std::numbers::pi;
-/// A position in the corner of the pattern plane that is farthest from the origin.
+/// Coordinate of a position near the corner of the pattern plane that is farthest from the origin.
 constexpr std::int64_t kFar_nm = 208'694'000'000'000;
 
 std::int32_t bam(double angle_rad) {
@@ -187,9 +187,9 @@ TEST(Tracker, BelievesWeakSightingsThatThePriorSupports) {
     drive(tracker, 0, 100'000);
     const Track& track = see(tracker, weak(at(100'000, 10, 0, 0.2), -12));
     EXPECT_EQ(track.verdict, Verdict::with_prior);
-    // The gate extends to each side by at least 0.125 mm, which is half of the permitted
-    // acceleration times the squared time, but is narrower than a cell. It therefore contains 2 to
-    // 4 of the 2^36 hypotheses.
+    // The gate extends at least 0.125 mm to each side (half of the permitted acceleration times the
+    // squared time), but is narrower than a cell. It therefore contains 2 to 4 of the 2^36
+    // hypotheses.
     EXPECT_GE(track.p_wrong_log2, -12 + 1 - 36);
     EXPECT_LE(track.p_wrong_log2, -12 + 2 - 36);
 }
@@ -234,8 +234,8 @@ TEST(Tracker, TellsRestFromMovement) {
     ASSERT_EQ(events.size(), 3U);
     EXPECT_EQ(events[0].second, "fix ");
     EXPECT_EQ(events[1].second, "stationary ");
-    // The robot is at rest from the time at which it is within 0.1 mm of its resting place. After
-    // the sudden stop, the filter needs a few frames to settle.
+    // The robot counts as being at rest once it is within 0.1 mm of its resting place. After the
+    // sudden stop, the filter needs a few frames to settle.
     EXPECT_NEAR(static_cast<double>(events[1].first), 1.5e6, 30e3);
     EXPECT_EQ(events[2].second, "moving ");
     EXPECT_NEAR(static_cast<double>(events[2].first), 2.0e6, 10e3);  // moving by 0.1 mm takes 2 ms

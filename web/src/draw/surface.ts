@@ -51,8 +51,8 @@ export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
 }
 
 /**
- * Cached colours from the style sheet by name, for the light and the dark scheme. Reading a colour from the style sheet
- * takes as long as drawing a shape.
+ * Cache of the colours in the style sheet, by name, for the light and the dark scheme. Reading a colour from the style
+ * sheet takes as long as drawing a shape.
  */
 const colours = [new Map<string, string>(), new Map<string, string>()] as const;
 let dark: MediaQueryList | undefined;

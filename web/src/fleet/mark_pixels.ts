@@ -11,8 +11,10 @@ const kFirstHeading = kConditions.length;
 const kSquareMark = kFirstHeading + kHeadings;
 const kMarks = kSquareMark + 1;
 
-/** Blends a pixel over an opaque one. The highest byte is the opacity, because the computers that run browsers are
- * little-endian. */
+/**
+ * Blends a pixel over an opaque pixel. The highest byte is the opacity, because machines that run browsers are
+ * little-endian.
+ */
 function blend(over: number, under: number): number {
     const opacity = over >>> 24;
     const rest = 255 - opacity;

@@ -99,9 +99,9 @@ export interface Robot extends Row {
     events: Alert[];
 }
 
-/** Stored states of a robot, thinned to one value per span of time. The arrays have one element for each span. */
+/** Stored states of a robot, downsampled to one value per time span. The arrays have one element for each span. */
 export interface StoredHistory {
-    /** Number of the answered request. */
+    /** Number of the request that this message answers. */
     ask: number;
     is_reading?: boolean;
     /** Reason why there are no states. */
@@ -123,7 +123,7 @@ export interface StoredHistory {
     map_of: (number | null)[];
     /** Maximum speed in the span. */
     speeds_mm_s: number[];
-    /** 2 if the robot was lost in the span. Otherwise 0 if it moved, or 1 if it was still. */
+    /** 2 if the robot was lost in the span. Otherwise, 0 if it moved and 1 if it was still. */
     motions: number[];
 }
 

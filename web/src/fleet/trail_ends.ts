@@ -23,7 +23,7 @@ export class TrailEnds {
         return this.#ends_mm.values();
     }
 
-    /** Replaces the trails. The ends restart from the new trails. */
+    /** Replaces the trails. Each end then restarts at the last point of its new trail. */
     takeTrails(trails: Trails | null): void {
         this.#trails = trails;
         this.#ends_mm.clear();

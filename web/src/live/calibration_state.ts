@@ -12,7 +12,7 @@ export interface Gauge {
     is_reached: boolean;
 }
 
-/** Frames that have been accepted for the calibration of the lens. */
+/** Coverage of image parts, directions and tilts by the frames accepted for the lens calibration. */
 export interface LensCoverage {
     columns: number;
     /** A digit for each part of the image, row by row: 1 if dots have been seen in this part. */
@@ -20,7 +20,7 @@ export interface LensCoverage {
     directions: boolean[];
     /** Direction of the newest frame. Null if it was not located. */
     theta_rad: number | null;
-    /** Change of the scale from the middle to a corner of each frame, along u and v. */
+    /** For each frame, the change of the scale from the middle of the image to a corner, along u and v. */
     tilts: [number, number][];
     needs: string[];
     remark: string;
@@ -42,7 +42,7 @@ export interface Residuals {
 export type Station = [x_mm: number, y_mm: number, theta_rad: number, off_x_mm: number, off_y_mm: number];
 
 export interface Result {
-    /** Rows of the report, each with a label and a text. */
+    /** Rows of the report, as pairs of a label and its text. */
     rows: [string, string][];
     is_good: boolean;
     /** Improvements that more frames could bring. */
@@ -60,7 +60,7 @@ export interface CalibrationState {
     gauges: Gauge[];
     advice: string;
     lens: LensCoverage | null;
-    /** Whether each direction of a turn, or of a pen's tilts, has been seen. */
+    /** True for each direction, of a turn or of a pen's tilts, that has been seen. */
     directions: boolean[];
     /** Tilts of a pen. The components are tangents, to the right and down on the sheet. */
     leans: [number, number][];

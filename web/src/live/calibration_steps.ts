@@ -1,4 +1,4 @@
-// Shows the steps of a calibration: what each step finds, what to do, and its value.
+// Shows the steps of a calibration. For each step, shows what it determines, what the user must do, and the result.
 import { element, make } from "../page/dom.js";
 import type { CalibrationState, StepName } from "./calibration_state.js";
 
@@ -42,7 +42,7 @@ export const kSteps: readonly Step[] = [
     },
 ];
 
-/** Replaces the ASCII notation of terminal texts with typographic characters. */
+/** Replaces the ASCII notation used in terminal output with typographic characters. */
 export function typeset(text: string): string {
     return text.replaceAll("+-", "±").replaceAll("^2", "²");
 }

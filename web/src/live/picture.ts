@@ -9,7 +9,7 @@ import { frameOf, type LiveFrame } from "./messages.js";
 
 const kLarge = "frame";
 const kSmall = "small-frame";
-/** Longer side of small frames. */
+/** Length of the longer side of small frames. */
 const kSmall_px = 480;
 /** Minimum rate of large frames. If the rate is lower, small frames are requested. */
 const kMinRate_hz = 3;

@@ -48,7 +48,7 @@ export function handleOf(frame: Frame, { sheet, pose }: Placed): Pixel {
     return [u - kHandleReach_px * Math.sin(yaw), v - kHandleReach_px * Math.cos(yaw)];
 }
 
-/** Returns the step of the grid: 1, 2 or 5 times a power of ten, and at least 48 px. */
+/** Returns the grid step: 1, 2 or 5 times a power of ten, whichever is the smallest step of at least 48 px. */
 function gridStep(scale: number): number {
     const kMin_px = 48;
     const power = 10 ** Math.floor(Math.log10(kMin_px / scale));

@@ -4,7 +4,7 @@ import { showAnswer, type SheetCommands } from "./sheets_commands.js";
 import { wrapped_deg } from "./sheets_geometry.js";
 import type { Answer, Sheet } from "./sheets_messages.js";
 
-/** An input field for one number of the sheet. A number that the user has typed stays until it is saved. */
+/** An input field for one number of the sheet. A number typed by the user is not overwritten until it is saved. */
 class NumberField {
     readonly #input: HTMLInputElement;
     #saved = NaN;
@@ -95,8 +95,8 @@ export class SheetForms {
         const { world } = sheet;
         element("place-remove", HTMLButtonElement).disabled = !may_edit || !world;
         element("sheet-reprint", HTMLButtonElement).disabled = !may_edit || (sheet.print?.document ?? "") !== "";
-        // Keeps the old revision while values are typed. If someone else changes the sheet in the meantime, the server
-        // refuses the first save, and the user sees the change.
+        // Keeps the old revision while there are unsaved values. If someone else changes the sheet in the meantime, the
+        // server refuses the first save, and the user sees the change.
         if (is_other || ![...Object.values(this.#place), ...Object.values(this.#offset)].some(({ is_typed }) => is_typed)) this.#revision = sheet.revision;
         this.#fill([this.#place.x, this.#place.y, this.#place.yaw], [world?.x_mm ?? null, world?.y_mm ?? null, world?.yaw_deg ?? null], is_other);
         this.#fill([this.#offset.right, this.#offset.below], [sheet.first_x_mm, sheet.first_y_mm], is_other);

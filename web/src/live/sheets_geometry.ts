@@ -1,5 +1,5 @@
-// Geometry of pages in the world: their corners, and poses that are moved and turned. In the world, y points up. On
-// pages, y points down.
+// Geometry of pages in the world. Computes the corners of pages, and moves and turns their poses. In the world, y
+// points up. On pages, y points down.
 import type { Point_mm } from "../page/sheet_frame.js";
 import type { Pose, Sheet } from "./sheets_messages.js";
 

@@ -1,4 +1,4 @@
-// Measures the poses of sheets with the running camera.
+// Measures the poses of sheets with the live camera.
 import { element, make, show } from "../page/dom.js";
 import type { Connection, Value } from "./connection.js";
 import { showAnswer, type SheetCommands } from "./sheets_commands.js";

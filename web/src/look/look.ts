@@ -138,7 +138,7 @@ export class LookView implements View {
         this.#take(await this.#engine.read(picture, this.#options, performance.now() / 1000), null);
     }
 
-    /** Reads the camera, or the picture that was opened last, with changed options. */
+    /** Restarts the camera, or reads the opened picture again, after the options have changed. */
     #readAgain(): void {
         if (this.#camera) {
             this.#stop();

@@ -52,7 +52,7 @@ export class SpaceControls {
         this.#panel.show({ pose, source: space?.is_ambiguous ? "another tilt is possible" : "", is_in_world: false });
     }
 
-    /** Returns the reason why a frame has no pose in space, or null if the camera could have taken the frame. */
+    /** Returns the reason why a frame has no pose in space, or null if the frame has the image size of the camera. */
     complaintOf({ width_px, height_px }: Reading): string | null {
         if (this.#camera === null || fitsCamera(this.#camera, width_px, height_px)) return null;
         const file = this.#camera.size_px!.join(" x ");

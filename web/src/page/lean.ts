@@ -77,7 +77,7 @@ export function leanOf({ quaternion_xyzw, covariance }: SpacePose): Lean {
  */
 export function fromWorld(z_m: number, quaternion_xyzw: Quaternion, covariance: ArrayLike<number>): SpacePose {
     const [x, y, z, w] = quaternion_xyzw;
-    // A half turn about x, which also turns the rotation vector: its y and z change sign.
+    // Rotates the axes by 180 degrees about x. The y and z components of the rotation vector therefore change sign.
     const flipped: Quaternion = [w, -z, y, -x];
     const rows = matrixOf(quaternion_xyzw);
     const inCamera = new Float64Array(36);

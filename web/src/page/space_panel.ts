@@ -8,8 +8,8 @@ const kPaper = { x: 50, y: 88 };
 const kAbove = { x: 150, y: 50 };
 const kRadius = 40;
 /**
- * An angle with a larger standard deviation is not shown. For example, the azimuth of a camera without a tilt is
- * undefined.
+ * Maximum standard deviation of an angle that is shown. For example, the azimuth of a camera without tilt is undefined
+ * and therefore not shown.
  */
 const kMaxSigma_deg = 45;
 const kNothing = "–";

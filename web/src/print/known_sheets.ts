@@ -10,7 +10,7 @@ export interface KnownSheet {
 }
 
 const kKey = "dotpose-sheets";
-/** The list of sheets if the browser does not allow storage, or else null. */
+/** The list of sheets, kept in memory if the browser does not allow storage. Otherwise null. */
 let unstored: KnownSheet[] | null = null;
 
 /** Returns true for an integer from `min` to `max`. */
@@ -58,8 +58,8 @@ export function remember(sheet: KnownSheet): void {
 }
 
 /**
- * Stores the sheets from a file. They replace known sheets with the same part of the code. If another known sheet has
- * the same name, a number is appended to the name of the sheet from the file.
+ * Stores the sheets from a file. They replace known sheets that use the same part of the code. If another known sheet
+ * has the same name, a number is appended to the name of the sheet from the file.
  */
 export function rememberAll(sheets: readonly KnownSheet[]): void {
     const partOf = ({ layout }: KnownSheet) => JSON.stringify(regionOf(layout));

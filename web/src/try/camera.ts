@@ -101,7 +101,7 @@ export class SimulatedCamera {
             tilt_x_rad: (tilt_deg * Math.PI) / 180,
             tilt_y_rad: 0,
             // All image sizes with the same field of view use the same lens, so the blur in px is proportional to the
-            // number of pixels.
+            // image width in px.
             blur_px: blur_px / this.px,
             ...{ noise, paper_level, vignetting },
             seed: ++this.#seed,

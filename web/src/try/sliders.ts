@@ -2,10 +2,7 @@
 import { element, make } from "../page/dom.js";
 import { kPresets, kSliders, type SimulatedCamera } from "./camera.js";
 
-/**
- * Creates the sliders. Returns a function that sets the sliders to the values of the camera, which other controls can
- * also change.
- */
+/** Creates the sliders. Returns a function that updates the sliders after other controls have changed the camera. */
 export function buildSliders(camera: SimulatedCamera, changed: () => void): () => void {
     const rows = kSliders.map((slider) => {
         const { name, label, min, max, step } = slider;

@@ -22,7 +22,7 @@ const kSheet: SheetChoice = {
 };
 const kMaxPathPoints = 600;
 
-/** Image sizes, keyed by option value. Small images show a smaller field. */
+/** Image sizes, keyed by option value. Small images show a smaller field of view. */
 const kSizes: Record<string, ImageSize> = {
     "188x120": { width_px: 188, height_px: 120, field_px: 188 },
     "376x240": { width_px: 376, height_px: 240, field_px: 188 },
@@ -50,7 +50,7 @@ export class TryView implements View {
     #is_shown = false;
     #is_busy = false;
     #is_stale = false;
-    /** The newest frame. It is redrawn if the window changes. */
+    /** The newest frame. It is redrawn when the size or the colour scheme of the window changes. */
     #last: { reading: Reading; view: SimulatedView } | undefined;
 
     constructor(engine: Engine) {

@@ -51,7 +51,7 @@ enum {
  * covariance is that of the absolute position on the page, and includes the error of the map.
  * Otherwise, the result is the uncorrected fix. Returns OK, NO_FIX if the image was not
  * located, WRONG_KIND for device locators and for locators without `show_stages`, OUT_OF_MEMORY, or
- * another misuse. */
+ * another misuse status. */
 dotpose_status dotpose_print_map_correct(const dotpose_print_map* map,
                                          const dotpose_locator* locator, dotpose_fix* fix,
                                          dotpose_map_use* use);

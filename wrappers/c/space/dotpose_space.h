@@ -70,15 +70,15 @@ typedef struct dotpose_space_pose {
     double x_mm; /* 16 */
     double y_mm; /* 24 */
     double z_mm; /* 32: negative above the paper */
-    /* Rotation from the camera frame to the pattern: unit quaternion x, y, z, w with w >= 0. */
+    /* Rotation from the camera frame to the pattern: unit quaternion (x, y, z, w) with w >= 0. */
     double quaternion_xyzw[4]; /* 40 */
     double tilt_rad;           /* 72: angle between the optical axis and the normal of the paper */
     /* Direction on the paper in which the camera leans, clockwise from +x. */
     double azimuth_rad; /* 80 */
     /* Angle of the image x axis on the paper after removal of the tilt, clockwise from +x. */
     double turn_rad; /* 88 */
-    /* Covariance of the position, in mm, and of a small rotation vector in the CAMERA frame, in
-     * radians, row by row. */
+    /* Covariance of the position, in mm, and of a small rotation, in rad, about the axes of the
+     * CAMERA frame. Stored row by row. */
     double covariance_mm_rad[36]; /* 96 */
     double residual_px;           /* 384: rms residual of the dots, per axis */
     /* Likelihood of the second pose divided by the likelihood of the first pose. 0 if there is no
@@ -99,7 +99,7 @@ dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes);
  * - TOO_FEW_DOTS if the dots do not determine a pose,
  * - BAD_VALUE if a member of the camera is out of its range, or if the image has a different size,
  * - WRONG_KIND for device locators, and for locators without `show_stages`,
- * - OUT_OF_MEMORY, or another misuse. The pose is written only if the status is OK. */
+ * - OUT_OF_MEMORY, or another misuse status. The pose is written only if the status is OK. */
 dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_space_camera* camera,
                                  const uint8_t* pixels, int32_t width_px, int32_t height_px,
                                  ptrdiff_t stride_bytes, dotpose_space_pose* pose);
@@ -136,7 +136,7 @@ dotpose_status dotpose_space_tip_init(dotpose_space_tip* tip, size_t bytes);
 
 /* Computes the position of the tip from a pose that dotpose_space_fit returned. The pose should not
  * be ambiguous. Returns OK, NO_FIX if the pose was not fitted, BAD_VALUE if a member of the pen is
- * not finite, or another misuse. The tip is written only if the status is OK. */
+ * not finite, or another misuse status. The tip is written only if the status is OK. */
 dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpose_space_pen* pen,
                                     dotpose_space_tip* tip);
 

@@ -84,7 +84,7 @@ GreyImage small_view_of(const KnownRegion& sheet, int side_px = 66) {
     return render(shot);
 }
 
-/// Returns frames at distant places of a sheet that is printed in a code other than the default.
+/// Returns frames from distant places on a sheet that is printed in a non-default code.
 std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     dotpose::Setup setup;
     setup.pattern.code = CodeVariant::libdots;
@@ -94,8 +94,8 @@ std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     return images;
 }
 
-/// Expects that, for a frame of this size, a C locator in memory provided by the caller returns the
-/// same fix as the core locator.
+/// Expects that a C locator in caller-provided memory returns the same fix as the core locator, for
+/// a frame of the given size.
 template <int Width, int Height>
 void expect_same_device(int kind, dotpose_status (*init)(void*, std::size_t, const dotpose_options*,
                                                          dotpose_locator**)) {

@@ -1,5 +1,5 @@
-// GStreamer callbacks of the element. They have C interfaces, delegate the work to a Stream, and do
-// not throw.
+// GStreamer callbacks of the element. They are called from C, so they do not throw. A Stream does
+// the work.
 #include "element.hpp"
 
 #include <memory>

@@ -11,7 +11,7 @@ namespace {
 FollowerOptions options_of(const Settings& settings) {
     FollowerOptions options = settings.options;
     options.track.spacing_mm = static_cast<float>(options.spacing_mm);
-    // The overlay shows the dots, which only the trace contains.
+    // The overlay draws the dots, which are stored only in the trace.
     options.locate.show_stages = settings.has_overlay;
     if (!settings.camera.empty()) options.camera = read_camera(settings.camera);
     if (settings.sheets.empty()) return options;

@@ -13,7 +13,7 @@
 
 namespace dotpose::test {
 
-/// Returns the maximum rounding error of a number in a line of output.
+/// Returns the maximum rounding error of the value of field `key` in a line of `dotpose watch`.
 inline double rounding_of(std::string_view key, double value) {
     constexpr double kHalf = 0.501;
     if (key.starts_with("covariance") || key.starts_with("track_covariance")) {
@@ -27,8 +27,8 @@ inline double rounding_of(std::string_view key, double value) {
     return kHalf * 1e-6;
 }
 
-/// Returns true for fields that occur only in lines. The element omits these values, or reports
-/// them in other units or fields.
+/// Returns true for fields that occur in lines but not in messages. The element omits these values,
+/// or reports them in other units or fields.
 inline bool is_only_in_lines(std::string_view key) {
     constexpr std::array<std::string_view, 7> kKeys = {"schema", "t_s",        "x_grid", "y_grid",
                                                        "file",   "elapsed_us", "warning"};
@@ -43,7 +43,7 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
         for (std::size_t i = 0; i < line.size(); ++i)
             expect_value_of(key, line[i], told[i]);
     } else if (line.is_string()) {
-        // Lines give a more detailed reason for a missing fix than messages do.
+        // If there is no fix, the line gives a more detailed reason than the message does.
         if (key != "message") {
             EXPECT_EQ(line, told) << key;
         }

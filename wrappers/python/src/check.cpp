@@ -11,7 +11,7 @@
 namespace dotpose::python {
 namespace {
 
-/// Result of a check, with the scan, which is needed to draw the result.
+/// Result of a check, together with the scan, on which the result is drawn.
 struct SeenCheck {
     PrintCheck check;
     GreyImage scan;

@@ -1,4 +1,4 @@
-// Translates exceptions thrown by the tools to Python exceptions.
+// Translates exceptions thrown by the tools into Python exceptions.
 #include <exception>
 
 #include "binding.hpp"
@@ -9,7 +9,7 @@
 namespace dotpose::python {
 namespace {
 
-/// Raises a C++ exception as the Python exception class with the same name.
+/// Translates a C++ exception into the Python exception with the same name, and raises it.
 void translate(std::exception_ptr error) {
     const auto raise = [](const char* name, const std::exception& what) {
         const py::object type = py::module_::import("dotpose._dotpose").attr(name);

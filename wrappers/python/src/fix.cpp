@@ -87,7 +87,7 @@ class Bits {
         }
         put(plane.lens_q40);
     }
-    /// Appends the bytes of a number as they are stored in memory, because tests compare all bits.
+    /// Appends the in-memory bytes of a number, because tests compare all bits.
     template <typename Value>
     void put_bits(Value value) {
         list_.append(py::bytes(reinterpret_cast<const char*>(&value), sizeof value));
@@ -108,7 +108,7 @@ class Bits {
 };
 
 /// Returns the numbers in the golden line for a fix (wrappers/golden). Floating-point numbers are
-/// returned as bytes, to let tests compare their bits.
+/// returned as bytes, so tests can compare them bit by bit.
 py::list bits(const SeenFix& self) {
     const Fix& fix = self.fix;
     Bits all;

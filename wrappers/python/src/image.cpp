@@ -19,8 +19,8 @@ std::string described(const py::array& array) {
     throw py::type_error(std::string(kWanted) + ", not " + given + advice);
 }
 
-/// Converts a length to int. Lengths beyond the range of int are clamped to its maximum. This
-/// maximum is more than any locator accepts, so the image is refused as too large.
+/// Converts a length to int. Lengths beyond the range of int are clamped to its maximum. Locators
+/// accept only much smaller images, so an image with a clamped length is refused as too large.
 int side_px(py::ssize_t length) {
     return static_cast<int>(std::min<py::ssize_t>(length, std::numeric_limits<int>::max()));
 }

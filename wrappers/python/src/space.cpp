@@ -10,8 +10,8 @@
 namespace dotpose::python {
 namespace {
 
-/// Returns the camera's pose in the world, computed from its pose on the page of `entry`, or none
-/// if the page has no pose in the world.
+/// Returns the camera's pose in the world, computed from its pose on the page of `entry`. Returns
+/// none if the page has no pose in the world.
 std::optional<CameraInWorld> in_world_of(const SpacePose& pose, const SheetEntry& entry) {
     if (!entry.world) return std::nullopt;
     return in_world(on_sheet(pose.camera, entry), pose.covariance, *entry.world);

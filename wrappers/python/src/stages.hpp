@@ -1,5 +1,5 @@
-/// Stages: the intermediate results of a locator for one frame, which exist as long as a fix refers
-/// to them.
+/// Stages: a locator's intermediate results for one frame. They are kept as long as a fix refers to
+/// them.
 #pragma once
 
 #include <cstdint>

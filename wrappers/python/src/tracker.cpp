@@ -1,4 +1,5 @@
-// Bindings for Tracker, which follows a robot using the fixes of its frames, and for Track.
+// Bindings for Tracker, which follows a robot from the fixes of its frames, and for its result,
+// Track.
 #include "tracker.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-"""Tests calibration of simulated cameras, camera files, and the experiment of the paper."""
+"""Tests the calibration of simulated cameras, camera files, and the paper's experiment."""
 
 import math
 import os
@@ -118,7 +118,7 @@ def test_the_experiment_of_the_paper():
     places = np.array([station.place_mm for station in protocol.printed.positions])
     assert places.min() == -100 and places.max() == 100
     assert all(s.located == s.samples == 2 and s.wrong == 0 for s in protocol.perfect.positions)
-    # Paper, Table III: the printer's errors are far larger than the localization errors.
+    # Paper, Table III: the printing errors are far larger than the localization errors.
     worst = max(abs(s.y_mm[0]) for s in protocol.printed.positions)
     assert 0.1 < worst < 0.5 and max(abs(s.y_mm[0]) for s in protocol.perfect.positions) < 0.01
 

@@ -1,4 +1,4 @@
-"""Tests that the golden frames give the same bits as in C++ (wrappers/golden)."""
+"""Tests that results for the golden frames are bit-identical to those of C++ (wrappers/golden)."""
 
 import pytest
 

@@ -18,7 +18,7 @@ def resident_kb():
 
 
 def use_all_of(fix, tracker, time_us):
-    """Reads the results of a frame as a program does, and sometimes draws the picture."""
+    """Reads the results of a frame as a program would, and sometimes draws the picture."""
     fix.covariance, fix.section, fix.cell, fix.other, fix.message, repr(fix)
     track = tracker.update(time_us, fix)
     track.covariance, track.events
@@ -57,7 +57,7 @@ def test_no_leak_over_many_frames():
         gc.collect()
         return resident_kb() - before
 
-    # The heap may still grow in the first round, but only a leak causes growth in both rounds.
+    # The heap may still grow in the first round. Only a leak causes growth in both rounds.
     grown = min(growth_kb(), growth_kb())
     print(f"{FRAMES} frames: {grown} KB more")
     # A leaked Fix takes 400 bytes, a leaked image 22 KB.

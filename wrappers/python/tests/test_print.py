@@ -7,7 +7,7 @@ import dotpose
 
 def test_a_sheet_fills_its_page():
     sheet = dotpose.make_sheet()
-    # The same sheet as from `dotpose print -o sheet.png --paper A4` (README.md).
+    # The sheet that `dotpose print -o sheet.png --paper A4` prints (README.md).
     assert (sheet.width_mm, sheet.height_mm, sheet.columns, sheet.rows) == (210, 297, 394, 565)
     assert sheet.spacing_mm == 0.508 and sheet.dot_mm == sheet.displacement_mm == 0.508 / 6
     assert sheet.code == "anoto" and sheet.section == (0, 0) and sheet.origin == (0, 0)

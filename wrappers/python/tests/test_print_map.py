@@ -39,11 +39,11 @@ def result(entry):
 
 
 def error_um(follower, shots):
-    """Returns the rms error of the fixes, per axis, after removal of the mean offset, rotation and
+    """Returns the rms error of the fixes, per axis, after removing the mean offset, rotation and
     scale.
 
-    By definition, the dots of a map have no mean offset, rotation or scale error. In the print, the
-    mean offset, rotation and scale error amount to about 0.2 um on a page of this size.
+    These three errors are removed because they are zero in a map by definition. In the print, they
+    amount to about 0.2 um on a page of this size.
     """
     rows, errors = [], []
     for shot in shots:

@@ -52,7 +52,7 @@ def test_threads_may_share_a_locator(images):
 
 
 def test_the_interpreter_goes_on_while_a_thread_locates():
-    """Another thread records the time repeatedly, including while a frame is located."""
+    """Another thread keeps recording the time while a frame is being located."""
     image = dotpose.simulate(1, seed=8, width_px=4096, height_px=4096)[0].image
     locator = dotpose.Locator("anoto")
     noted = []
@@ -78,7 +78,7 @@ def test_the_interpreter_goes_on_while_a_thread_locates():
 
 
 def cores_of_processes(images):
-    """Returns the number of cores that two identical processes use."""
+    """Returns the number of cores used by two processes that run at the same time."""
     start = time.perf_counter()
     children = []
     for _ in range(2):
@@ -95,8 +95,8 @@ def cores_of_processes(images):
 @pytest.mark.skipif("DOTPOSE_TIMES" not in os.environ, reason="times only with DOTPOSE_TIMES=1")
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="needs two cores")
 def test_two_threads_use_two_cores(images):
-    """The CPU time of two threads increases faster than wall-clock time, which is impossible if they
-    hold the GIL. On a busy machine, the test waits until cores are free."""
+    """The CPU time of two threads increases faster than wall-clock time, which is impossible if
+    they hold the GIL. On a busy machine, the test waits until cores are free."""
     by_processes = 0.0
     for _ in range(20):
         cpu = time.process_time()

@@ -187,7 +187,7 @@ TEST_F(RosLocator, ReadsColour) {
 }
 
 TEST_F(RosLocator, AMosaicLosesLittle) {
-    // The dots are grey, so they have the same level in every colour of the mosaic.
+    // The dots are grey, so red, green and blue pixels of the mosaic have the same level.
     RawImage mosaic = image();
     mosaic.encoding = "bayer_grbg8";
     const auto pose = take(0).messages.pose;

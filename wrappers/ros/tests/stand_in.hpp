@@ -1,5 +1,5 @@
-/// Replacement for ROS 2, which Debian does not package. Declares the parts of rclcpp and of the
-/// messages that the node uses. The declarations follow the ROS documentation. With these
+/// Replacement for ROS 2, which Debian does not package. Declares the messages and the parts of
+/// rclcpp that the node uses. The declarations follow the ROS documentation. With these
 /// declarations, the node can be compiled but not run. Each ROS header that the node includes is
 /// replaced with a generated file that includes stand_in.hpp.
 #pragma once
@@ -155,7 +155,7 @@ bool shutdown();
 
 }  // namespace rclcpp
 
-/// Checks that the arguments match the format, as the macro of rclcpp does.
+/// Checks that the arguments match the format string, as the rclcpp macro does.
 [[gnu::format(printf, 1, 2)]] void stand_in_log(const char* format, ...);
 #define RCLCPP_WARN(logger, ...) (static_cast<void>(logger), stand_in_log(__VA_ARGS__))
 

@@ -1,5 +1,5 @@
-// Compares the times of the WebAssembly modules and of the C++ library without AVX2. The
-// measurements alternate.
+// Compares the times of the WebAssembly modules and of the C++ library without AVX2. The modules
+// and the library are measured alternately.
 //
 //   node wrappers/wasm/bench/time.mjs [ROUNDS [GOLDEN]]
 //
@@ -20,8 +20,8 @@ const kVariants = ["simd", "scalar"].filter((name) => existsSync(join(kDist, `do
 const rounds = Number(process.argv[2] ?? 5);
 
 /**
- * Returns the times of each frame in µs, without and with a prediction, in the same order as the
- * native program.
+ * Returns the time of each frame, in µs. Times without and with a prediction alternate, as in the
+ * output of the native program.
  */
 function measure(locator, images) {
     const times_us = [];

@@ -70,7 +70,7 @@ export interface Imperfections {
     paper_level?: number;
     /** Reflectance of ink, relative to paper. Default: 0.15. */
     ink_reflectance?: number;
-    /** Standard deviation of the reflectance of dots. */
+    /** Standard deviation of the reflectance among dots. */
     ink_variation?: number;
     /** Contrast of the palest ink relative to the darkest ink. Default: 1. */
     palest_ink?: number;

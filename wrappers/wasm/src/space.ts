@@ -11,7 +11,9 @@ export interface SpaceCamera {
      * the image x and y axes.
      */
     focal_px: number | readonly [number, number];
-    /** Undistorted image point on the optical axis. Default: the image centre. */
+    /**
+     * Point at which the optical axis intersects the undistorted image. Default: the image centre.
+     */
     axis_px?: readonly [number, number];
     /** Printed length divided by the nominal length of the sheet, above 0.1 and below 10. Default: 1. */
     print_scale?: number;
@@ -46,7 +48,7 @@ export interface SpacePose extends PoseInSpace {
     covariance: Float64Array;
     /** Number of dots used. */
     dots: number;
-    /** Root mean square residual of these dots, per axis. */
+    /** Root mean square residual of the dots used, per axis. */
     residual_px: number;
     /** True if the dots do not exclude the second pose. */
     is_ambiguous: boolean;

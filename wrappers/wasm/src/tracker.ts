@@ -14,7 +14,7 @@ export interface TrackOptions {
     acceleration_mm_s2?: number;
     /** Standard deviation of the angular acceleration while the robot manoeuvres. Default: 6. */
     angular_acceleration_rad_s2?: number;
-    /** Maximum acceleration that the robot can have, for example in a collision. Default: 10000. */
+    /** Maximum possible acceleration of the robot, for example in a collision. Default: 10000. */
     max_acceleration_mm_s2?: number;
     /** Maximum angular acceleration. Default: 200. */
     max_angular_acceleration_rad_s2?: number;
@@ -23,8 +23,8 @@ export interface TrackOptions {
     /** Maximum turn rate. Default: 20. */
     max_turn_rad_s?: number;
     /**
-     * Number of standard deviations of the innovation by which a fix may exceed the limits of
-     * motion. Default: 5.
+     * Tolerance by which a fix may exceed the limits of motion, in standard deviations of the
+     * innovation. Default: 5.
      */
     gate_sigmas?: number;
     /** Number of consecutive consistent fixes that confirm a jump. Default: 3. */
@@ -39,17 +39,19 @@ export interface TrackOptions {
     min_sigma_rad?: number;
     /** Log2 of the maximum probability that an accepted fix is wrong. Default: -30. */
     max_p_wrong_log2?: number;
-    /** Log2 of the maximum `p_wrong` of an accepted weak fix. This `p_wrong` is computed without
-     * the prior. At most -1. Default: -10. */
+    /**
+     * Log2 of the maximum `p_wrong`, computed without the prior, for a weak fix to be accepted.
+     * Must be at most -1. Default: -10.
+     */
     max_weak_p_wrong_log2?: number;
     /** Spacing of the printed grid. Default: 0.508. */
     spacing_mm?: number;
     /**
-     * Time without an accepted fix and without a motion after which the robot is lost. Default:
+     * Time after which the robot is lost if there is neither an accepted fix nor a motion. Default:
      * 70000.
      */
     lost_after_us?: number;
-    /** Time without movement after which the robot is stationary. Default: 500000. */
+    /** Time without movement after which the robot is considered stationary. Default: 500000. */
     stationary_after_us?: number;
     /**
      * Maximum standard deviation of the position while only motions update the pose. Above this
@@ -139,7 +141,8 @@ export class Tracker {
     readonly #track: number;
     readonly #prediction: number;
     /**
-     * Locators by code. They provide the options for predictions, and do not locate frames.
+     * A locator for each code. The locators only provide options for predictions. They do not
+     * locate frames.
      */
     readonly #locators = new Map<Code, number>();
     /** Code of the newest fix. */

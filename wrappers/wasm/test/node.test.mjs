@@ -83,7 +83,8 @@ describe("Locator", () => {
     test("frames of a moving camera that are not certain alone are read together", async () => {
         const camera = { width_px: 80, height_px: 80 };
         const imperfections = { noise_sigma: 3, blur_sigma_px: 0.5 };
-        // The standard deviations are larger than necessary, because the motion has no error.
+        // The standard deviations of the motion are larger than necessary, because the motion is
+        // exact.
         const step_mm = 3 * 0.508;
         const motion = { right_mm: step_mm, down_mm: step_mm, sigma_mm: 0.02, sigma_rad: 0.005 };
         const frame = (k) => {
@@ -219,15 +220,15 @@ describe("Tracker", () => {
         assert.ok(Math.abs(track.x_mm - x_mm(39)) < 0.01 && Math.abs(track.y_mm - 1070) < 0.01, `${track.x_mm}, ${track.y_mm}`);
         assert.ok(Math.abs(track.theta_rad - 0.5) < 0.002);
         assert.ok(Math.abs(track.vx_mm_s - kSpeed_mm_s) < 1 && Math.abs(track.vy_mm_s) < 1, `${track.vx_mm_s}, ${track.vy_mm_s}`);
-        // Predictions succeed once the velocity is known, after the second frame. The robot moves
-        // by two spacings per frame.
+        // The robot moves by two spacings per frame. Predictions therefore succeed only once the
+        // velocity is known, after the second frame.
         assert.deepEqual(new Set(attempts.slice(2)), new Set(["tracked"]));
     });
 
     test("odometry carries the pose on, with a covariance that grows", async () => {
         const [{ tracker, track }, { tracker: without }] = [await driven(), await driven()];
         const step_mm = (kSpeed_mm_s * kPeriod_us) / 1e6;
-        // The image x axis is turned by 0.5 rad from the x axis of the pattern.
+        // The image x axis is at an angle of 0.5 rad to the x axis of the pattern.
         const motion = {
             ...{ right_mm: step_mm * Math.cos(0.5), down_mm: -step_mm * Math.sin(0.5) },
             ...{ sigma_mm: 0.01, sigma_rad: 0.0005 },
@@ -241,8 +242,8 @@ describe("Tracker", () => {
         assert.equal(carried.is_lost, false);
         assert.equal(carried.verdict, "none");
         assert.ok(Math.abs(carried.x_mm - x_mm(59)) < 0.1, `${carried.x_mm}`);
-        // The variance is the sum of the variances of twenty independent displacement errors of
-        // 0.01 mm and the variance due to heading errors.
+        // The variance of x is the sum of two parts: twenty independent displacement errors of 0.01
+        // mm, and the effect of heading errors.
         assert.ok(carried.covariance[0] > 0.9 * 20 * 0.01 ** 2 && carried.covariance[0] < 0.1 ** 2, `${carried.covariance[0]}`);
         assert.equal(lost.is_lost, true);
         assert.ok(Number.isNaN(lost.x_mm) && Number.isNaN(lost.covariance[0]));
@@ -293,7 +294,8 @@ describe("sheets and the simulated camera", () => {
         const ours = parts(Buffer.from(await tools.png(kSheet)));
         const theirs = parts(printed("sheet.png"));
         for (const type of ["IHDR", "pHYs"]) assert.deepEqual(ours[type], theirs[type], type);
-        // Bits beyond the width are undefined. The width of this sheet ends within a byte.
+        // Bits beyond the width are undefined. The rows of this sheet do not end at a byte
+        // boundary.
         const { width_px, height_px } = tools.raster(kSheet);
         const stride = Math.ceil(width_px / 8) + 1;
         const mask = 0xff00 >> (width_px % 8 || 8);

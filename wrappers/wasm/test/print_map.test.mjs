@@ -23,7 +23,7 @@ function random(seed) {
     return () => (state = (state * 48271) % 0x7fffffff) / 0x7fffffff;
 }
 
-/** Returns the CRC-32 (IEEE 802.3), with which a map file ends. */
+/** Returns the CRC-32 (IEEE 802.3) of the bytes. A map file ends with this checksum. */
 function crc32(bytes) {
     let crc = 0xffffffff;
     for (const byte of bytes) {
@@ -40,8 +40,10 @@ function withSum(bytes) {
     return bytes;
 }
 
-/** Returns the offset of the first page's column count in a map file (docs/print-map.md). `name` is
- * the name of its sheet. */
+/**
+ * Returns the offset of the first page's column count in a map file (docs/print-map.md). `name` is
+ * the name of the page's sheet.
+ */
 const columnsAt = (name) => 20 + name.length + 3 + 8;
 /** Returns the offset of the first page's array of view counts, which has one element per dot. */
 const viewsAt = (name, dots) => columnsAt(name) + 8 + 8 + 4 + 16 + 4 * dots;
@@ -89,8 +91,8 @@ describe("print map", () => {
 
     test("fixes are those of the tool, and more accurate than without the map", async () => {
         const without = await dotpose.Locator.create({ ...options, print_map: undefined });
-        // In all poses, the page fills the frame. Outside the page, the results would differ,
-        // because only the tool removes the area around the page.
+        // The page fills the frame in all poses. Otherwise, the results would differ, because only
+        // the tool removes the area around the page.
         const next = random(2);
         let [squares, squares_without] = [0, 0];
         for (let k = 0; k < 6; ++k) {

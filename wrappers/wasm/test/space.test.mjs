@@ -34,7 +34,7 @@ describe("poses in space", () => {
         const blank = { data: new Uint8Array(320 * 240).fill(200), width: 320, height: 240 };
         assert.equal(locator.locate(blank).space, null);
         assert.equal((await Locator.create()).locate(image).space, null);
-        // Twice the scale doubles all distances from the origin of the pattern.
+        // Doubling the print scale doubles all distances from the origin of the pattern.
         const twice = await Locator.create({ space: { focal_px: distance_mm / 0.046, print_scale: 2 } });
         assert.ok(Math.abs(twice.locate(image).space.position_mm[2] + 2 * distance_mm * Math.cos(tilt_rad)) < 0.06);
     });

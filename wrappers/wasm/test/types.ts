@@ -1,4 +1,4 @@
-// Compiled against the installed package to check its types.
+// This file is compiled against the installed package to check the types of the package.
 import { Locator, patternBits, Tracker, WorkerLocator } from "dotpose";
 import type { Fix, KnownRegion, MapUse, MeasuredMotion, Track } from "dotpose";
 import { Tools, type Scene } from "dotpose/tools";

@@ -1,5 +1,5 @@
-// Tests the weighted correlation with the main sequence (paper, section II-B.7) against loops over
-// the text of the sequence.
+// Compares the weighted correlation with the main sequence (paper, section II-B.7) to a brute-force
+// sum over the digits of the sequence.
 #include "core/decode/correlation.hpp"
 
 #include <gtest/gtest.h>

@@ -77,8 +77,9 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns a block that agrees equally well with its own place and with an alternative. Of the bits
-/// in which the two places differ, half are those of one place, and half those of the other place.
+/// Returns a block that agrees equally well with its own place and with an alternative. Half of the
+/// bits in which the two places differ agree with one place, and the other half with the other
+/// place.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;

@@ -76,8 +76,8 @@ inline int contradictions(const Block& block, bool is_x, const std::vector<int>&
     return wrong;
 }
 
-/// Returns the rolls that the lines of an axis have after one sequence is moved ahead by `further`
-/// digits and all rolls are increased by `shift`.
+/// Returns the rolls of the lines of an axis if one sequence is advanced by `further` digits and
+/// all rolls are increased by `shift`.
 inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, int further,
                                  int shift) {
     const Place& p = block.place;
@@ -99,9 +99,10 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     return rolls;
 }
 
-/// Returns log2 of a sum over both axes. Each axis contributes the probability of a match by
-/// chance, and the odds of two kinds of alternatives: positions that differ in one sequence and
-/// share a line, and other sections. The odds per bit are computed as in the verdict.
+/// Returns log2 of a sum over both axes. The terms of an axis are the probability of a match by
+/// chance and the odds of the alternatives. There are two kinds of alternatives: other sections,
+/// and positions that differ in one sequence but share at least one line with the true position.
+/// The odds per bit are computed as in the verdict.
 inline double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;

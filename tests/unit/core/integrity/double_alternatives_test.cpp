@@ -18,8 +18,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
-/// Minimum of the computed sum. Each of the 190,027 pairs of places contributes at least 2^-64 at
-/// each of the 63 shifts.
+/// Lower bound of the computed sum. Each of the 190,027 pairs of places contributes at least 2^-64
+/// at each of the 63 shifts.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
 /// Lines that agree with a position. In each line, the roll of the position has the score 1000. The

@@ -16,8 +16,8 @@ constexpr std::array<int, 4> kBases{3, 3, 2, 3};
 
 using ByAnchors = std::array<double, kMinFound>;
 
-/// Adds the odds of the alternative with these roll offsets to sums[n], once for each of the 63
-/// shifts. n is the number of anchors that the alternative shares with the reading. The anchors are
+/// For each of the 63 shifts, adds the odds of the alternative with these roll offsets to sums[n],
+/// where n is the number of anchors that the alternative shares with the reading. The anchors are
 /// the lines with a rank below `anchors`.
 void add_alternative(const RatiosCase& c, const RankedLines& lines, int anchors,
                      const std::array<int, kLines>& offsets, double weight, ByAnchors& sums) {

@@ -80,8 +80,7 @@ std::array<int, 2> wrong_bits(const core::BitBlock& block, CodeVariant code, con
     return wrong;
 }
 
-/// Returns the probability that `bits` random bits differ from given bits in at most `wrong`
-/// places.
+/// Returns the probability that at most `wrong` of `bits` random bits differ from given bits.
 double random_agreement(int bits, int wrong) {
     double term = std::exp2(-bits);
     double sum = 0;

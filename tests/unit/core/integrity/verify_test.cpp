@@ -199,8 +199,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns log2 of a sum over both axes. Each axis contributes the probability of a match by
-/// chance, and the exact sum of the odds of all alternatives.
+/// Returns log2 of a sum over both axes. The terms of an axis are the probability of a match by
+/// chance and the exact sum of the odds of all alternatives.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;

@@ -86,7 +86,8 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
         const auto sequences = static_cast<unsigned>(whole(rng, 1, 15));
         if (!kernels.list_similar_places(places.basis, places.own, sequences, lines, enough, list))
             return;
-        // Elements: sequence, place, and the shift at which the place shares a line.
+        // Each element consists of a sequence, a place, and the shift at which the place shares a
+        // line with the reading.
         std::set<std::array<int, 3>> found;
         for (const auto& [k, place, line, loss] :
              std::span(list.places).first(static_cast<std::size_t>(list.count)))
@@ -108,7 +109,8 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
                     const std::array<int, 3> alternative{static_cast<int>(k),
                                                          static_cast<int>(place), shift};
                     // The kernel adds up only the losses of lines after the shared line. The list
-                    // may therefore contain places that lose more, which this test allows.
+                    // may therefore also contain places whose total loss exceeds the limit, which
+                    // this test allows.
                     if (lost >= enough) continue;
                     ASSERT_TRUE(found.count(alternative) > 0) << k << ' ' << place << ' ' << shift;
                     ++listed;

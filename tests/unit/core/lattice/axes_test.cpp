@@ -56,7 +56,7 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
                 length_errors.push_back(std::abs(length(axis) / spacing - 1));
                 angle_errors.push_back(std::abs(std::remainder(degrees(axis) - angle, 90)));
             }
-            // v is u rotated from +x towards +y.
+            // v is u rotated by 90 degrees, in the direction from +x to +y.
             EXPECT_NEAR(std::remainder(degrees(found.v) - degrees(found.u) - 90, 360), 0, 1e-6);
         }
     }

@@ -28,8 +28,8 @@ std::int64_t squared_distance(const DetectedDot& a, const DetectedDot& b) {
     return x * x + y * y;
 }
 
-/// Returns true if two dots are less than 128 px apart along each axis. The cells of all grids are
-/// smaller than this.
+/// Returns true if two dots are less than 128 px apart along each axis, as neighbours must be. No
+/// grid has cells as large as this.
 bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
     const std::int32_t x = std::abs(a.centre_q8.x - b.centre_q8.x);
     const std::int32_t y = std::abs(a.centre_q8.y - b.centre_q8.y);

@@ -107,9 +107,9 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_LT(difference(grid.grid_from_image, truth, {20, 20}), 0.1);
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
-        // The plane must be accurate enough for the windows around the intersections to contain the
-        // dots. One grid may be less accurate because its growth ended early. Such a grid is
-        // refused later, when its dots are measured.
+        // The plane must be so accurate that the windows around the intersections contain the dots.
+        // One grid may be less accurate because its growth ended early. Such a grid is refused
+        // later, when its dots are measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
                  difference(grid.grid_from_image, truth, {112, 80}) < 0.45;
     }

@@ -59,8 +59,8 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
 }
 
 TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
-    // The camera is tilted by 30 degrees about a random axis, which shortens the grid in one
-    // direction by a factor of cos 30.
+    // The camera is tilted by 30 degrees about a random axis, which foreshortens the grid in one
+    // direction by a factor of cos(30 degrees).
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);

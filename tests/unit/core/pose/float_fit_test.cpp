@@ -33,8 +33,8 @@ void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng,
     }
 }
 
-/// Returns a plane near `truth`: without perspective, with an error of up to 0.08 spacings in
-/// position, and with small errors in scale and rotation.
+/// Returns an approximation of `truth` without perspective. It has an error of up to 0.08 spacings
+/// per axis in position, and small errors in du and dv.
 FloatPlane guess_of(const FloatPlane& truth, Rng& rng) {
     FloatPlane guess = truth;
     const auto some = [&](double size) { return static_cast<float>(rng.uniform(-size, size)); };

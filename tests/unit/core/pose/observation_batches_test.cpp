@@ -14,7 +14,7 @@ constexpr std::uint64_t kSeed = 65;
 
 struct Counted {
     int dots = 0;
-    std::int64_t sum = 0;  ///< sum of products that depend on the dots and their order
+    std::int64_t sum = 0;  ///< checksum that depends on the order of the dots
 
     void add(std::int64_t x, std::int64_t y, std::int64_t step_x, std::int64_t step_y,
              std::int64_t side) {

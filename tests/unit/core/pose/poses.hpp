@@ -35,8 +35,8 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     EXPECT_NEAR(real(flat.dv_q24, 24).y, view.dv().y, slope);
 }
 
-/// Returns the exact dots of a random view. `i` selects the code variant and the turn. The initial
-/// grid is slightly inaccurate, which must not affect the result.
+/// Returns a random view with its dots at their exact positions. `i` selects the code variant and
+/// the turn. The initial grid is slightly inaccurate, which must not affect the result.
 inline Reading reading_off_grid(int i, Rng& rng) {
     View view = random_view(rng);
     view.spacing_px = rng.uniform(6, 11);

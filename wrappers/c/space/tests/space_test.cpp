@@ -116,8 +116,8 @@ TEST_F(SpaceInC, FindsTheTipOfAPen) {
     ASSERT_EQ(dotpose_space_pen_init(&pen, sizeof pen), DOTPOSE_OK);
     dotpose_space_tip tip;
     ASSERT_EQ(dotpose_space_tip_init(&tip, sizeof tip), DOTPOSE_OK);
-    // The tip is on the optical axis, at the distance of the paper, so it touches the paper at the
-    // image centre.
+    // The tip is where the optical axis meets the paper, so it touches the paper at the image
+    // centre.
     pen.z_mm = kDistance_mm;
     ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
     const double mm = shot_.page.pattern.spacing_mm;
@@ -136,7 +136,7 @@ TEST_F(SpaceInC, FindsTheTipOfAPen) {
     EXPECT_NEAR(std::sqrt(tip.covariance_mm2[8]), 0.1 * std::cos(kTilt_rad), 0.01);
     EXPECT_EQ(dotpose_space_update_contact(&tip, &is_down), DOTPOSE_OK);
     EXPECT_EQ(is_down, 0);
-    // If the measured height at rest is 1 mm, a pen at this height touches the paper.
+    // The height measured at rest is 1 mm, so a tip at a height of 1 mm touches the paper.
     pen.rest_mm = 1;
     ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
     EXPECT_NEAR(tip.height_mm, 0, 0.03);

@@ -105,8 +105,8 @@ class LocatorNode : public rclcpp::Node {
             tf_ = create_publisher<tf2_msgs::msg::TFMessage>("/tf", rclcpp::QoS(100));
         status_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics",
                                                                           rclcpp::QoS(10));
-        // Intra-process communication is disabled, because it would not deliver the message to
-        // processes that start later.
+        // Intra-process communication is disabled, because it would not deliver the mount to
+        // subscribers that start later.
         rclcpp::PublisherOptions kept;
         kept.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
         tf_static_ = create_publisher<tf2_msgs::msg::TFMessage>(

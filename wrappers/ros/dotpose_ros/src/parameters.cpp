@@ -21,7 +21,8 @@ class Values {
     }
     bool flag(const std::string& name) const { return get<bool>(name, "true or false"); }
 
-    /// Returns a number in [least, most], or none if the parameter has no value.
+    /// Returns a number, or none if the parameter has no value. Throws dotpose::Error if the number
+    /// is not in [least, most].
     std::optional<double> number(const std::string& name, double least, double most) const {
         const Value& value = values_.at(name);
         if (std::holds_alternative<std::monostate>(value)) return std::nullopt;

@@ -25,7 +25,7 @@ struct Parameter {
 /// Returns all parameters of the node. Their values are read only once, when the node starts.
 std::span<const Parameter> parameters();
 
-/// Settings of the node that result from its parameters.
+/// Settings of the node, determined by its parameters.
 struct Settings {
     dotpose::FollowerOptions follower;
     dotpose::ros::RobotFrames frames;

@@ -50,8 +50,8 @@ RobotLocator::RobotLocator(const Settings& settings, std::string robot)
     restart();
 }
 
-/// Returns a description of the problem that a missing lens causes, or an empty string if there is
-/// no problem.
+/// Describes the problem caused by a missing lens. Returns an empty string if the lens is not
+/// needed.
 std::string RobotLocator::missing_lens() const {
     return options_.fits_space_pose ? "there are no poses in space until camera_info has a lens"
                                     : "";

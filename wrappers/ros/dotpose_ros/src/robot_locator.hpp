@@ -21,8 +21,8 @@
 
 namespace dotpose_ros {
 
-/// Converts a stamp to nanoseconds. Unlike rclcpp::Time, which throws an exception, accepts
-/// negative stamps.
+/// Converts a stamp to nanoseconds. Accepts negative stamps, for which rclcpp::Time throws an
+/// exception.
 std::int64_t nanoseconds(std::int32_t sec, std::uint32_t nanosec);
 
 /// Members of a sensor_msgs/CameraInfo that describe the lens.
@@ -39,8 +39,8 @@ struct Lens {
 class RobotLocator {
   public:
     struct Answer {
-        /// Messages to publish. They contain a status only if it has changed, or if the last status
-        /// was published at least a second ago.
+        /// Messages to publish. The status is included only if it has changed, or if no status was
+        /// published for at least a second.
         dotpose::ros::RobotMessages messages;
         /// New warning about the images, to be logged. Empty if there is none.
         std::string warning;
@@ -50,9 +50,9 @@ class RobotLocator {
 
     /// Processes the next image. `stamp_ns` is the stamp of the camera, and `arrival_ns` is the
     /// arrival time on a steady clock. An image that is not newer than the previous images is
-    /// skipped. If the next stamp is later than the stamp of the skipped image, the clock was set
-    /// back, for example because a bag or a simulation was restarted. In this case, tracking
-    /// restarts.
+    /// skipped. If the next stamp is later than the stamp of the skipped image, the clock must have
+    /// been set back, for example because a bag or a simulation was restarted. In this case,
+    /// tracking restarts.
     Answer take(const RawImage& image, std::int64_t stamp_ns, std::int64_t arrival_ns);
 
     /// Uses the lens of a camera_info message, unless the lens is already known from a camera file
@@ -63,8 +63,8 @@ class RobotLocator {
     /// Returns true if poses in space are fitted once the lens is known.
     bool has_space_pose() const { return options_.fits_space_pose; }
 
-    /// Returns the mount of the camera, or none if the camera file does not contain it, or if poses
-    /// in space are fitted.
+    /// Returns the mount of the camera. Returns none if the camera file does not contain a mount,
+    /// or if poses in space are fitted.
     std::optional<dotpose::ros::TransformStamped> mount(std::int64_t time_ns) const;
 
   private:
