@@ -103,8 +103,8 @@ class PatternArguments {
     std::optional<double> dot_mm_;
 };
 
-/// Convert between DotDrawing and the names used by --dots. `drawing_by_name` returns none for an
-/// unknown name.
+/// Convert between DotDrawing and the names used by --dots. `drawing_by_name` returns nullopt for
+/// an unknown name.
 std::string drawing_name(DotDrawing drawing);
 std::optional<DotDrawing> drawing_by_name(const std::string& name);
 
@@ -112,8 +112,8 @@ std::optional<DotDrawing> drawing_by_name(const std::string& name);
 void add_drawing_option(Command& command, DotDrawing& drawing);
 
 /// Parses integers from 0 to `max`. Each character of `separators` separates two consecutive
-/// integers: "640x480" has the separators "x", and "10,20,640x480" has ",,x". Returns none if the
-/// text does not match.
+/// integers: "640x480" has the separators "x", and "10,20,640x480" has ",,x". Returns nullopt if
+/// the text does not match.
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
                                                         std::uint32_t max);

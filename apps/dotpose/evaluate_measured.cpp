@@ -18,7 +18,7 @@ namespace dotpose::cli {
 namespace {
 
 /// Converts a place to world coordinates or, if `is_in_world` is false, to coordinates on its
-/// sheet. Returns none if there is no place, or if world coordinates are requested and the sheet
+/// sheet. Returns nullopt if there is no place, or if world coordinates are requested and the sheet
 /// has no world pose.
 std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPlace>& place) {
     if (!place) return std::nullopt;

@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Reads the camera file that a calibration is about to replace. Returns none if the file does not
-/// exist or is empty. Throws Error if the file is not a camera file. The error message contains
+/// Reads the camera file that a calibration is about to replace. Returns nullopt if the file does
+/// not exist or is empty. Throws Error if the file is not a camera file. The error message contains
 /// `option`, the command-line option that names the file.
 std::optional<Camera> replaced_camera(const std::string& option, const std::string& path);
 

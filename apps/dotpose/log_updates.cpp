@@ -98,8 +98,8 @@ constexpr SpaceColumns kSpaceInWorld = {"m", "quaternion_world_xyzw", "covarianc
 constexpr SpaceColumns kSpaceInPattern = {"mm", "quaternion_xyzw", "covariance_mm_deg", kRadians};
 
 /// Reads a camera pose in space from the columns whose names begin with `prefix`. The pose is in
-/// the world or, if `is_in_world` is false, in the pattern frame with y up. Returns none if the row
-/// does not contain the pose.
+/// the world or, if `is_in_world` is false, in the pattern frame with y up. Returns nullopt if the
+/// row does not contain the pose.
 std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::string& prefix,
                                            bool is_in_world) {
     const SpaceColumns& columns = is_in_world ? kSpaceInWorld : kSpaceInPattern;
@@ -126,7 +126,7 @@ std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::strin
 }
 
 /// Returns the camera pose in space that was computed from this frame only, without the track.
-/// Returns none if the pose is unknown or ambiguous.
+/// Returns nullopt if the pose is unknown or ambiguous.
 std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     if (row.text("camera_is_ambiguous") != "false") return std::nullopt;
     return space_pose_in(row, "camera_", is_in_world);

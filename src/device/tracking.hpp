@@ -71,9 +71,9 @@ struct Tracking {
     int rows_taken = 0;
     int first_kept = 0;  ///< index of the first stored image row
     int stride_px = 0;
-    /// Offsets in the square in which a symbol is read, in bytes. `corner_offset` is the offset
+    /// Byte offsets within the square from which a symbol is read. `corner_offset` is the offset
     /// from the middle pixel to the upper left corner. `corners_apart` is the offset from an upper
-    /// to a lower corner.
+    /// corner to the lower corner on the same side.
     std::ptrdiff_t corner_offset = 0;
     std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image

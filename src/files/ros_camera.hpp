@@ -6,8 +6,8 @@
 
 namespace dotpose::files {
 
-/// Returns true if `file` is a camera_info file written by camera_calibration_parsers, or a printed
-/// camera_info message.
+/// Returns true if `file` is a camera_info file written by camera_calibration_parsers, or the text
+/// form of a camera_info message.
 bool is_camera_info(const YamlMap& file);
 
 /// Returns the camera of a camera_info file. Throws Error if the lens cannot be converted, or if a

@@ -232,8 +232,8 @@ Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInVi
 }
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. An
-/// exact hypothesis is implausible if its bits are not clean, or if its plane moves far (see
-/// `is_far_from`) in kMaxLooks fits.
+/// exact hypothesis is implausible if its bits are not clean, or if kMaxLooks fits each move its
+/// plane too far (see `is_far_from`).
 Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
                                  const PlaceEvidence& evidence, Measurement& measurement,
                                  Fix& fix) {

@@ -115,7 +115,8 @@ float power_of_two(float exponent) {
 /// maximum.
 struct Match {
     int quarters = 0;
-    FixedVec shift;  ///< from the turned earlier grid to the current grid, in cells
+    /// Shift from the earlier grid, after rotation by `quarters`, to the current grid, in cells.
+    FixedVec shift;
     float best_log2 = -1e9F;
     float sum = 0;  ///< summed weight, relative to the best weight
 

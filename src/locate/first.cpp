@@ -104,10 +104,10 @@ class PatchSearch {
     }
 
     /// Finds the grid in the patch at the image centre. If `is_skewed` is true, cells may be
-    /// arbitrary parallelograms. Otherwise, cells must be approximately square. If the search for a
-    /// skewed grid finds no grid, or one that is probably false, repeats the search, computing the
-    /// waves from a different number of central dots. The default number fails if it is too small,
-    /// or if a rotation displaces some of these dots.
+    /// arbitrary parallelograms. Otherwise, cells must be approximately square. A search for a
+    /// skewed grid may find no grid, or a grid that is probably false. The search is then repeated
+    /// with other numbers of central dots for the waves. The default number is unsuitable if it is
+    /// too small, or if a rotation displaces some of these dots.
     bool find_middle_grid(bool is_skewed, PatchGrid& grid) const {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;

@@ -375,8 +375,7 @@ class Overlay {
     /// Pages of the document, followed by the pages of each additional copy
     /// (OverlayOptions::copies).
     std::vector<QPDFPageObjectHelper> pages_;
-    /// Results of `scan_page` by page number, for the pages of the document to which dots are
-    /// added.
+    /// Results of `scan_page` by page number. Contains only the document pages that receive dots.
     std::map<int, print::PageContent> contents_;
     std::vector<int> dotted_;
     std::vector<int> black_;

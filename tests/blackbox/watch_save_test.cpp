@@ -21,8 +21,8 @@ class WatchSave : public ToolCommand {
   protected:
     static constexpr int kPlaces = 5;
 
-    /// Writes simulated frames of different places to the folder frames. The file slow.raw contains
-    /// each of these frames three times.
+    /// Writes simulated frames of different places to the folder `frames`. The file `slow.raw`
+    /// contains each of these frames three times.
     void SetUp() override {
         ASSERT_EQ(run("simulate -o frames --seed 91 --frames " + std::to_string(kPlaces)), 0);
         ASSERT_EQ(shell("ffmpeg -v error -framerate 10 -i frames/frame_%06d.pgm -vf fps=30 "

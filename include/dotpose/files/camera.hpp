@@ -154,7 +154,8 @@ PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// Returns `pinhole` if there is one. Otherwise, returns a model with square pixels, `focal_px`,
-/// and the optical axis at `centre_px`. Returns none if neither `pinhole` nor `focal_px` is known.
+/// and the optical axis at `centre_px`. Returns nullopt if neither `pinhole` nor `focal_px` is
+/// known.
 std::optional<Pinhole> pinhole_of(const Camera& camera);
 
 /// A point in the camera frame.

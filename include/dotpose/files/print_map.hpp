@@ -77,8 +77,8 @@ struct MapPage {
     std::vector<std::uint8_t> views;
     MapErrors errors;  ///< empty in maps with file version 1
 
-    /// Returns the index of a dot in `offsets` and `views`. Returns none if the place of the dot is
-    /// not on the page.
+    /// Returns the index of a dot in `offsets` and `views`. Returns nullopt if the place of the dot
+    /// is not on the page.
     std::optional<std::size_t> index_of(const Place& place) const {
         const std::uint32_t x = place.cell.x - origin.x;
         const std::uint32_t y = place.cell.y - origin.y;

@@ -43,8 +43,8 @@ struct SheetPlace {
 
 /// Returns the place of `fix` on the sheet that contains it. `code` is the code variant in which
 /// the fix was read. Sheets in other code variants are ignored. A sheet whose region contains the
-/// fix takes precedence over a sheet whose margins contain it. Returns none if the fix is not ok,
-/// or if no sheet contains it.
+/// fix takes precedence over a sheet whose margins contain it. Returns nullopt if the fix is not
+/// ok, or if no sheet contains it.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 
@@ -59,8 +59,8 @@ struct WorldPlace {
     PoseCovariance covariance{};
 };
 
-/// Converts a place on a sheet to world coordinates. Returns none if the world pose of the sheet is
-/// not known.
+/// Converts a place on a sheet to world coordinates. Returns nullopt if the world pose of the sheet
+/// is not known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
 /// Converts the covariance of a pose from the sheet frame to the world frame: rotates it, and

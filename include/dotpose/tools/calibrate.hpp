@@ -165,7 +165,7 @@ struct SpinCalibration {
 /// degrees. A full turn in 12 frames is recommended. `camera` contains the lens and the view of the
 /// paper. Without `camera`, the lens is assumed to have no distortion. Throws Error in these cases:
 /// - Too few frames have a fix, or the turn is too small.
-/// - A frame differs in size from the camera file or from the first frame.
+/// - The size of a frame differs from the size in the camera file or from that of the first frame.
 /// - The spacing of the pattern contradicts the view in the camera file.
 /// - The reference point is outside the range permitted in a camera file.
 /// - The centre of rotation varies by more than one spacing (rms per axis), or its uncertainty is
@@ -185,10 +185,10 @@ struct DriveCalibration {
     double length_mm = 0;    ///< length of the drive
 };
 
-/// Computes the direction of the camera from at least 2 frames that cover more than 5 mm. Throws
-/// Error in these cases:
+/// Computes the direction of the camera from at least 2 frames, taken along a drive of more than
+/// 5 mm. Throws Error in these cases:
 /// - Too few frames have a fix, or the drive is too short.
-/// - A frame differs in size from the camera file or from the first frame.
+/// - The size of a frame differs from the size in the camera file or from that of the first frame.
 /// - The spacing of the pattern contradicts the view in the camera file.
 /// - The robot turned by more than 5 degrees from its mean direction, deviated from a straight line
 ///   by more than 4.4 % of the length of the drive, or drove backwards.

@@ -113,9 +113,9 @@ struct Followed {
 };
 
 /// Converts a fix on a sheet to a sighting in the world frame, for the Tracker of a robot that
-/// drives over several sheets. `place` is the place of the fix. Returns none if the world pose of
-/// the sheet is not known. The fix must be ok, and its `spacing_nm` must be known, that is, above
-/// 0.
+/// drives over several sheets. `place` is the place of the fix. Returns nullopt if the world pose
+/// of the sheet is not known. The fix must be ok, and its `spacing_nm` must be known, that is,
+/// above 0.
 std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
                                        std::int64_t time_us);
 

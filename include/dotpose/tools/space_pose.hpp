@@ -115,7 +115,7 @@ void require_focal_length(const Camera& camera);
 /// `print` is the print scale of the sheet. `map` is the map of the page, or null. With a map, the
 /// mapped places of the dots replace their nominal places, and dots that were not measured for the
 /// map are ignored. Check the map with `with_print_map` first, because this function does not
-/// detect a map of a different print. Returns none if there is no fix, if the spacing is unknown
+/// detect a map of a different print. Returns nullopt if there is no fix, if the spacing is unknown
 /// (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument if `camera` has
 /// neither a focal length nor a pinhole model.
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
@@ -144,9 +144,9 @@ struct CameraInWorld {
 CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
                        const WorldPose& page);
 
-/// Returns the pose of a camera in the world frame of the sheet that contains `place`. Returns none
-/// if there is no pose or no place, if the dots do not rule out the second pose, or if the sheet
-/// has no world pose.
+/// Returns the pose of a camera in the world frame of the sheet that contains `place`. Returns
+/// nullopt if there is no pose or no place, if the dots do not rule out the second pose, or if the
+/// sheet has no world pose.
 std::optional<CameraInWorld> certain_in_world(const std::optional<SpacePose>& pose,
                                               const std::optional<SheetPlace>& place);
 

@@ -43,7 +43,7 @@ SpaceSighting sighting_of(const SpacePose& pose, std::int64_t time_us, std::uint
 
 /// Converts a pose to a sighting in the world, for a camera that moves over several sheets. `place`
 /// is on the sheet in view. The sighting is in the world frame rotated by 180 degrees about x, in
-/// mm, so y is down and z is into the paper, as in the pattern. Returns none if the sheet has no
+/// mm, so y is down and z is into the paper, as in the pattern. Returns nullopt if the sheet has no
 /// world pose.
 std::optional<SpaceSighting> world_sighting(const SpacePose& pose, const SheetPlace& place,
                                             std::int64_t time_us);
@@ -106,7 +106,7 @@ struct CameraMotion {
 /// Converts a track to metres, with y up and z out of the paper. The track is in mm, with y down
 /// and z into the paper. The result is in the world frame if the sightings were created by
 /// `world_sighting`. If the sightings are in the pattern frame, the result is in the pattern frame
-/// with y up. Returns none while the camera is lost.
+/// with y up. Returns nullopt while the camera is lost.
 std::optional<CameraMotion> motion_of(const SpaceTrack& track);
 
 /// Implementation details of SpaceTracker: the filter state. Not part of the public API.
@@ -155,7 +155,7 @@ class SpaceTracker {
     const SpaceTrack& update(std::int64_t time_us);
 
     /// Predicts the track at a time after the last accepted sighting. The verdict is `none`.
-    /// Returns none while the camera is lost, or for an earlier time.
+    /// Returns nullopt while the camera is lost, or for an earlier time.
     std::optional<SpaceTrack> predict(std::int64_t time_us) const;
 
     const SpaceTrack& track() const { return track_; }

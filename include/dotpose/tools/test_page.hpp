@@ -48,8 +48,8 @@ struct TestPageOptions {
 PrintPage make_test_page(const TestPageOptions& options);
 
 /// Returns the settings of the patch whose first cell is nearest to `cell` on both axes, even if
-/// `cell` is slightly outside the patch. Returns none if the cell is outside the region of the test
-/// pages, or if the dots of the patch would touch.
+/// `cell` is slightly outside the patch. Returns nullopt if the cell is outside the region of the
+/// test pages, or if the dots of the patch would touch.
 std::optional<Pattern> test_patch_at(CodeVariant code, Cell cell);
 
 }  // namespace dotpose

@@ -98,7 +98,8 @@ namespace step_search {
 inline constexpr std::size_t kChoices = 3;
 }  // namespace step_search
 
-/// Vote on the turn of the grid, in quarter turns (decode/orientation, decode/bit_lines).
+/// Vote on the orientation of the grid, a multiple of a quarter turn (decode/orientation,
+/// decode/bit_lines).
 namespace turns {
 /// Number of lines per axis that vote. Must be even, because the lines are scored in pairs.
 inline constexpr int kVoters = 4;

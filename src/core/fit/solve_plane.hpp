@@ -16,7 +16,7 @@ struct PoseFit {
     float variance = 0;      ///< noise variance of a dot along one axis, in spacings^2
     float squares = 0;       ///< sum of the squared residuals after the last step, in spacings^2
     float displacement = 0;  ///< typical distance of a dot from its intersection, in spacings
-    PlaneNormal normal;      ///< decomposed normal equations for the parameters of `jacobian`
+    PlaneNormal normal;      ///< factored normal equations (see `Parameters`)
     std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters
     Surface surface = Surface::even;
     /// Additional covariance of x, y and theta for an uneven sheet.

@@ -14,7 +14,7 @@ namespace dotpose::core {
 inline constexpr float kMargin = 32;
 
 /// Returns the expected total odds of the far alternatives that differ from the reading in
-/// `min_different` to `max_different` sequences, and share at most `max_shared` adjacent lines with
+/// `min_different` to `max_different` sequences and share at most `max_shared` adjacent lines with
 /// the reading.
 float sum_of_expected_alternatives(const Kernels& kernels, const RankedLines& lines, int max_shared,
                                    int min_different, int max_different);

@@ -1,7 +1,7 @@
 // Minimum losses: lower bounds on the loss of every alternative. An alternative shares at most
 // `LikelihoodRatios::max_shared` adjacent lines. Any max_shared + 1 adjacent lines therefore
-// contain at least one line that it does not share. In most frames, these bounds prove that all
-// alternatives are negligible. likelihood_ratios.hpp defines the terms.
+// contain at least one line that the alternative does not share. In most frames, these bounds prove
+// that all alternatives are negligible. likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

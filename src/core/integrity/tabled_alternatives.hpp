@@ -1,7 +1,7 @@
-// Tabled alternatives: upper bounds on the odds of single alternatives, computed from tables. The
-// tables contain the maximum number of alternatives for each number of unshared lines. With these
-// bounds, the alternatives of most sequences do not have to be enumerated. likelihood_ratios.hpp
-// defines the terms.
+// Tabulated bounds: upper bounds on the odds of single alternatives, computed from tables of the
+// maximum number of alternatives for each number of unshared lines. With these bounds, the
+// alternatives of most sequences do not have to be enumerated. likelihood_ratios.hpp defines the
+// terms.
 #pragma once
 
 #include "core/integrity/unshared_lines.hpp"

@@ -44,8 +44,8 @@ class UnsharedLines {
     /// Returns the minimum number of table lines that a single alternative does not share. Returns
     /// 0 if the sequence has no table.
     std::size_t min_unshared(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of an alternative that does not share n of the table lines, for n =
-    /// 0 to 8.
+    /// Returns the minimum loss of an alternative with n unshared table lines. `n` must be in
+    /// [0, 8].
     int min_loss_of(std::size_t n) const { return smallest_sums_[n]; }
     /// Returns the minimum loss of the single alternatives in a sequence, or 0 if the sequence has
     /// no table.

@@ -1,5 +1,5 @@
-// Tests `check_print` on prints with one known fault each, scanned by an independent renderer
-// (tests/scanned_page.hpp).
+// Tests `check_print` on simulated scans of prints with one known fault each. The scanner
+// simulation (tests/scanned_page.hpp) is independent of src/simulate.
 #include <ostream>
 #include <string>
 #include <vector>

@@ -75,8 +75,8 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     // World positions must be correct on different sheets, including far from the seams.
     Locator locator{DeviceOptions{}};
     Camera camera = true_camera(model);
-    // The reference point is 20 mm to the right of the image, so that a wrong scale causes a
-    // visible error.
+    // The reference point is 20 mm to the right of the image centre, so that a wrong scale
+    // causes a visible error.
     camera.reference_px =
         PixelPoint{(model.width_px - 1) / 2.0 + 20 / model.mm_per_px, (model.height_px - 1) / 2.0};
     for (const auto& [x_mm, y_mm] : {std::pair(20.0, 40.0), std::pair(90.0, 110.0)}) {

@@ -130,7 +130,8 @@ TEST_F(ResolutionTest, survives_exif_data_that_are_damaged) {
     const std::string exif = test::exif_of({test::date_taken, test::focal_length}, false);
     const std::string jpeg = test::jpeg_of(image_, 90);
     for (std::size_t size = 0; size < exif.size(); ++size) {
-        // The last entry is complete. Only the offset of the next directory is missing.
+        // True if the last entry is complete, that is, if at most the offset of the next directory
+        // (4 bytes) is truncated.
         const bool is_whole = size + 4 >= exif.size();
         EXPECT_EQ(is_photo({exif.begin(), exif.begin() + static_cast<std::ptrdiff_t>(size)}),
                   is_whole)

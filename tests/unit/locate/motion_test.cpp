@@ -86,7 +86,7 @@ Series run_series(Locator& locator, const ShotSize& size, int count, float sigma
         const auto index = static_cast<std::uint64_t>(i);
         Shot shot = is_on_sheet ? shot_on_sheet(size, index) : shot_of(size, kSeed, index);
         Rng rng(kSeed, 1'000'000 + index);
-        // A frame without a motion ends the previous series.
+        // Calling `locate` without a measured motion ends the previous series.
         static_cast<void>(locator.locate(render_scene(Scene::white, shot).view()));
         MeasuredMotion motion;
         bool is_located = false;

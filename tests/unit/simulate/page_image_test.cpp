@@ -80,8 +80,8 @@ TEST(PageImage, ShowsWhatThePatternShows) {
         int largest = 0;
         for (std::size_t i = 0; i < image.pixels.size(); ++i)
             largest = std::max(largest, std::abs(image.pixels[i] - expected.pixels[i]));
-        // These limits are small: dots are about 60 grey levels darker than the paper, and the
-        // levels at their edges change by about 30 per pixel.
+        // A difference of 2 grey levels is small: dots are about 60 levels darker than the paper,
+        // and the level changes by about 30 per pixel at their edges.
         EXPECT_LE(largest, 2);
         EXPECT_LT(*std::min_element(expected.pixels.begin(), expected.pixels.end()), 130);
     }

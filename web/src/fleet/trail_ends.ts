@@ -7,8 +7,8 @@ import type { Positions, Trails } from "./messages.js";
  * screen to appear as curves, so only the newest position is kept.
  */
 const kMaxRobots = 500;
-/** Maximum number of positions in the end of a trail. It limits the memory of pages that receive no trails for some
- * time. */
+/** Maximum number of positions in the end section of a trail. The limit bounds the memory used by a page that
+ * receives no trails for some time. */
 const kMaxPoints = 100;
 
 export class TrailEnds {

@@ -69,7 +69,7 @@ export class StepList {
         }
     }
 
-    /** Shows a state. `state` is null if the program may not calibrate. */
+    /** Shows a state. `state` is null if the program is not permitted to calibrate. */
     show(state: CalibrationState | null): void {
         for (const [name, { value, button, item }] of this.#items) {
             const text = state?.values[name] ?? "";

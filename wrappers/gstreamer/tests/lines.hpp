@@ -43,7 +43,8 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
         for (std::size_t i = 0; i < line.size(); ++i)
             expect_value_of(key, line[i], told[i]);
     } else if (line.is_string()) {
-        // If there is no fix, the line gives a more detailed reason than the message does.
+        // If there is no fix, the field `message` is more detailed in the line than in the
+        // element's message.
         if (key != "message") {
             EXPECT_EQ(line, told) << key;
         }

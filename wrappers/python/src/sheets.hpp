@@ -29,7 +29,7 @@ struct SeenPlace {
     SheetPlace place;
     SheetEntry entry;
 };
-/// Adds a copy of the sheet's entry to the place. Returns none if there is no place.
+/// Adds a copy of the sheet's entry to the place. Returns nullopt if there is no place.
 std::optional<SeenPlace> seen_place(const std::optional<SheetPlace>& place);
 
 /// Returns the covariance as a 3 x 3 array.

@@ -63,8 +63,8 @@ class RobotLocator {
     /// Returns true if poses in space are fitted once the lens is known.
     bool has_space_pose() const { return options_.fits_space_pose; }
 
-    /// Returns the mount of the camera. Returns none if the camera file does not contain a mount,
-    /// or if poses in space are fitted.
+    /// Returns the mount of the camera. Returns nullopt if the camera file does not contain a
+    /// mount, or if poses in space are fitted.
     std::optional<dotpose::ros::TransformStamped> mount(std::int64_t time_ns) const;
 
   private:
