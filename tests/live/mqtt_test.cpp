@@ -276,11 +276,12 @@ TEST_F(Mqtt, PresenceIsBrokenWhenTheRobotVanishes) {
     const Heard early(options(broker));
     const pid_t robot = fork();
     if (robot == 0) {
-        MqttPublisher publisher(with_presence(options(broker)));
-        publisher.publish("t", "here");
-        publisher.flush(5s);
-        kill(getpid(), SIGKILL);
+        const MqttPublisher publisher(with_presence(options(broker)));
+        for (;;)
+            pause();
     }
+    wait_until([&] { return early.words() == "online "; });
+    kill(robot, SIGKILL);
     waitpid(robot, nullptr, 0);
     wait_until([&] { return early.words() == "online broken "; });
     const Heard late(options(broker));
