@@ -3,8 +3,8 @@
 //   dotpose_tables accuracy [--quick] [--update docs/accuracy.md] [--seed S] [FOLDER]
 //
 // Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER (default:
-// accuracy-out). --update also replaces the generated blocks in the document and its pictures.
-// --quick locates only a tenth of the frames. This is enough to test the program, but not to obtain
+// accuracy-out). --update also replaces the document's generated blocks and its pictures. --quick
+// locates only a tenth of the frames. This is enough to test the program, but not to obtain
 // accurate numbers.
 #include <array>
 #include <cmath>
@@ -106,9 +106,8 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the most difficult value of a condition at which at least a fraction `share` of the
-/// frames is still located. For the spacing, which has a lower and an upper limit, returns the
-/// range between the two limits.
+/// Returns the most difficult value of a condition at which the fraction of located frames is at
+/// least `share`. For the spacing, returns the range between its lower and its upper limit.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];

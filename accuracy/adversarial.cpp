@@ -5,8 +5,8 @@
 //   [--threads N]
 //
 // Locates N frames. They are divided equally among the classes in tests/adversarial_frames.hpp.
-// With --class, all frames are of class NAME. The exit status is 1 if any fix is wrong. Ctrl-C ends
-// the run early and prints the results so far. Times are CPU times.
+// With --class, all frames belong to the class NAME. The exit status is 1 if any fix is wrong.
+// Ctrl-C ends the run early and prints the results so far. Times are CPU times.
 #include <algorithm>
 #include <array>
 #include <ctime>
@@ -43,7 +43,7 @@ struct ClassTally {
     Counts verdicts{};
     double rendering_s = 0;
     double locating_s = 0;
-    double longest_s = 0;  ///< longest CPU time of a single call of `locate`
+    double longest_s = 0;  ///< longest CPU time of a single call to `locate`
 
     ClassTally& operator+=(const ClassTally& other) {
         for (std::size_t v = 0; v < verdicts.size(); ++v)
@@ -70,11 +70,11 @@ struct AdversaryTally {
     }
 };
 
-/// How the code variant is determined: taken from the options of the frame, or detected by the
-/// locator.
+/// Source of the code variant: the frame's options, or detection by the locator.
 enum class Code : std::uint8_t { given, automatic };
 
-/// Locates a frame. If the code variant is detected, stores it in the options of the frame.
+/// Locates a frame. If the locator detects the code variant, stores the variant in the frame's
+/// options.
 Fix locate(test::AdversarialFrame& frame, Code code) {
     if (code == Code::given)
         return Locator(thread_memory(), frame.options).locate(frame.image.view());

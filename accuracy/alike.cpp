@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kReference_deg = 7;
 constexpr std::array kAngles_deg{0.0, 45.0, 90.0};
-/// The table marks values outside these limits with "!". The limits apply to the error relative to
-/// the error at 7 degrees, and to the mean of error^2 / variance.
+/// Limits for the error relative to the error at 7 degrees, and for the mean of error^2 / variance.
+/// The table marks values outside these limits with "!".
 constexpr double kMaxErrorRatio = 2;
 constexpr std::array kNormalisedRange{0.7, 1.5};
 

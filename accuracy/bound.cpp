@@ -36,7 +36,7 @@ struct BoundFrames {
     /// Angle of the image x axis, or a negative value to draw a random angle for each frame.
     double theta_rad;
     double motion_px;  ///< length of the motion blur
-    double fall;       ///< relative drop of the illumination across the image
+    double fall;       ///< relative decrease in illumination across the image
 };
 
 constexpr double kAnyAngle = -1;
@@ -83,7 +83,7 @@ double bound_px(const BoundFrames& frames, const DotImage& dot) {
             }
         }
     }
-    constexpr double kRounding = 1.0 / 12;  // variance of the rounding to integer grey levels
+    constexpr double kRounding = 1.0 / 12;  // variance of the error due to rounding to integers
     const double contrast = kPaper * (1 - kInk);
     const double dots =
         1.0 * frames.width_px * frames.height_px / (frames.spacing_px * frames.spacing_px);

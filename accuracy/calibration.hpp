@@ -73,12 +73,12 @@ struct Numbers {
 /// with the calibrated cameras. Prints tables in Markdown.
 void measure_lenses(std::uint64_t small_cameras, std::uint64_t large_cameras, const TableRun& run);
 
-/// Measures the errors of the reference point that is calibrated by turning a robot on the spot.
+/// Measures the errors of reference points that are calibrated by turning a robot on the spot.
 /// Prints a table.
 void measure_spins(std::uint64_t count, const TableRun& run);
 
-/// Measures the errors of stitching four adjacent sheets with different print scales. Prints a
-/// table.
+/// Measures the errors of the sheet poses that result from stitching four adjacent sheets with
+/// different print scales. Prints a table.
 void measure_stitching(std::uint64_t count, const TableRun& run);
 
 /// Writes the frames for the example in docs/calibration.md to `folder`.

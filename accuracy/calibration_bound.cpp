@@ -77,9 +77,9 @@ Vector2d on_paper_at(const Camera& camera, PixelPoint pixel) {
     return {point.x_mm, point.y_mm};
 }
 
-/// Returns the change in a dot's position on the paper per step of each parameter. The last column
-/// is the derivative with respect to the length of the dots' displacement, which is also unknown
-/// because it depends on ink and blur.
+/// Returns a column for each parameter: the change in a dot's position on the paper if the
+/// parameter changes by one step. The last column is the derivative with respect to the length of
+/// the dots' displacement. This length is also unknown, because it depends on ink and blur.
 MatrixXd jacobian(const Camera& camera, const TrueDot& dot,
                   const std::vector<Parameter>& parameters) {
     MatrixXd rows(2, static_cast<Eigen::Index>(parameters.size()) + 1);

@@ -1,5 +1,5 @@
-// Reference values for the errors of a calibration: the residuals of the dots for the true
-// parameters, and the Cramer-Rao bounds on the parameter errors for a given jitter of the printed
+// Reference values for the errors of a calibration: the residuals of the dots given the true
+// parameters, and the Cramer-Rao bounds on the parameter errors given the jitter of the printed
 // dots.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace dotpose::tables {
 
-/// A dot used by a calibration, with its residual for the true parameters.
+/// A dot used by a calibration, with its residual given the true parameters.
 struct TrueDot {
     int frame = 0;
     PixelPoint pixel;

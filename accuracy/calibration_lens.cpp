@@ -30,8 +30,8 @@ struct CameraKind {
     bool is_mounted = true;
 };
 
-/// Returns the camera model from the paper. Its field of view is 54 degrees, or 8.6 x 5.5 mm on the
-/// sheet after the distortion is corrected. The distortion in the corners is 12 %.
+/// Returns the camera model described in the paper. Its field of view is 54 degrees, or 8.6 x 5.5
+/// mm on the sheet after the distortion is corrected. The distortion in the corners is 12 %.
 CameraModel small_camera() {
     CameraModel camera;
     camera.k = -8.7e-6;
@@ -52,7 +52,7 @@ struct LensTally {
     Numbers residual;     ///< residual divided by the residual with the true parameters
     Errors located;       ///< position errors with the calibrated camera, um per axis
     Errors undistorted;   ///< position errors with a distortion-free lens, um per axis
-    int not_located = 0;  ///< number of frames that are not located with the calibrated camera
+    int not_located = 0;  ///< number of frames not located with the calibrated camera
     int not_good = 0;
     int wrong_kind = 0;
 
@@ -74,7 +74,7 @@ struct LensTally {
 struct Series {
     const CameraKind& kind;
     std::uint64_t seed;
-    CameraPose mounted;  ///< only the tilt is used, which is constant for a mounted camera
+    CameraPose mounted;  ///< only its tilt is used, which is constant for a mounted camera
 
     Series(const CameraKind& k, std::uint64_t s, std::uint64_t index)
         : kind(k), seed(scramble(s) + index) {
@@ -194,8 +194,8 @@ void measure_residual(const LensCalibration& found, const std::vector<Shot>& sho
     tally.residual.add(found.residual_px / std::sqrt(squares / count));
 }
 
-/// Locates further frames with the calibrated camera, and frames of the same camera without lens
-/// distortion for comparison.
+/// Locates further frames with the calibrated camera. For comparison, also locates the frames that
+/// the camera would take without lens distortion.
 void measure_positions(const Series& series, const Camera& camera, LensTally& tally) {
     Locator locator{DeviceOptions{}};
     Locator undistorted{DeviceOptions{}};

@@ -1,5 +1,5 @@
-/// Replaces the generated blocks in a document, each of which is between `<!-- begin NAME -->` and
-/// `<!-- end NAME -->`.
+/// Replaces the generated blocks in a document. A block is the text between `<!-- begin NAME -->`
+/// and `<!-- end NAME -->`.
 #pragma once
 
 #include <filesystem>

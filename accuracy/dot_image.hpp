@@ -1,6 +1,6 @@
-/// Computes the image of a dot from its geometry and draws frames from such dots. This renderer
-/// shares no code with the simulator (`render`) or the core, so it can reveal errors in the
-/// simulator.
+/// Computes the image of a dot from its geometry, and renders frames from these dot images. This
+/// renderer shares no code with the simulator (`render`) or the core, so it can reveal errors in
+/// the simulator.
 #pragma once
 
 #include <vector>

@@ -11,7 +11,7 @@ void follow_drive(const test::Drive& drive, const test::DriveCamera& camera, int
     FollowerOptions options;
     options.sheets = test::drive_sheets();
     options.print_map = map;
-    options.locate.show_stages = true;  // as `dotpose watch` does
+    options.locate.show_stages = true;  // `dotpose watch` also sets this option
     options.track.max_speed_mm_s = 400;
     Follower follower(options);
     for (int index = 0; index < drive.frames() && !cli::interrupted(); index += step) {

@@ -100,7 +100,7 @@ struct GoldenTally {
         std::uint64_t located = 0;
     };
     std::uint64_t pixels = 0;
-    std::array<Fixes, kMaxWays> fixes;  ///< same indices as `GoldenSet::ways`
+    std::array<Fixes, kMaxWays> fixes;  ///< indexed like `GoldenSet::ways`
 
     GoldenTally& operator+=(const GoldenTally& other) {
         pixels += other.pixels;

@@ -5,11 +5,11 @@
 //
 // A grid consists of bits with random errors and is decoded without an image. As in the model from
 // which p_wrong is computed, the errors are independent, and bits of larger weight have fewer
-// errors. The error rate of doubtful grids is chosen for a p_wrong of 1e-5 to 1e-3. With such a
-// p_wrong, wrong positions are frequent enough to show whether p_wrong is too small. Frames are
-// images of patterns with flipped bits, which `locate` reads. The exit status is 1 if significantly
-// more positions are wrong than p_wrong predicts. Ctrl-C ends the run early and prints the results
-// so far.
+// errors. The error rate of doubtful grids is chosen for a p_wrong of 1e-5 to 1e-3. In this range,
+// wrong positions are frequent enough to show whether p_wrong is too small. Frames are images of
+// patterns with flipped bits, which `locate` reads. The exit status is 1 if significantly more
+// positions are wrong than p_wrong predicts. Ctrl-C ends the run early and prints the results so
+// far.
 #include "integrity.hpp"
 
 #include <algorithm>

@@ -23,7 +23,7 @@ struct Reading {
     core::Grid grid;
     CodeVariant code = CodeVariant::anoto;
     QuarterTurn turn;
-    Place place;  ///< true place of grid cell (0, 0)
+    Place place;  ///< true position of grid cell (0, 0)
 };
 
 /// Returns the grid cell that `core::turned` converts to the bits `x` and `y`.
@@ -56,8 +56,8 @@ struct Noise {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// Returns the expected information in each of a cell's two bits, in bits, averaged over all
-    /// weights. A missing cell contains no information.
+    /// Returns the expected information in a bit of a cell, in bits, averaged over all weights.
+    /// Missing cells contain no information.
     double information() const {
         double sum = 0;
         for (int weight = min_weight; weight <= 127; ++weight)
@@ -66,10 +66,10 @@ struct Noise {
     }
 };
 
-/// Draws random odds of a correct bit, such that a reading with `cells` cells is doubtful. Along
-/// one axis, there are 2^36.6 combinations of position, section and turn. The decoder needs 36.6
-/// bits to distinguish them, and about 30 more bits to make a wrong position unlikely. The wanted
-/// number of bits is drawn from a range around this sum.
+/// Draws a random `odds_log2` with which a reading of `cells` cells is doubtful. Along one axis,
+/// there are 2^36.6 combinations of position, section and turn. The decoder needs 36.6 bits of
+/// information to distinguish these combinations, and about 30 more bits to make a wrong position
+/// unlikely. The total information is therefore drawn from a range around 67 bits.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;
@@ -124,8 +124,8 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     }
 }
 
-/// Returns true if the decoded orientation is correct and all symbols at the decoded place are
-/// equal to the symbols at the true place.
+/// Returns true if the decoded orientation is correct and the symbols at the decoded position are
+/// equal to the symbols at the true position.
 bool is_right(const Reading& reading, const Decoding& decoding) {
     if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return false;
     const core::Grid& grid = reading.grid;
@@ -162,9 +162,9 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Returns true if p_wrong is probably near 1e-5, where the most readings are needed. The selected
-/// readings also include enough with a p_wrong near 1e-4 and 1e-3. Other readings are skipped,
-/// because `verify` takes 20 times as long as all previous steps together.
+/// Returns true if p_wrong is probably near 1e-5, the range that requires the most readings. The
+/// selection also includes enough readings with p_wrong near 1e-4 and 1e-3. Other readings are
+/// skipped, because `verify` takes 20 times as long as all previous steps together.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);

@@ -82,8 +82,8 @@ Shot draw_on_page(const ViewSize& size, std::uint64_t seed, std::uint64_t index,
     return shot;
 }
 
-/// Removes all dots except a strip of `rows` rows or columns of the pattern. The strip crosses the
-/// whole width of the image at a random height and is tilted by up to 5 degrees.
+/// Keeps only the dots in a strip of `rows` rows or columns of the pattern. The strip spans the
+/// width of the image at a random height and is tilted by up to 5 degrees.
 void leave_strip(Shot& shot, const ViewSize& size, int rows) {
     constexpr double kMaxTurn_rad = 5 * std::numbers::pi / 180;
     Rng rng(shot.seed, 3);
@@ -106,8 +106,8 @@ void leave_strip(Shot& shot, const ViewSize& size, int rows) {
     shot.page.areas = {strip};
 }
 
-/// Estimates the fraction of the dots that touch the graphics. It is computed as the fraction of
-/// the pixel positions at which a dot would touch the graphics.
+/// Estimates the fraction of the dots that touch the graphics. The estimate is the fraction of
+/// pixel positions at which a dot would touch the graphics.
 double fraction_hidden(const Shot& shot) {
     constexpr double kPaper = 255;
     constexpr int kDotRadius_px = 2;
@@ -116,7 +116,7 @@ double fraction_hidden(const Shot& shot) {
     bare.imperfections.paper_level = kPaper;
     bare.imperfections.graphics = shot.imperfections.graphics;
     bare.imperfections.sub_pixels = 2;
-    bare.page.columns = bare.page.rows = 1;  // one dot, far outside the view
+    bare.page.columns = bare.page.rows = 1;  // the only dot is far outside the view
     const GreyImage image = render(bare);
     int touched = 0;
     int places = 0;

@@ -1,4 +1,4 @@
-// Measures the fraction of degraded frames that is located. Prints the table for docs/limits.md in
+// Measures what fraction of degraded frames is located. Prints the table for docs/limits.md in
 // Markdown.
 //
 //   dotpose_tables limits [--frames N] [--seed S] [--threads N]

@@ -31,7 +31,7 @@ constexpr double kPenRate_hz = 200;
 constexpr int kStrokesPerWord = 4;
 constexpr int kDrawnStrokes = 12;
 
-/// Returns a shot of a pen. The printing errors depend on the seed.
+/// Returns a shot taken by the camera of a pen. The seed also determines the printing errors.
 Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
     Shot shot = test::pen_shot(seed, index);
     shot.page.seed = seed;
@@ -55,7 +55,7 @@ PivotCalibration calibrated(std::uint64_t seed, double max_tilt_deg) {
 }
 
 struct PivotTally {
-    std::array<Errors, 4> errors;  ///< x, y and z of the tip, and its height at rest
+    std::array<Errors, 4> errors;  ///< errors of the tip's x, y and z, and of its height at rest
     double residual_mm = 0;
     double error_ratio = 0;
 
@@ -99,7 +99,7 @@ struct InkTally {
     Errors smoothed;
     std::uint64_t strokes = 0;
     std::uint64_t found = 0;      ///< number of strokes in the recorded ink
-    std::uint64_t late_ends = 0;  ///< number of starts and ends that are off by more than one frame
+    std::uint64_t late_ends = 0;  ///< number of stroke starts and ends off by two or more frames
     int largest_delay = 0;        ///< largest error of a stroke start or end, in frames
 
     void operator+=(const InkTally& other) {

@@ -18,7 +18,7 @@ namespace dotpose::tables {
 namespace {
 
 constexpr double kMaxRepeatability_um = 0.12;
-constexpr double kMaxAbsolute = 0.2;  ///< relative to the absolute error without the map
+constexpr double kMaxAbsolute = 0.2;  ///< limit relative to the absolute error without the map
 
 struct PrintKind {
     const char* name;

@@ -1,12 +1,12 @@
 // Measures how much a map of the print improves the positions of a driving robot
-// (docs/print-map.md). The drive is the same as in `dotpose_tables drive`, on a print with jitter
-// and on a print with jitter and a feed wave. The map is made from other frames, which cover the
-// whole rectangle around the path. A map of only the narrow band along the path would be distorted.
+// (docs/print-map.md). Simulates the drive of `dotpose_tables drive` on a print with jitter, and on
+// a print with jitter and a feed wave. The map is made from other frames, which cover the whole
+// rectangle around the path. A map of only the narrow band along the path would be distorted.
 //
 //   dotpose_tables print_map_drive [--frames N] [--update DOCUMENT]
 //
 // The exit status is 1 if an error with the map exceeds 0.12 µm, or if an absolute error with the
-// map exceeds a fifth of the absolute error without it.
+// map exceeds a fifth of the absolute error without the map.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +28,7 @@ namespace {
 
 constexpr double kSpeed_mm_s = 300;
 constexpr double kMaxError_um = 0.12;
-constexpr double kMaxAbsoluteError = 0.2;  ///< relative to the absolute error without the map
+constexpr double kMaxAbsoluteError = 0.2;  ///< limit relative to the absolute error without the map
 
 struct DrivePrint {
     const char* name;
@@ -44,8 +44,8 @@ Vec2 feed_wave(double wave_mm, Vec2 place_grid) {
     return {0.1 * wave_mm * std::cos(phase), wave_mm * std::sin(phase)};
 }
 
-/// Returns a state with a random position in the rectangle around the figure eight, and a random
-/// angle.
+/// Returns a state with a random angle and a random position in the rectangle around the figure
+/// eight.
 test::DriveState state_in_area(std::uint64_t index) {
     Rng rng(500, index);
     test::DriveState state;
@@ -66,8 +66,8 @@ PrintMapResult map_of_area(const test::DriveCamera& camera, std::uint64_t frames
     return mapping.solve();
 }
 
-/// Errors of the positions measured in the individual frames of a drive, before the tracker filters
-/// them.
+/// Errors of the positions measured in the individual frames of a drive, before filtering by the
+/// tracker.
 struct RawErrors {
     test::DriveErrors all;
     std::array<test::PlaceErrors, 2> pages;  ///< errors on the left and the right page

@@ -22,8 +22,8 @@ namespace {
 
 using calibrate::MapSolution;
 
-/// Returns the rms error of the offsets per axis, in µm, after the mean shift, turn and scale are
-/// subtracted.
+/// Returns the rms error of the offsets per axis, in µm, after subtraction of the mean shift, turn
+/// and scale.
 double offset_error_um(const test::SolverInput& input, const MapSolution& solution) {
     const auto errors = test::offset_errors_mm(input, solution);
     double squares = 0;

@@ -17,13 +17,13 @@
 namespace dotpose::tables {
 namespace {
 
-/// The lenses of the table `space`, and lenses with a narrow field of view, for which perspective
-/// hardly distinguishes the two possible poses of a view.
+/// The lenses from the table `space`, and lenses with a narrow field of view. With a narrow field
+/// of view, perspective hardly distinguishes the two possible poses.
 constexpr std::array kSecondLenses = {kSpaceLenses[0], kSpaceLenses[1],
                                       SpaceLens{"10 degrees", 167, -0.03e-6},
                                       SpaceLens{"2 degrees", 838, 0}};
 
-/// A range of tilts, from which tilts are drawn uniformly.
+/// A range from which tilts are drawn uniformly.
 struct TiltRange {
     double from_deg;
     double to_deg;
@@ -33,10 +33,10 @@ constexpr std::array kTiltRanges = {TiltRange{0, 15}, TiltRange{15, 30}, TiltRan
 struct SecondTally {
     std::uint64_t frames = 0;
     std::uint64_t located = 0;
-    std::uint64_t second = 0;  ///< number of frames with a second pose, whether excluded or not
+    std::uint64_t second = 0;  ///< number of frames with a second pose, even if ruled out
     std::uint64_t ambiguous = 0;
     std::uint64_t swapped = 0;  ///< number of ambiguous frames whose second pose is more accurate
-    double expected = 0;        ///< expected number of swapped frames, according to the odds
+    double expected = 0;        ///< expected value of `swapped`, computed from the odds
     std::uint64_t wrong = 0;    ///< number of wrong poses that are not reported as ambiguous
 
     void operator+=(const SecondTally& other) {

@@ -48,7 +48,7 @@ struct TrackErrors {
     double position = 0;             ///< sum of the squared errors, mm^2
     double rotation = 0;             ///< sum of the squared errors, rad^2
     double normalised = 0;           ///< sum of the normalised squared errors per coordinate
-    double velocity = 0;             ///< sum of the squared errors, mm^2/s^2
+    double velocity = 0;             ///< sum of the squared velocity errors, mm^2/s^2
     double normalised_velocity = 0;  ///< sum of the normalised squared errors per axis
 
     void add(const CameraInSpace& camera, const SpaceCovariance& covariance,
@@ -85,7 +85,7 @@ Eigen::Vector3d true_velocity_mm_s(const Shot& first, double t_s) {
     return (after.position_mm - before.position_mm) / (2 * kStep_s);
 }
 
-/// Tracks a sequence of sightings. Returns a table row with the errors.
+/// Tracks the camera through a sequence of sightings. Returns a table row with the errors.
 std::string row_text(double fps, const Shot& first, const std::vector<Shot>& shots,
                      const std::vector<std::optional<SpaceSighting>>& sightings) {
     SpaceTracker tracker;

@@ -28,8 +28,8 @@ bool is_in_view(const Shot& shot, const Vec2& pixel) {
            pixel.y <= camera.height_px - 1 - radius_px;
 }
 
-/// Returns the minimum length of a spacing in the image, in px, over all directions at a place on
-/// the paper.
+/// Returns the length of a spacing in the image, in px, at a point on the paper. The length depends
+/// on the direction, and the minimum over all directions is returned.
 double shortest_spacing_px(const Projection& projection, const Vec2& place_mm, double spacing_mm) {
     const auto step = [&](double x_mm, double y_mm) {
         const Vec2 to = projection.pixel_from_offset({place_mm.x + x_mm, place_mm.y + y_mm});
@@ -99,7 +99,7 @@ Shot space_shot(const SpaceLens& lens, double tilt_deg, std::uint64_t seed, std:
     Rng rng(shot.seed, 1);
     const double azimuth_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double tilt_rad = tilt_deg * std::numbers::pi / 180;
-    // The normal of the paper is tilted towards the azimuth.
+    // The normal of the paper is tilted in the direction `azimuth_rad`.
     shot.pose.tilt_y_rad = std::asin(std::sin(tilt_rad) * std::cos(azimuth_rad));
     shot.pose.tilt_x_rad =
         std::atan2(std::sin(tilt_rad) * std::sin(azimuth_rad), std::cos(tilt_rad));

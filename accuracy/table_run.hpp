@@ -36,8 +36,8 @@ struct Count : Done {
     Tally tally;
 };
 
-/// The run of one table. The function that implements the table adds its options to `command`,
-/// calls `parse`, performs the measurements, and prints the results.
+/// A run that produces one table. The function that implements the table adds its options to
+/// `command`, calls `parse`, performs the measurements, and prints the results.
 class TableRun {
   public:
     /// `what` is the first line of the help. `argv[0]` is ignored.
@@ -52,8 +52,8 @@ class TableRun {
     void add_count(const std::string& flag, std::uint64_t& count, const std::string& what);
     void add_seed();
     void add_threads();
-    /// Adds the option --update, which names the document whose generated blocks `update_document`
-    /// replaces.
+    /// Adds the option --update. Its value is the path of the document whose generated blocks
+    /// `update_document` replaces.
     void add_update();
     /// Parses the command line. Returns false if the help was requested and has been printed.
     /// Throws cli::UsageError, or Error if the document cannot be read.
@@ -79,9 +79,8 @@ class TableRun {
     /// Prints a generated block for the document, and stores it for `update_document`.
     void print_block(const std::string& name, const std::string& text);
     const Blocks& blocks() const { return blocks_; }
-    /// Replaces the generated blocks of the document with the printed blocks, if a document was
-    /// named. After an interruption, leaves the document unchanged, because the printed blocks may
-    /// be incomplete.
+    /// If a document was named, replaces its generated blocks with the printed blocks. After an
+    /// interruption, leaves the document unchanged, because the printed blocks may be incomplete.
     void update_document() const;
     const std::string& document() const { return document_; }
 

@@ -36,7 +36,7 @@ struct TrueView {
     }
 };
 
-/// Returns the quantile of the values for the probability `share`, or 0 if `values` is empty.
+/// Returns the `share` quantile of the values (0.5 for the median), or 0 if `values` is empty.
 inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
@@ -135,10 +135,10 @@ TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
 TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
 
 /// Returns the wrong position that is hardest to distinguish from `place` in a view of `lines`
-/// consecutive lines. The lines begin at `place`. They are columns if `is_along_x` is true, and
-/// rows otherwise. The wrong position differs from `place` in one secondary sequence of this axis
-/// and in the section, and shares as many of these lines as possible with `place`. The lines of the
-/// other axis are the same as at `place`.
+/// consecutive lines that begin at `place`. The lines are columns if `is_along_x` is true, and rows
+/// otherwise. The wrong position has a different section and a different position in one secondary
+/// sequence, and shares as many of the lines as possible with `place`. All perpendicular lines are
+/// the same as at `place`.
 Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose::tables

@@ -69,7 +69,8 @@ void follow(const DriveRate& rate, DriveTally& tally) {
     const auto take = [&](int, const test::DriveState& truth, const Followed& now) {
         if (truth.is_lifted) {
             since_put_down = 0;
-            // Every fix of a lifted robot is wrong. Lifted frames without a fix are not counted.
+            // While the robot is lifted, every fix is wrong, and frames without a fix are not
+            // counted.
             if (now.located.fix.status == Status::ok) count(now.located, truth, tally.seen);
             return;
         }

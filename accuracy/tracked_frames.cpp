@@ -44,7 +44,7 @@ Setup nominal(std::uint64_t seed) {
 }
 
 /// Locates a frame with predictions of increasing error. The first tally counts fixes without a
-/// prediction, and tally i + 1 counts the results with kOffsets[i].
+/// prediction. Tally i + 1 counts the results for a prediction with the error kOffsets[i].
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
     const Fix fresh = Locator(thread_memory(), DeviceOptions{}).locate(image.view());

@@ -9,7 +9,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// A correctly located frame, and the fix of another frame.
+/// A correctly located frame with its fix, and the fix of another frame.
 struct LocatedPair {
     Shot shot;
     GreyImage image;
@@ -22,7 +22,7 @@ std::int32_t between(std::uint32_t from, std::uint32_t to) {
 }
 
 /// Returns a prediction of the wrong position that shares the most lines with the true position.
-/// Compares the 10 to 16 lines in the middle of the view, which shows 11 to 18 lines.
+/// Considers only the 10 to 16 lines in the middle of the view, which shows 11 to 18 lines.
 template <bool is_along_x>
 Prediction worst(const LocatedPair& views, Rng& rng) {
     const Fix& fix = views.fix;

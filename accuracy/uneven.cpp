@@ -44,7 +44,7 @@ struct SheetFrames {
 /// Maximum error, in standard deviations, that is still consistent with the covariance of a fix.
 constexpr double kMaxSigmas = 4;
 
-/// Returns the largest of the errors of x, y and theta, each in units of its standard deviation.
+/// Returns the maximum of the errors in x, y and theta, each in units of its standard deviation.
 double max_error_sigmas(const Outcome& outcome) {
     const Deviation off = deviation_of(outcome.fix, outcome.truth);
     const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};

@@ -146,12 +146,12 @@ std::optional<View> draw_view(const ScannedPage& page, int width_px, int height_
 struct ViewCounts {
     int views = 0;
     int given = 0;  ///< number of views located with the given code
-    // The following counts include only the views counted in `given`. These views are located again
+    // The next four counts include only the views counted in `given`. These views are located again
     // with code detection.
     int alone = 0;        ///< number of views located without evidence from other views
-    int ambiguous = 0;    ///< number of views refused as `ambiguous_code` when read alone
+    int ambiguous = 0;    ///< number of views refused as `ambiguous_code` without such evidence
     int later_given = 0;  ///< number of views after the first kFirstViews
-    int later = 0;        ///< number of `later_given` views located using earlier views
+    int later = 0;        ///< number of `later_given` views located with earlier evidence
     int wrong = 0;
     double max_against_log2 = 0;  ///< maximum log2 evidence of a view against the given code
 };

@@ -12,8 +12,8 @@
 namespace dotpose::tables {
 namespace {
 
-/// A place, described relative to one axis: `position` and `section` along this axis, and `cross`
-/// and `cross_section` along the perpendicular axis.
+/// A place in the code, described relative to one axis: `position` and `section` refer to this
+/// axis, and `cross` and `cross_section` to the perpendicular axis.
 struct Along {
     std::uint32_t position;
     std::uint8_t section;
@@ -23,9 +23,9 @@ struct Along {
 
 using Places = std::array<std::uint32_t, 4>;
 
-/// Compares the rolls of `lines` consecutive lines at two places in a secondary sequence. Returns
-/// the largest number of lines whose rolls differ by the same amount, because a constant difference
-/// is equivalent to another section.
+/// Compares the rolls of `lines` consecutive lines at two positions in a secondary sequence.
+/// Returns the largest number of lines whose rolls differ by the same amount. These lines are
+/// shared, because another section can compensate for a constant difference.
 int shared_lines(const code::Secondary& sequence, std::uint32_t place, std::uint32_t other,
                  int lines) {
     std::array<int, kSections> counts{};

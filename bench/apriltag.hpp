@@ -24,13 +24,14 @@ std::vector<TagFrame> render_tags(const CameraModel& camera, int count);
 /// A single-threaded detector with the default options of libapriltag.
 class TagDetector {
   public:
-    /// `decimate` is the factor by which libapriltag reduces the image before it searches for tags.
+    /// `decimate` is the factor by which libapriltag downsamples the image before it searches for
+    /// tags.
     explicit TagDetector(int decimate);
 
     const apriltag_family_t& family() const { return *family_; }
     int detect(GreyImage& image);
-    /// Returns true if the tag in the frame is the only detection, its position is correct and none
-    /// of its bits are wrong.
+    /// Returns true if the tag is the only detection in the frame, its position is correct, and
+    /// none of its bits are wrong.
     bool is_right(TagFrame& frame);
 
   private:

@@ -15,8 +15,8 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the number of frames to render. It is large enough that caches and branch prediction do
-/// not adapt to individual frames, and small enough that rendering is quick.
+/// Returns the number of frames to render. The number is large enough that caches and branch
+/// prediction do not adapt to individual frames, and small enough that rendering is quick.
 int count_of(const CameraModel& camera) {
     constexpr int kMaxFrames = 20;
     constexpr int kPixels = 4'000'000;

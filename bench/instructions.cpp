@@ -33,7 +33,8 @@ extern "C" [[gnu::noinline]] void count_small_frame(const ImageView& image, Loca
     locator.locate(image);
 }
 /// Locates a frame whose code is not given. count_frame_in_code locates the same frame with the
-/// code given. The difference between their counts is the cost of detecting the code.
+/// code given. The difference between the instruction counts of the two functions is the cost of
+/// detecting the code.
 extern "C" [[gnu::noinline]] CodeReading count_frame_in_any_code(const ImageView& image,
                                                                  Locator& locator) {
     return locator.locate_in_any_code(image, {});
@@ -44,8 +45,9 @@ extern "C" [[gnu::noinline]] void count_frame_in_code(const ImageView& image, Lo
 
 namespace {
 
-/// Locates the frame twice, first without and then with a given code, and returns true. Counts
-/// nothing and returns false if the first attempt does not locate the frame in the code `anoto`.
+/// Counts the instructions needed to locate the frame, first without and then with a given code,
+/// and returns true. Counts nothing and returns false if the first attempt does not locate the
+/// frame in the code `anoto`.
 bool compare_codes(const ImageView& image, Locator& locator) {
     const auto is_settled = [](const CodeReading& reading) {
         return reading.fix.status == Status::ok && reading.fix.attempt == Attempt::first &&

@@ -92,7 +92,7 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
     state.counters["dots"] = dots / static_cast<double>(frames.size());
 }
 
-/// Benchmarks tracking. The prediction for each frame is its own fix.
+/// Benchmarks tracking. The prediction for each frame is the frame's own fix.
 void track_frames(benchmark::State& state, const CameraModel& camera) {
     Locator& locator = locator_for(camera, DeviceOptions{}.effort);
     const std::vector<KnownFrame>& frames = nominal_frames(camera);

@@ -174,7 +174,7 @@ bool fit_affine_pose(Located& l) {
 struct NamedStage {
     const char* name;
     Stage run;
-    bool is_part = false;  ///< true if the stage is part of the stage `position`
+    bool is_part = false;  ///< true if this stage is part of the stage `position`
 };
 constexpr std::array kStages = {
     NamedStage{"light", measure_light},
@@ -241,8 +241,8 @@ std::string stage_table(const Results& results) {
     for (const NamedStage& stage : kStages) {
         double us = results.of(name_of(stage)).us;
         // The pipeline alternates between blob detection and the update of the adaptive threshold,
-        // band by band. The benchmark of blob detection therefore includes both, and the time of
-        // the threshold is subtracted.
+        // band by band. The benchmark of blob detection therefore includes both steps, so the time
+        // of the threshold update is subtracted.
         if (stage.run == find_blobs) us -= results.of(name_of(kStages.front())).us;
         table +=
             fmt::format("| {} | {}{:.2f} |\n", stage.name, stage.is_part ? "of which " : "", us);

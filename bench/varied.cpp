@@ -1,4 +1,5 @@
-// Measures the time of each of many different frames to show how much the time varies.
+// Measures the time for each of many different frames, to show how much the time varies between
+// frames.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -124,7 +125,7 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
 
 /// Measures the time of every frame once. Each frame is first copied to the same memory, as with a
 /// real camera. All other frames are located between two measurements of a frame, so caches and
-/// branch prediction do not adapt to it.
+/// branch prediction do not adapt to the frame.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;
     GreyImage camera = *subject.frames.front();

@@ -15,7 +15,7 @@ TrackOptions PoseSender::device_tracking() {
 
 /// Begins a frame with the prediction from the tracker. After a frame without a pose, begins
 /// without a prediction. The rows of a frame are not stored, so a frame that does not confirm its
-/// prediction cannot be located again without it.
+/// prediction cannot be located again without the prediction.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =
@@ -26,7 +26,7 @@ Status PoseSender::begin(const board::Frame& frame) {
 Fix PoseSender::locate(const board::Frame& frame) {
     Status begun = begin(frame);
     // If the prediction cannot be used, for example because the robot was lifted, the frame is
-    // located without it.
+    // located without a prediction.
     if (begun == Status::not_tracked) begun = locator_.begin(frame.width_px, frame.height_px);
     // Reads all rows even if the frame was refused, to stay synchronised with the camera.
     for (int row = 0; row < frame.height_px; ++row) {

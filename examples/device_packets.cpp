@@ -1,5 +1,5 @@
-// Runs the program of a microcontroller on a desktop. It processes the image row by row, as a
-// camera delivers it, and writes each pose as a packet of 32 bytes.
+// Runs a microcontroller program on a desktop. The program processes each image row by row, as a
+// camera delivers the rows, and writes each pose as a packet of 32 bytes.
 //
 //     dotpose_device_packets frames/*.pgm > packets.bin
 //     dotpose listen packets.bin
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kFrameTime_us = 20'000;
 
-// All the memory that the locator uses: 13 KB. It allocates nothing on the heap.
+// All the memory that the locator uses: 13 KB. The locator allocates nothing on the heap.
 dotpose::DeviceMemory memory;
 
 }  // namespace
@@ -25,7 +25,7 @@ int main(int argc, char** argv) try {
     dotpose::DeviceLocator locator(memory);
     for (int i = 1; i < argc; ++i) {
         const dotpose::GreyImage image = dotpose::read_image(argv[i]);
-        // The status is ignored, because `finish` returns the same error.
+        // The status is ignored, because `finish` reports the same error.
         static_cast<void>(locator.begin(image.width_px, image.height_px));
         for (int row = 0; row < image.height_px; ++row)
             locator.push_row(image.view().row(row));

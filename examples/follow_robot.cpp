@@ -14,7 +14,7 @@ int main(int argc, char** argv) try {
     if (argc < 3) return std::fputs("usage: follow_robot FRAMES_PER_SECOND IMAGE...\n", stderr), 2;
     Locator locator;
     Tracker tracker;
-    Fix seen;  // newest fix; `sighting` is computed from it
+    Fix seen;  // newest fix, from which `sighting` is computed
     Sighting sighting;
     for (int i = 2; i < argc; ++i) {
         const GreyImage image = read_image(argv[i]);

@@ -1,4 +1,4 @@
-// Prints the position in the pattern that an image shows: dotpose_locate_one FRAME.pgm
+// Prints the position and angle of an image in the pattern: dotpose_locate_one FRAME.pgm
 #include <cstdint>
 #include <cstdio>
 #include <fstream>

@@ -102,8 +102,8 @@ Status begin_frame(const FrameHeader& frame) {
                               : locator.begin(frame.width_px, frame.height_px);
 }
 
-/// Reads the rows of a frame and locates it. Returns false if the file ends before the end of the
-/// frame.
+/// Reads the rows of a frame and locates the frame. Returns false if the file ends before the end
+/// of the frame.
 bool locate_frame(const FrameHeader& frame, Fix& fix) {
     markers::resume();
     const Status status = begin_frame(frame);

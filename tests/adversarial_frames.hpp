@@ -72,7 +72,7 @@ enum class Verdict : std::uint8_t {
     refused,
     right,
     second,  ///< the pose of another part of the pattern, extrapolated to the image centre
-    twin,    ///< a wrong place whose bits in `options.code` match the print (see `is_twin`)
+    twin,    ///< a wrong position where `options.code` matches the print (see `is_twin`)
     wrong,
 };
 
@@ -87,7 +87,7 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
 }
 
 /// Returns true if the pattern was printed in a code other than `frame.options.code`, but also
-/// matches that code at the fix. It matches if at least three quarters of the bits of
+/// matches that code at the fix. The pattern matches if at least three quarters of the bits of
 /// `frame.options.code` around the fix equal the bits printed around the first answer.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;

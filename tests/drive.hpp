@@ -1,6 +1,6 @@
 /// A simulated robot that drives a figure of eight over two sheets, rests, is lifted twice, and
-/// crosses printed graphics. Provides the frames of its camera and its true poses. The world frame
-/// is in mm, with y up.
+/// crosses printed graphics. Provides the camera frames and the true poses. The world frame is in
+/// mm, with y up.
 #pragma once
 
 #include <algorithm>
@@ -33,16 +33,16 @@ struct DriveState {
     bool has_graphics = false;
 };
 
-/// Times of the events of the drive, in s. Each event coincides with a frame.
+/// Times of the events during the drive, in s. Each event coincides with a frame.
 struct DrivePlan {
     double start = 0.8;  ///< end of the first rest
     double lift = 2.0;
-    double put_down = 2.3;  ///< put down at the other end of the path
+    double put_down = 2.3;  ///< the robot is put down at the other end of the path
     double graphics = 2.6;
     double graphics_end = 3.0;
     double second_lift = 3.4;
-    double second_put_down = 3.55;  ///< put down a little to the side
-    double stop = 4.5;  ///< beginning of the final rest, before which the robot slows down
+    double second_put_down = 3.55;  ///< the robot is put down a little to the side
+    double stop = 4.5;              ///< end of the deceleration, beginning of the final rest
     double end = 5.5;
     /// Maximum speed, reached in the middle of the path. It is 0 for a robot that does not move.
     double speed_mm_s = 300;

@@ -1,4 +1,4 @@
-/// Errors of the readings on a simulated drive, relative to the true poses.
+/// Errors in the readings from a simulated drive, relative to the true poses.
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,7 @@ struct DriveReading {
     double turn_rad_s = 0;
 };
 
-/// Errors of position (per axis), heading and velocities. The rms errors exclude the frame of each
+/// Errors in position (per axis), heading and velocity. The rms errors exclude the frame of each
 /// event `fix` and the next two frames, because a new filter has not yet estimated the velocity.
 class DriveErrors {
   public:

@@ -124,8 +124,8 @@ class InkMlCheck {
                              std::strtod(value("max", "1e300").c_str(), nullptr)});
     }
 
-    /// Checks that each point has a decimal number for each channel, within the range of the
-    /// channel.
+    /// Checks that each point has a decimal number for each channel, and that the number is within
+    /// the range of the channel.
     void check_trace(const std::string& text) {
         ++traces_;
         static const std::regex separator(",");

@@ -19,7 +19,7 @@ class JsonSchema {
 
     struct Verdict {
         std::vector<std::string> errors;  ///< empty if the value is valid
-        /// Keys of the top-level object that the schema describes.
+        /// Keys of the checked object (top level only) that the schema describes.
         std::set<std::string> described_keys;
     };
 

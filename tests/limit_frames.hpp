@@ -19,7 +19,7 @@ struct Limit {
     std::string condition;
     std::function<void(Shot&)> worsen;
     CameraModel camera = {};
-    /// True if limits_test.cpp requires that all frames of this condition are located.
+    /// True if limits_test.cpp requires all frames of this condition to be located.
     bool is_held = true;
     FixedLens lens = {};  ///< lens passed to `locate`
     bool is_white_on_black = false;
@@ -80,7 +80,7 @@ inline void add_light(std::vector<Limit>& limits) {
                               constexpr double kLeft = 0.3;
                               Imperfections& worse = shot.imperfections;
                               worse.fall = 2 * (1 - kLeft) / (1 + kLeft);
-                              // The lighter side keeps the paper level of the original shot.
+                              // The brighter side keeps the paper level of the original shot.
                               worse.paper_level /= 1 + worse.fall / 2;
                               worse.vignetting = vignetting;
                           }});
@@ -273,7 +273,8 @@ inline void add_partial(std::vector<Limit>& limits) {
         PartialView islands;
         islands.islands = 3;
         part("dots on 15 to 45 % of the area, the rest paper", {});
-        // At 20 px, some strips have only seven rows, which is not enough for a certain fix.
+        // At a spacing of 20 px, some strips have only seven rows, which is not enough for a
+        // certain fix.
         limits.back().is_held = spacing_px < 20;
         part("the same, the rest a dark table", on_table);
         part("three islands of 60 dots and more", islands);

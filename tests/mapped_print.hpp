@@ -1,6 +1,6 @@
 /// Simulates a print whose dots have random errors (jitter) and a periodic error along the paper
-/// feed (wave). Provides frames from which the map of the print is computed, and other frames that
-/// test the map.
+/// feed (wave). Provides frames for computing the map of the print, and other frames for testing
+/// this map.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-/// Paths of the files that tests use. A separate source file defines them, to keep the object files
-/// of the tests independent of the location of the checkout.
+/// Paths of the files that tests use. A separate source file defines them, so that the object files
+/// of the tests do not depend on the location of the checkout.
 #pragma once
 
 #include <string>

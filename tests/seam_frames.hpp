@@ -1,6 +1,7 @@
-/// Frames of two adjacent sheets with a straight seam. Their renderer shares no code with the
-/// simulator and therefore cannot repeat its errors. Dots are discs that are cut off at the seam.
-/// The renderer samples 6 x 6 points per pixel, and then adds blur, light and noise.
+/// Frames of two adjacent sheets, which are separated by a straight seam. The renderer of these
+/// frames shares no code with the simulator, so it cannot repeat the simulator's errors. Dots are
+/// discs that are cut off at the seam. The renderer samples 6 x 6 points per pixel, and then adds
+/// blur, light and noise.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@ struct SeamShot {
     int width_px = 188;
     int height_px = 120;
     double spacing_px = 11;
-    Cell cell;  ///< cell at the image centre, to which `fraction_x` and `fraction_y` are added
+    Cell cell;  ///< integer part of the pattern position at the image centre
     Section section;
     double fraction_x = 0;
     double fraction_y = 0;
@@ -38,7 +39,7 @@ struct SeamShot {
     double shift_y_px = 0;
 
     double paper_level = 190;
-    double fall = 0.1;  ///< relative decrease of the light from the left to the right side
+    double fall = 0.1;  ///< relative decrease in brightness from the left to the right side
     double blur_px = 0.6;
     double noise = 3;
     double jitter_grid = 0.02;  ///< standard deviation of the printed dot positions, per axis
@@ -54,7 +55,8 @@ struct SeamShot {
     }
 };
 
-/// Ink coverage of an image, including a border around the image that the blur needs.
+/// Ink coverage of each pixel of an image. Includes a border around the image, which the blur
+/// needs.
 class InkMap {
   public:
     InkMap(int width_px, int height_px)
@@ -62,8 +64,8 @@ class InkMap {
           rows_(static_cast<std::size_t>(height_px) + 2 * kBorder),
           ink_(columns_ * rows_) {}
 
-    /// Adds ink at the points for which `is_ink` returns true. Searches only pixels up to `radius`
-    /// from (x, y) along each axis. All lengths are in px.
+    /// Adds ink at the points for which `is_ink` returns true. Tests only pixels within `radius` of
+    /// (x, y) along each axis. All lengths are in px.
     template <typename IsInk>
     void add(double x, double y, double radius, IsInk is_ink) {
         constexpr int kSamples = 6;

@@ -1,6 +1,6 @@
-/// Frames of sheets that are not planar: wrinkled paper, and sheets with two halves that are
-/// displaced relative to each other, because of faulty paper feed or a seam between two sheets.
-/// The true pose is the pose of the shot. It refers to the part of the paper at the image centre.
+/// Frames of sheets that are not planar: wrinkled paper, and sheets whose two halves are displaced
+/// relative to each other, by faulty paper feed or at a seam between two sheets. The true pose is
+/// the pose of the shot. It refers to the part of the paper at the image centre.
 #pragma once
 
 #include <array>
@@ -79,8 +79,8 @@ inline void wrinkle(double amplitude_grid, Shot& shot) {
                 rng.uniform(0, 2 * std::numbers::pi),
                 {amplitude_mm * std::cos(moves_rad), amplitude_mm * std::sin(moves_rad)}};
     }
-    // The waves are corrected by a shift and a rotation, so that the paper is neither displaced nor
-    // rotated at the image centre.
+    // Computes a shift and a rotation that compensate for the waves at the image centre, so that
+    // the paper is neither displaced nor rotated there.
     const Vec2 axis{std::cos(shot.pose.theta_rad), std::sin(shot.pose.theta_rad)};
     Vec2 shift_there_mm;
     double turn_mm = 0;  // per spacing

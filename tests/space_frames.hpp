@@ -20,10 +20,10 @@ namespace dotpose::test {
 
 inline constexpr double kSpaceDistance_mm = 25;
 inline constexpr double kSpaceFps = 10;  ///< frame rate at which the tests play the frames
-/// Tilts of the frames. The camera leans towards +x.
+/// Tilt of the camera in each frame. The camera leans towards +x.
 inline constexpr std::array kSpaceTilts_rad = {0.1, 0.25, 0.4, 0.55};
 
-/// Writes the frames to the raw video space.raw, and the camera file camera.yaml.
+/// Writes the raw video space.raw, which contains the frames, and the camera file camera.yaml.
 inline void write_space_frames(const std::filesystem::path& folder) {
     const Sheet sheet = drive_sheets().front().sheet;
     CameraModel camera;
@@ -88,8 +88,8 @@ inline void expect_true_space_pose(std::size_t frame, const nlohmann::json& posi
     EXPECT_LT(error.dot(variances.ldlt().solve(error)), 30);
 }
 
-/// Expects that the odometry of the camera contains the true poses and, in the last frame, the
-/// velocities of the camera in its own frame.
+/// Expects the odometry to contain the true camera poses and, for the last image, the true
+/// velocities along and about the axes of the camera.
 inline void expect_true_camera_odometry(const std::vector<nlohmann::json>& odometry) {
     ASSERT_EQ(odometry.size(), kSpaceTilts_rad.size());
     for (std::size_t i = 0; i < odometry.size(); ++i) {

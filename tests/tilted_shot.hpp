@@ -7,7 +7,7 @@
 
 namespace dotpose::test {
 
-/// Distance from the projection centre to the point on the paper that the image centre shows.
+/// Distance from the projection centre to the paper, along the ray through the image centre.
 inline constexpr double kTiltedDistance_mm = 25;
 inline constexpr double kTilt_deg = 20;
 inline constexpr double kTilt_rad = kTilt_deg * std::numbers::pi / 180;

@@ -10,7 +10,9 @@ function filesBelow(folder) {
     });
 }
 
-/** Returns the code of the service worker, which contains the list of all files in the build and their hash. */
+/**
+ * Returns the code of the service worker, which contains a list of all files in the build and a hash of their contents.
+ */
 async function serviceWorker(paths, folder) {
     const hash = createHash("sha256");
     for (const path of paths) hash.update(path).update(readFileSync(path));

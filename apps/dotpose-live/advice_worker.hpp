@@ -33,7 +33,7 @@ class AdviceWorker {
     AdviceWorker(const AdviceWorker&) = delete;
     AdviceWorker& operator=(const AdviceWorker&) = delete;
 
-    /// Queues a refused frame for analysis. The queue holds one frame: a new frame replaces one
+    /// Queues a refused frame for analysis. The queue holds one frame. A new frame replaces a frame
     /// that is still waiting.
     void ask(Job job);
 

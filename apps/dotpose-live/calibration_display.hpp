@@ -1,6 +1,6 @@
 /// Display for `dotpose calibrate --live` while frames are being captured: a window or, if no
 /// window can be opened, the terminal. If standard error is not a terminal either, prints a line
-/// for each change.
+/// whenever the status changes.
 #pragma once
 
 #include <atomic>
@@ -17,14 +17,15 @@ namespace dotpose::cli {
 class CalibrationDisplay {
   public:
     explicit CalibrationDisplay(bool has_window);
-    /// Displays a frame, the trace of its stages, and the status. Returns false if the user closed
-    /// the window or pressed q or Escape in it.
+    /// Displays a frame, the trace of its stages, and the status. Returns false if the user has
+    /// closed the window, or pressed q or Escape in the window.
     bool show(const CalibrationStatus& status, ImageView image, const Trace& trace);
 
     /// Processes window events. Returns false if the user closed the window.
     bool is_wanted() { return screen_.is_wanted(); }
 
-    /// Writes a message to standard error. The next status does not overwrite it. Thread-safe.
+    /// Writes a message to standard error. The message is not overwritten by the next status.
+    /// Thread-safe.
     void say(const std::string& message);
 
   private:
@@ -33,7 +34,8 @@ class CalibrationDisplay {
     bool has_window_;
     bool on_terminal_;
     video::Screen screen_;
-    /// Number of terminal lines that the last status occupies. The next status overwrites them.
+    /// Number of terminal lines occupied by the last status. The next status overwrites these
+    /// lines.
     std::atomic<int> shown_lines_ = 0;
     std::chrono::steady_clock::time_point next_;
     std::string last_line_;

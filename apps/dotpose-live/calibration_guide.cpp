@@ -28,7 +28,8 @@ constexpr std::array<const char*, 5> kSteps = {"lens", "spin", "drive", "readout
 constexpr std::array<const char*, 6> kPhases = {"idle",   "collecting", "solving",
                                                 "solved", "failed",     "saved"};
 
-/// Returns the reason why a step cannot start with this camera, or an empty string if it can.
+/// Returns the reason why a step cannot start with this camera, or an empty string if the step can
+/// start.
 std::string problem_before(GuideStep step, const std::optional<Camera>& camera) {
     if (step == GuideStep::readout && !(camera && camera->paper)) {
         return "the camera file has no view of the paper: first calibrate the lens of the mounted "
@@ -359,8 +360,8 @@ void CalibrationGuide::write() {
         update([&error](GuideState& state) { state.problem = error.what(); });
         return;
     }
-    // The saved camera file records the flip, because later runs need it. The camera of this run
-    // must not record it, because the source already flips the frames.
+    // The saved camera file contains the flip setting, because later runs need it. The camera of
+    // this run must not contain the setting, because the source already flips the frames.
     camera.flip = false;
     update([&](GuideState& state) {
         state.phase = GuidePhase::saved;

@@ -3,7 +3,7 @@
 /// - the camera mount, from a turn on the spot,
 /// - the forward direction, from a straight drive,
 /// - the readout time, from a fast drive, and
-/// - the tip of a pen, from pivoting the pen about it.
+/// - the tip of a pen, from pivoting the pen about its tip.
 ///
 /// The main thread passes frames and commands to the guide. These calls return immediately and copy
 /// only the frames that are needed. A low-priority thread selects the frames for the lens, computes
@@ -44,7 +44,7 @@ enum class GuidePhase {
     collecting,  ///< frames are being collected
     solving,     ///< the calibration is being computed
     solved,      ///< the result is ready to be saved
-    failed,      ///< the step failed; `GuideState::problem` is the reason
+    failed,      ///< the step failed, for the reason in `GuideState::problem`
     saved        ///< the result has been saved in the camera file
 };
 const char* name(GuidePhase phase);
@@ -56,7 +56,7 @@ struct GuideOptions {
     /// Camera of the run. Each step changes only the values that it calibrates.
     std::optional<Camera> camera;
     bool needs_focal_length = false;  ///< true if the run computes poses in space (--pose space)
-    bool flip = false;  ///< true if the source flips the frames; saved in the camera file
+    bool flip = false;  ///< true if the source flips the frames (saved in the camera file)
 };
 
 struct GuideResult {
@@ -75,14 +75,14 @@ struct GuideState {
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what the user should do now
     std::optional<CalibrationStatus> lens;  ///< progress of the step `lens`
-    /// One flag for each heading of the turning robot, or for each direction in which the pen is
-    /// tilted: true if enough frames have been collected for this direction.
+    /// One flag for each heading of the turning robot, or for each direction in which the pen must
+    /// be tilted. True if enough frames have been collected for this direction.
     std::vector<bool> directions;
     std::vector<PenLean> leans;      ///< tilts of the pen
-    std::vector<std::string> needs;  ///< unmet requirements; not used in the step `lens`
+    std::vector<std::string> needs;  ///< unmet requirements, not used in the step `lens`
     std::string problem;             ///< reason why the step failed or the file was not written
     std::optional<GuideResult> result;
-    std::optional<Camera> camera;  ///< newest saved camera; initially GuideOptions::camera
+    std::optional<Camera> camera;  ///< newest saved camera, initially GuideOptions::camera
 };
 
 class CalibrationGuide {

@@ -9,8 +9,8 @@
 namespace dotpose::cli {
 
 /// Estimates the offset as the minimum of (received - sent) over recent messages. The network and
-/// queues can delay a message, but no message arrives before it is sent, so the minimum is the best
-/// estimate. Only recent messages are used, because clocks drift.
+/// queues can only increase this difference, so the minimum is the best estimate. Old messages are
+/// ignored, because clocks drift.
 class ClockOffset {
   public:
     void take(std::int64_t received_us, std::int64_t sent_us) {
@@ -23,7 +23,7 @@ class ClockOffset {
         current_us_ = std::min(current_us_, offset_us);
     }
 
-    /// Discards all messages so far. Must be called after the robot's clock has been set back.
+    /// Discards all previous messages. Must be called after the robot's clock has been set back.
     void reset() { *this = {}; }
 
     /// Returns the offset in microseconds. At least one message must have been added.

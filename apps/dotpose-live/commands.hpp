@@ -1,5 +1,5 @@
-/// Subcommands that require a camera or a network. dotpose-live implements them, and `dotpose`
-/// starts dotpose-live.
+/// Subcommands that require a camera or a network. dotpose-live implements these subcommands, and
+/// `dotpose` starts dotpose-live to run them.
 #pragma once
 
 #include "command_line.hpp"

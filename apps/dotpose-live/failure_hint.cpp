@@ -30,10 +30,10 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 
 }  // namespace
 
-/// Counts the failed frames with each status, and keeps a copy of one of them for the report at the
-/// end of the run. To avoid copying every frame, only the 1st, 2nd, 4th, 8th, ... frame with a
-/// status is copied, replacing the previous copy. The stored frame is therefore always from the
-/// more recent half of the frames with this status.
+/// Counts the failed frames with each status, and keeps a copy of one frame per status for the
+/// report at the end of the run. To avoid copying every frame, only the 1st, 2nd, 4th, 8th, ...
+/// frame with a status is copied, replacing the previous copy. The copy is therefore always from
+/// the more recent half of the frames with this status.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

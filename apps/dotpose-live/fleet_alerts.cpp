@@ -9,7 +9,7 @@ bool are_alike(Condition a, Condition b) {
 }
 
 /// Returns true if the robot lost its pose less than a second ago. An alert would be premature,
-/// because the robot may find its pose again, for example between two sheets.
+/// because the pose is often lost only briefly, for example between two sheets.
 bool is_briefly_lost(const FleetRobot& robot, const Now& now) {
     constexpr std::int64_t kBriefly_us = 1'000'000;
     return robot.condition == Condition::lost && now.watched_us - robot.lost_since_us < kBriefly_us;

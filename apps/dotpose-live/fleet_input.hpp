@@ -36,13 +36,13 @@ struct FleetInputOptions {
     publish::MqttOptions mqtt;
     ShareArguments share;
     ConditionLimits limits;
-    std::string log;  ///< path of a CSV file for all states; empty to write no file
+    std::string log;  ///< path of a CSV file for all states, or empty to write no file
 };
 
 /// Maintains the state of the fleet. The subscriber calls `take` on its own thread.
 class FleetInput {
   public:
-    /// `store` is null if the states are not to be stored. Otherwise, it must outlive this object.
+    /// If `store` is null, the states are not stored. Otherwise, `store` must outlive this object.
     /// Throws Error if the broker rejects the connection or the log cannot be created.
     FleetInput(const FleetInputOptions& options, FleetStore* store);
 

@@ -29,8 +29,8 @@ void append(std::string& bytes, const draw::Point& at, const draw::Point& origin
     append(bytes, static_cast<float>(at.y - origin.y));
 }
 
-/// Returns the first part of a message: `head` as JSON, preceded by the length of the JSON text in
-/// bytes (32 bits).
+/// Returns the first part of a message: `head` as JSON text, preceded by the text length in bytes
+/// as a 32-bit number.
 std::string message_with(const nlohmann::json& head) {
     const std::string text = head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     std::string bytes;
@@ -60,9 +60,9 @@ class Window {
         for (const FleetEntry& entry : robots) {
             if (is_inside(entry.second)) visible_.push_back(&entry);
         }
-        // Positions are sent in single precision, relative to an origin in the window. Relative to
-        // the origin of the pattern, which is up to 200 km away, their resolution would only be
-        // about a centimetre.
+        // Positions are sent in single precision, relative to an origin in the window. The origin
+        // of the pattern is up to 200 km away. Relative to that origin, the resolution of the
+        // positions would be only about a centimetre.
         const draw::Point middle{(x_min_ + x_max_) / 2, (y_min_ + y_max_) / 2};
         const bool is_finite = std::isfinite(middle.x) && std::isfinite(middle.y);
         if (is_finite) {

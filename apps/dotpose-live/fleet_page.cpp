@@ -42,7 +42,7 @@ void FleetPage::take(Key key) {
 std::vector<std::string> FleetPage::lines(const FleetState& fleet, FleetRobots robots,
                                           const FleetMap& map, Delivery delivery, ScreenSize size) {
     constexpr int kWideColumns = 120;
-    constexpr std::ptrdiff_t kOtherLines = 4;  // header, two summary lines, scroll position
+    constexpr std::ptrdiff_t kOtherLines = 4;  // header, two summary lines and scroll position
     const Layout layout = size.columns >= kWideColumns ? Layout::wide : Layout::narrow;
     if (is_by_attention_) sort_by_attention(robots, map);
     const auto count = static_cast<std::ptrdiff_t>(robots.size());

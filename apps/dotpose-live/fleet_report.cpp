@@ -12,8 +12,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the map and the sheet of the last known place, with a question mark if the map or the
-/// sheet is not in the sheet file.
+/// Returns the map and the sheet of the robot's last known position, with a question mark if the
+/// map or the sheet is not in the sheet file.
 std::string place_text(const FleetRobot& robot, const FleetMap& map) {
     if (!robot.has_place) return "-";
     const RobotState& state = robot.newest;

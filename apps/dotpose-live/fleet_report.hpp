@@ -24,8 +24,8 @@ struct FleetMap {
     std::set<std::string> names;           ///< names of all sheets
     std::vector<draw::MapSheet> outlines;  ///< outlines of the sheets that have a world pose
 
-    /// Returns false if the last known place of the robot is on a map or sheet that is not in the
-    /// file. Returns true if there is no file, or if the place is unknown.
+    /// Returns false if the last known position of the robot is on a map or sheet that is not in
+    /// the file. Returns true if there is no file, or if no position is known.
     bool has_place_of(const FleetRobot& robot) const;
 };
 
@@ -33,7 +33,8 @@ using FleetEntry = std::pair<std::string, FleetRobot>;
 using FleetRobots = std::vector<FleetEntry>;
 
 /// Returns the name of the map to display: the world frame of the sheet file or, without a sheet
-/// file, the map of the first robot that has one. Returns an empty string if there is no map.
+/// file, the map of the first robot with a known position. Returns an empty string if no map is
+/// known.
 std::string shown_map(const FleetMap& map, const FleetRobots& robots);
 
 /// Returns a rank that orders the robots by how urgently they need attention, most urgent first: 0
@@ -47,8 +48,8 @@ void sort_by_attention(FleetRobots& robots, const FleetMap& map);
 /// Columns of the table. `narrow` fits in 80 characters and omits the message counts.
 enum class Layout { wide, narrow };
 
-/// Return the header and a row of the table, without a line break. The place and the reason are not
-/// truncated, so a row may have any width.
+/// Return the header and a row of the table, without a line break. The reason, the map and the
+/// sheet are not truncated, so a row may have any width.
 std::string table_header(Layout layout);
 std::string table_row(const std::string& name, const FleetRobot& robot, const FleetMap& map,
                       Layout layout, Delivery delivery);
@@ -62,8 +63,8 @@ std::string summary_of(const FleetState& fleet, const FleetRobots& robots, const
 std::string table_of(const FleetState& fleet, const FleetMap& map, Delivery delivery,
                      const Now& now);
 
-/// Returns a drawing of `map_id` with the robots on it and the sheets that they have visited, or
-/// all sheets if none has been visited. Robots on other maps are listed as notes.
+/// Returns a drawing of the map `map_id` with its robots and the sheets that they have visited, or
+/// with all sheets if none has been visited. Robots on other maps are listed in the notes.
 draw::Map drawing_of(const FleetState& fleet, const std::string& map_id, const FleetMap& map,
                      const Now& now);
 

@@ -24,8 +24,8 @@ class ShareArguments {
     /// Adds --share and --shard.
     void add_to(Command& command);
 
-    /// Returns the topics to subscribe to: the topics for states and for connections. If the
-    /// instances form a group, the broker sends each state to only one of them.
+    /// Returns the state and connection topics to subscribe to. If the instances form a group, the
+    /// broker sends each state to only one instance.
     std::vector<std::string> topics() const;
     bool is_shared() const { return !group_.empty(); }
     const Shard& shard() const { return shard_; }

@@ -50,7 +50,7 @@ void FleetState::take_state(std::string_view name, RobotState state, const Now& 
     if (arrival == StateNumbers::Arrival::repeated) return;
     const bool is_late = arrival == StateNumbers::Arrival::late;
     if (!is_late) note_sign_of_life(robot, state, now);
-    // A lost robot keeps its last known place.
+    // A lost robot keeps its last known position.
     if (!state.is_localized) {
         state.map_id = shown.newest.map_id;
         state.x_m = shown.newest.x_m;

@@ -36,12 +36,12 @@ struct FleetRobot {
     /// Identifies the robot during this run of the program. A robot that reappears after its
     /// removal gets a new id.
     std::uint32_t id = 0;
-    /// Newest state. If the robot is lost, the place and the sheet are the last known ones.
+    /// Newest state. While the robot is lost, contains its last known position, map and sheet.
     RobotState newest;
-    bool has_place = false;  ///< true if `newest` contains a current or earlier place
+    bool has_place = false;  ///< true if `newest` contains a current or earlier position
     publish::Presence presence = publish::Presence::online;
-    /// Time at which the robot sent its newest message, on the clock of Now::watched_us. It is
-    /// based on the time stamp of the message, because the message may have waited in a queue.
+    /// Time at which the robot sent its newest message, on the clock of Now::watched_us. The time
+    /// is based on the time stamp of the message, because the message may have waited in a queue.
     std::int64_t alive_us = std::numeric_limits<std::int64_t>::min();
     /// Time at which the pose was lost, on the clock of Now::watched_us. Valid only while the robot
     /// is lost.
@@ -94,10 +94,10 @@ class FleetState {
         : listener_(std::move(listener)), limits_(limits) {}
 
     /// Processes a message. A state that is older than the newest state of its robot is counted as
-    /// late. It is passed to the listener, but does not change the robot. However, if several late
-    /// states arrive in ascending order of time, the sender's clock is assumed to have been set
-    /// back, and the states are accepted. An empty message on the connection topic removes the
-    /// robot. Other invalid messages are counted as bad. Thread-safe.
+    /// late. Late states are passed to the listener, but do not change the robot. However, if
+    /// several late states arrive in ascending order of time, the sender's clock is assumed to have
+    /// been set back, and the states are accepted. An empty message on the connection topic removes
+    /// the robot. Other invalid messages are counted as bad. Thread-safe.
     void take(std::string_view topic, std::string_view payload, const Now& now);
 
     /// Returns the robots and their conditions, sorted by name in natural order.

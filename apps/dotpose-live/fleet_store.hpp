@@ -15,7 +15,7 @@
 namespace dotpose::cli {
 
 struct StoreArguments {
-    std::string where;  ///< PostgreSQL URL or path of a SQLite file; empty to store nothing
+    std::string where;  ///< PostgreSQL URL or path of an SQLite file, or empty to store nothing
     std::int64_t max_states = 1'000'000;
     int keep_days = 0;  ///< number of days to keep states, or 0 to keep all
 
@@ -27,8 +27,8 @@ struct StoreArguments {
 /// printable characters, so any program can safely display it.
 std::string stored_name(std::string_view name);
 
-/// Converts received states to the form in which the database stores them. States with the same
-/// names share one copy of the names.
+/// Converts received states to the database format. States with the same names share one copy of
+/// the names.
 class StoredStates {
   public:
     /// Converts a state. The result contains the robot's time stamp or, if that differs from the
@@ -36,8 +36,8 @@ class StoredStates {
     store::State of(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
   private:
-    /// Maximum number of cached names. It limits the memory use, because any client of the broker
-    /// can send states with arbitrary names.
+    /// Maximum number of cached names. Limits the memory use, because any client of the broker can
+    /// send states with arbitrary names.
     static constexpr std::size_t kMaxNames = 20'000;
 
     std::map<std::string, std::shared_ptr<const std::string>, std::less<>> robots_;

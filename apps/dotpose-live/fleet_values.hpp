@@ -21,7 +21,7 @@ struct FleetSnapshot {
     Now now;
 };
 
-/// Maximum number of rows that a client receives, even if it requests more.
+/// Maximum number of rows that a client receives, even if the client requests more.
 inline constexpr std::size_t kMaxTableRows = 200;
 
 /// Maximum number of alerts that a client receives.

@@ -74,7 +74,7 @@ void FleetView::leave_screen(const FleetState& fleet, const Now& now) {
     page_.take(Key::home);
     std::vector<std::string> lines =
         page_.lines(fleet, fleet.robots(now), map_, delivery_, screen_->size());
-    lines.pop_back();  // drop the line with the scroll position and the keys
+    lines.pop_back();  // removes the line with the scroll position and the keys
     const std::lock_guard lock(mutex_);
     screen_.reset();
     for (const std::string& line : lines) {

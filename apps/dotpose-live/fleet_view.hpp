@@ -37,8 +37,8 @@ class FleetView {
     void finish(const FleetState& fleet, const Now& now);
 
     /// Reports a message to the user. While the table is displayed on a terminal, the message
-    /// appears below it, and is printed again at the end. Otherwise, it is printed on standard
-    /// error. Thread-safe.
+    /// appears below the table, and is printed again at the end. Otherwise, the message is printed
+    /// on standard error. Thread-safe.
     void tell(const std::string& message);
 
     const FleetMap& map() const { return map_; }

@@ -147,8 +147,8 @@ void FleetWeb::obey() {
     }
 }
 
-/// Removes a robot, as `dotpose fleet remove` does. The command contains both the number and the
-/// name of the robot. Both must match, because the number may belong to another robot after a
+/// Removes a robot, as `dotpose fleet remove` does. The command contains the number and the name of
+/// the robot. The name must also match, because the number may belong to another robot after a
 /// restart of the program.
 void FleetWeb::remove(const serve::Command& command) {
     const auto* id = command.argument<double>("robot");

@@ -22,7 +22,7 @@ namespace dotpose::cli {
 struct FleetWebOptions {
     serve::ServerOptions server;
     ConditionLimits limits = {};
-    std::string store = {};   ///< database from which states are read, or empty
+    std::string store = {};   ///< database from which the page reads states, or empty
     std::string device = {};  ///< name of the robot for `dotpose listen`, or empty for a fleet
     // The following functions may be called from any thread.
     std::function<Now()> now;
@@ -69,7 +69,7 @@ class FleetWeb {
     AlertWatch watch_;
     std::deque<RobotAlert> alerts_;
     Clock::time_point next_check_;
-    Snapshot snapshot_;  ///< robots in this tick, or null until a topic needs them
+    Snapshot snapshot_;  ///< robots in this tick, or null until a topic needs the robots
     std::int64_t counted_states_ = 0;
     Clock::time_point counted_at_;
 

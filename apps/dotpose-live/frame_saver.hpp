@@ -14,8 +14,8 @@ namespace dotpose::cli {
 
 struct SaveOptions {
     std::string folder;  ///< folder for the saved frames, or empty to save none
-    /// If greater than 0, every `every`-th frame is saved. If 0, the frames that show a new place
-    /// (NewPlaces) are saved.
+    /// If positive, every `every`-th frame is saved. If 0, each frame that shows a new place
+    /// (NewPlaces) is saved.
     std::int64_t every = 0;
     ImageEncoding format = ImageEncoding::png;
 };

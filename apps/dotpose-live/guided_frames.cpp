@@ -12,31 +12,31 @@
 namespace dotpose::cli {
 namespace {
 
-/// Minimum distance between successive collected frames of a straight drive. It limits a drive of
-/// kWantedLength_mm to 40 steps.
+/// Minimum distance between successive frames collected during a straight drive. A drive over
+/// kWantedLength_mm therefore consists of at most 40 steps.
 constexpr double kStep_mm = 1.5;
 /// Required length of a straight drive. Over this length, an error of 0.01 mm at one end changes
 /// the direction by 0.01 degrees.
 constexpr double kWantedLength_mm = 60;
 /// Number of consecutive frames after which a fast drive is complete.
 constexpr std::size_t kWantedRun = 40;
-/// Minimum number of consecutive frames for a fast drive that ends early.
+/// Minimum number of consecutive frames in a fast drive that ends early.
 constexpr std::size_t kMinRun = 15;
-/// Minimum motion between two consecutive frames of a fast drive, in spacings.
+/// Minimum distance between two consecutive frames in a fast drive, in spacings.
 constexpr double kMinMotion = 0.5;
 
 /// The pivoting step ends after kWantedPivots frames if all requirements are met, and after
 /// kMaxPivots frames in any case.
 constexpr std::size_t kWantedPivots = 30;
 constexpr std::size_t kMaxPivots = 80;
-/// Minimum distance between the tilts (PenLean) of two collected frames. A frame whose tilt is
-/// closer to an earlier tilt is not collected.
+/// Minimum distance between the tilts (PenLean) in two collected frames. A frame is skipped if its
+/// tilt is closer to the tilt in an earlier frame.
 constexpr double kMinLeanStep = 0.08;
-/// A direction is covered if at least kMinLeans frames are tilted towards it by kMinLean_deg or
-/// more.
+/// A direction is covered if the pen is tilted in this direction by kMinLean_deg or more in at
+/// least kMinLeans frames.
 constexpr double kMinLean_deg = 10;
 constexpr int kMinLeans = 2;
-/// At least one frame must be tilted by this angle or more.
+/// The pen must be tilted by this angle or more in at least one frame.
 constexpr double kWantedLean_deg = 20;
 constexpr std::array<const char*, PivotFrames::kDirections> kSides = {
     "right edge", "lower right corner", "bottom edge", "lower left corner",
@@ -153,8 +153,8 @@ double ReadoutFrames::interval_ms() const {
 }
 
 /// Computes the tilt from the perspective of the dots. The relative change of the image scale per
-/// pixel is the tangent of the tilt divided by the focal length. The camera leans away from the
-/// side of the view on which the paper is farther away.
+/// pixel is the tangent of the tilt divided by the focal length. The camera leans towards the side
+/// of the view on which the paper is closer.
 PenLean lean_in(const Fix& fix, double focal_px) {
     const FixedVec& perspective_q30 = fix.pattern_from_image.perspective_q30;
     const double u = std::ldexp(focal_px * perspective_q30.x, -30);

@@ -20,7 +20,7 @@ struct GuidedFrame {
     Fix fix;
     double spacing_mm = 0;
     std::int64_t time_us = 0;
-    std::int64_t index = 0;  ///< frame number; dropped frames are also counted
+    std::int64_t index = 0;  ///< frame number, including dropped frames
     ImageView image;
 };
 
@@ -52,7 +52,7 @@ class GuidedFrames {
     Images images_;
 };
 
-/// A turn on the spot: collects one frame in each direction.
+/// Collects frames during a turn on the spot, one in each direction.
 class SpinFrames : public GuidedFrames {
   public:
     /// Number of sectors into which a full turn is divided. One frame is collected in each sector.
@@ -69,7 +69,7 @@ class SpinFrames : public GuidedFrames {
     std::array<bool, kDirections> directions_{};
 };
 
-/// A straight drive: collects frames at regular distances.
+/// Collects frames at regular distances during a straight drive.
 class DriveFrames : public GuidedFrames {
   public:
     void take(const GuidedFrame& frame) override;
@@ -85,11 +85,11 @@ class DriveFrames : public GuidedFrames {
     static double distance_mm(const Place& from, const Place& to);
 
     Place first_;
-    Place newest_;  ///< place of the last collected frame
+    Place newest_;  ///< position of the last collected frame
     double length_mm_ = 0;
 };
 
-/// A fast drive: collects consecutive frames.
+/// Collects consecutive frames during a fast drive.
 class ReadoutFrames : public GuidedFrames {
   public:
     void take(const GuidedFrame& frame) override;
@@ -110,7 +110,7 @@ class ReadoutFrames : public GuidedFrames {
     };
     void end_run();
 
-    std::vector<Seen> seen_;  ///< frames in the current sequence of consecutive frames
+    std::vector<Seen> seen_;  ///< the current sequence of consecutive frames
     bool is_complete_ = false;
     std::string advice_ = "drive fast over the sheet";
 };
@@ -122,11 +122,11 @@ struct PenLean {
     double y = 0;
 };
 
-/// Returns the tilt of the camera in a frame, computed from the perspective of the dots. The fix
-/// must be ok.
+/// Returns the tilt of the camera in a frame, computed from the perspective of the dots. The status
+/// of `fix` must be ok.
 PenLean lean_in(const Fix& fix, double focal_px);
 
-/// A pen that pivots about its tip: collects frames with different tilts.
+/// Collects frames with different tilts while a pen pivots about its tip.
 class PivotFrames : public GuidedFrames {
   public:
     /// Number of directions in which the pen must be tilted. Direction 0 is towards the right edge
@@ -141,9 +141,10 @@ class PivotFrames : public GuidedFrames {
     std::string advice() const override;
     std::vector<std::string> needs() const override;
 
-    /// Returns the tilts of the collected frames.
+    /// Returns the tilts in the collected frames.
     const std::vector<PenLean>& leans() const { return leans_; }
-    /// Returns, for each direction, true if enough frames are tilted towards it.
+    /// Returns a flag for each direction: true if the pen is tilted in this direction in enough
+    /// frames.
     std::array<bool, kDirections> directions() const;
 
   private:

@@ -40,7 +40,7 @@ void HistoryPath::add(const store::State& state) {
     if (++points_ > kMaxPoints) thin_out();
 }
 
-/// Removes every second point of each stroke, keeping the end points. Doubles the minimum distance
+/// Removes every second point of each stroke but keeps the end points. Doubles the minimum distance
 /// between points that are added later.
 void HistoryPath::thin_out() {
     points_ = 0;

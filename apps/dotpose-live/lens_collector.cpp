@@ -20,11 +20,11 @@ constexpr std::size_t kMaxFrames = 50;
 /// Image speed in px/s below which a camera is considered steady. At this speed, the image moves by
 /// at most one pixel during an exposure or readout of up to 1/30 s.
 constexpr double kSteady_px_s = 30;
-/// Time without a steady frame after which frames from a moving camera are also accepted, in case
-/// the robot never stops.
+/// If no frame is steady for this long, frames from a moving camera are also accepted, because the
+/// robot may never stop.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// Minimum number of new image blocks in a frame that shows a known place. The frame is accepted
-/// only if its dots cover at least this many blocks that no collected frame covers.
+/// A frame that shows a known place is accepted only if its dots cover at least this number of
+/// image blocks that no collected frame covers.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {

@@ -58,8 +58,8 @@ class LensCollector {
     explicit LensCollector(const CalibrateOptions& options);
 
     /// Accepts or rejects a frame. The pixels of an accepted frame are moved out of `frame`. The
-    /// image must not be empty. Throws BadArgument if its size differs from the size of earlier
-    /// images.
+    /// image must not be empty. Throws BadArgument if the image size differs from the size of
+    /// earlier images.
     Outcome take(capture::Frame& frame);
 
     /// Returns the progress after a frame. `outcome` is the result of `take` for this frame.
@@ -89,7 +89,7 @@ class LensCollector {
     /// requirements.
     const LensCalibration& result() const;
 
-    /// Returns the unmet requirements. At least one frame must have been taken.
+    /// Returns the unmet requirements. `take` must have been called at least once.
     std::vector<CalibrationNeed> needs() const { return coverage_->missing(lens()); }
 
     /// Sets the bit rate of the source (capture/frame_source.hpp), which is used for advice.
@@ -122,9 +122,9 @@ class LensCollector {
     int height_px_ = 0;
     NewPlaces places_;
     ImageMotion motion_;
-    std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, initially of the first frame
+    std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, initially the first frame
     Tally tally_;
-    GreyImage failed_;  ///< newest frame without a fix; not updated after the first fix
+    GreyImage failed_;  ///< newest frame without a fix, not updated after the first fix
     Status failure_ = Status::ok;
     double bits_per_px_ = 0;
 };

@@ -45,7 +45,7 @@ class MetricsText {
     std::string text_;
 };
 
-/// Returns a label, with its value escaped.
+/// Returns a label in the form name="value", with the value escaped.
 std::string label(std::string_view name, std::string_view value);
 
 }  // namespace dotpose::cli

@@ -20,7 +20,7 @@ class PageCalibrationArguments {
     void add_to(Command& command);
 
     /// If the file given to --calibrate-to exists and --camera is not given, uses this file as the
-    /// camera file of the run. Throws Error if it is not a camera file.
+    /// camera file of the run. Throws Error if the file is not a camera file.
     void use_replaced_camera(FollowerArguments& follower) const;
 
     /// Throws BadArgument if --calibrate-to is given without --web.

@@ -20,8 +20,9 @@ struct Shown {
     double angle_rad = 0;
 };
 
-/// Returns the pose to display: the place on the sheet if it is known and the track is not in the
-/// world frame, and the pose of the track otherwise. Returns nullopt if neither is available.
+/// Returns the pose to display. This is the pose on the sheet if the sheet is known and the track
+/// is not in the world frame, and the pose of the track otherwise. Returns nullopt if the required
+/// pose is not available.
 std::optional<Shown> shown_pose(const Reading& reading) {
     const std::optional<SheetPlace>& place = reading.record.place;
     const TrackedPose& pose = reading.track.pose;

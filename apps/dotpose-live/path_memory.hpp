@@ -15,7 +15,7 @@ namespace dotpose::cli {
 
 class PathMemory {
   public:
-    /// Adds the position of the robot after a frame. Ignores frames in which the robot is lost.
+    /// Adds the robot's position at the time of a frame. Ignores frames in which the robot is lost.
     void add(const Track& track);
 
     const std::vector<video::PathMark>& marks() const { return marks_; }

@@ -19,8 +19,8 @@ class RefusalHistory {
         std::map<Status, std::int64_t> frames;
     };
 
-    /// Counts a frame in the second in which it was captured. A frame older than the newest second
-    /// is counted in the newest second.
+    /// Adds a frame to the counts for the second in which the frame was captured. A frame that is
+    /// older than the newest second is added to the newest second.
     void add(std::int64_t time_us, Status status);
 
     /// Returns all seconds that contain frames, oldest first.

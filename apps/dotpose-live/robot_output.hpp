@@ -16,7 +16,7 @@
 namespace dotpose::cli {
 
 struct RobotOutputOptions {
-    std::string mcap;         ///< path of the MCAP file; empty to write no file
+    std::string mcap;         ///< path of the MCAP file, or empty to write no file
     bool has_images = false;  ///< true to record images as well
     ImageEncoding image_format = ImageEncoding::png;
     std::optional<dds::PublisherOptions> dds;  ///< nullopt if nothing is published over DDS
@@ -40,7 +40,7 @@ class Stamps {
   private:
     std::int64_t half_exposure_ns_;
     std::optional<std::int64_t>
-        system_from_monotonic_ns_;  ///< computed once, to preserve the intervals between frames
+        system_from_monotonic_ns_;  ///< clock difference, computed once to preserve frame intervals
 };
 
 class RobotOutput {

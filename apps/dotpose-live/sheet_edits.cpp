@@ -151,7 +151,7 @@ void SheetEdits::remove(const Target& target) {
     redo_.clear();
 }
 
-/// Returns true if the sheet in the file is still as it was before the step.
+/// Returns true if the sheet in the file is equal to `step.before`, or if the step adds a sheet.
 bool SheetEdits::is_unchanged(const SheetStep& step) const {
     if (!step.before) return true;
     const SheetEntry* entry = find(sheets_, step.before->name);

@@ -32,7 +32,7 @@ class SheetEdits {
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
     /// Returns the reason why the file could not be read, or an empty string.
     const std::string& problem() const { return problem_; }
-    /// Returns the revision of a sheet, which increases with every change to its place, print
+    /// Returns the revision of a sheet, which increases with every change to its world pose, print
     /// scale, offset or region. Returns 0 if there is no such sheet.
     std::int64_t revision(const std::string& name) const;
 
@@ -46,16 +46,17 @@ class SheetEdits {
     };
     using Change = std::function<SheetEntry(const SheetEntry& before)>;
 
-    /// Changes the name, place, print scale or offset of a sheet. `what` is a description for
+    /// Changes the name, world pose, print scale or offset of a sheet. `what` is a description for
     /// `undo_text`, such as "move". Returns the new entry.
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
 
     /// Removes a sheet. Throws Error if it is the only sheet, because a run needs at least one.
-    /// Undoing the removal appends the sheet to the file, without keys that dotpose does not know.
+    /// Undoing the removal appends the sheet to the file, but keys unknown to dotpose are lost.
     void remove(const Target& target);
 
-    /// Replaces the places and print scales of several sheets with the values in `measured`, in one
-    /// edit. `targets` lists the sheets with their revisions at the start of the measurement.
+    /// Replaces the world poses and print scales of several sheets with the values in `measured`,
+    /// as a single edit. `targets` lists the sheets with their revisions at the start of the
+    /// measurement.
     void change_all(const std::vector<Target>& targets, const std::vector<SheetEntry>& measured,
                     const std::string& what);
 
@@ -63,14 +64,14 @@ class SheetEdits {
     /// created. This change cannot be undone.
     void confirm(const std::string& name);
 
-    /// Returns a description of the edit that `undo` or `redo` would apply, such as "move 'table'",
-    /// or an empty string if there is none.
+    /// Return a description of the edit that `undo` or `redo` would affect, such as "move 'table'",
+    /// or an empty string if there is no such edit.
     std::string undo_text() const { return undo_.empty() ? "" : undo_.back().text; }
     std::string redo_text() const { return redo_.empty() ? "" : redo_.back().text; }
 
-    /// Undoes or redoes the last edit and returns its description. Throws Error if there is none.
-    /// If another program has meanwhile changed a sheet that the edit affects, discards the edit
-    /// and throws Error.
+    /// Undo or redo the last edit and return its description. Throw Error if there is no such edit.
+    /// If another program has meanwhile changed a sheet that the edit affects, discard the edit and
+    /// throw Error.
     std::string undo();
     std::string redo();
 

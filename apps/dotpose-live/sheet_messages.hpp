@@ -11,7 +11,7 @@
 
 namespace dotpose::cli {
 
-/// Answer to a command from a web page.
+/// Reply to a command from a web page.
 struct SheetAnswer {
     std::string id = {};  ///< identifier that the page chose for the command
     bool is_ok = false;

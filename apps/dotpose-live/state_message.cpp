@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kMicro = 1'000'000;
 
-/// Names of the subjects in topics, in the order of Subject.
+/// Subject names as used in topics, indexed by Subject.
 constexpr std::string_view kSubjects[] = {"visualization", "connection"};
 
 /// Returns the JSON members with which every message starts.

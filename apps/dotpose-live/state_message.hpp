@@ -56,11 +56,11 @@ inline constexpr std::string_view kNoPlace = "no_place";
 /// Numbers of refused frames, indexed by Status. The last element is for Status::other.
 using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
 
-/// Camera frame counts of a robot since its program was started.
+/// Frame counts of a robot's camera since the program was started.
 struct CameraReport {
     double rate_hz = 0;  ///< mean frame rate since the previous report
     std::uint64_t frames = 0;
-    RefusedFrames refused{};  ///< numbers of frames without a fix; the element for Status::ok is 0
+    RefusedFrames refused{};  ///< numbers of frames without a fix (0 for Status::ok)
 };
 
 /// Conversion factor from metres (used in messages) to millimetres (used in reports).
@@ -86,7 +86,7 @@ struct RobotState {
     double vy_m_s = 0;
     double omega_rad_s = 0;
     /// Pose of the camera in space, in the frame of the map. In a parsed message, this is the pose
-    /// of the tracked camera if there is one, and it has no covariance.
+    /// of the tracked camera if available, and the pose has no covariance.
     std::optional<CameraInWorld> camera_pose;
     /// Motion of the tracked camera, in the frame of the map. Not set by `parse_state`.
     std::optional<CameraMotion> camera_track;
@@ -114,7 +114,7 @@ std::string json_of(const RobotConnection& connection);
 /// Parses a message with the subject `connection`. Returns nullopt if the message is invalid.
 std::optional<RobotConnection> parse_connection(std::string_view json);
 
-/// Reports that a robot has entered or left a condition that requires attention.
+/// Alert that a robot has entered or left a condition that requires attention.
 struct RobotAlert {
     std::string robot;
     std::uint64_t header_id = 0;

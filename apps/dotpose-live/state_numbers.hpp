@@ -13,7 +13,7 @@ namespace dotpose::cli {
 struct StateCounts {
     std::int64_t messages = 0;
     std::int64_t missed = 0;  ///< number of missing states, based on gaps in the sequence numbers
-    /// Number of states that arrived after newer states. They are not included in `missed`.
+    /// Number of states that arrived after newer states. These states are not included in `missed`.
     std::int64_t late = 0;
     /// Number of states received more than once. With QoS 1, some states are sent again after the
     /// connection breaks.
@@ -50,7 +50,7 @@ class StateNumbers {
     Sent newest_;
     std::array<Sent, kRemembered> seen_{};  ///< indexed by the state number modulo the array size
     /// Number of consecutive states that are older than `newest_` but in ascending order of time.
-    /// `doubted_us_` is the time of the last one.
+    /// `doubted_us_` is the time of the last such state.
     int doubts_ = 0;
     std::int64_t doubted_us_ = 0;
 };

@@ -33,7 +33,7 @@ class StateSource {
   public:
     /// `sheets` is the path of the sheet file. Its file name without extension is the name of the
     /// map in which world poses are given. `max_rate_hz` is the maximum number of states per
-    /// second, except that each event creates a state immediately. If `max_rate_hz` is 0, every
+    /// second. However, every event creates a state immediately. If `max_rate_hz` is 0, every
     /// reading creates a state.
     StateSource(std::string robot, const std::string& sheets, double max_rate_hz);
 

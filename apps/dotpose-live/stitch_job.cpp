@@ -55,8 +55,8 @@ void StitchJob::offer(const Reading& reading, ImageView image) {
         if (!is_near_edge(reading.record, image) || !places_.take(reading.record.fix, image))
             return;
     } else {
-        // Frames without a fix are also tried. They may show a seam between two sheets, where the
-        // two patterns prevent a fix.
+        // Frames without a fix are also examined, because they may show a seam between two sheets.
+        // The two patterns at a seam may prevent a fix.
         constexpr std::chrono::milliseconds kPause(500);
         const Clock::time_point now = Clock::now();
         if (now < unlocated_at_ + kPause) return;
@@ -100,8 +100,8 @@ void StitchJob::run() {
 /// Returns true if two sheets are visible in the frame.
 bool StitchJob::shows_seam(const GreyImage& frame) const {
     std::vector<SheetEntry> sheets = sheets_;
-    // Removes the world poses of the sheets. Otherwise, `stitch_sheets` would throw Error if some
-    // sheets in the file have a world pose but no sheet in this frame has one. The poses are
+    // Removes the world poses of the sheets. Otherwise, `stitch_sheets` would throw Error if sheets
+    // in the file have world poses but the sheets in this frame do not. The world poses are
     // irrelevant for this test.
     for (SheetEntry& entry : sheets)
         entry.world.reset();

@@ -39,7 +39,7 @@ class ThinnedHistory {
     struct Point {
         std::int64_t span = 0;       ///< index of the time span
         std::int64_t time_us = 0;    ///< time of the first state
-        std::optional<Place> place;  ///< first known place, or nullopt
+        std::optional<Place> place;  ///< first known position, or nullopt
         double speed_mm_s = 0;       ///< maximum speed
         /// `lost` if any state is lost, else `moving` if any state is moving, else `still`.
         store::Motion motion = store::Motion::still;

@@ -72,7 +72,8 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Reports on standard error why most frames fail. Also reports the first warning of each kind.
+/// If most frames fail, reports the reason on standard error. Also reports the first warning of
+/// each kind.
 void report_problems(const Reading& reading, ImageView image, const Follower& follower,
                      double bits_per_px, FailureHint& hint,
                      std::array<bool, kWarnings>& was_reported) {
@@ -92,7 +93,7 @@ FollowerOptions options_of(const WatchArguments& arguments) {
     return options;
 }
 
-/// Saves a frame in its original form, undoing inversion and flip.
+/// Saves a frame in its original form, without the inversion and the flip.
 void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArguments& arguments) {
     const auto undo_or_redo = [&] {
         if (arguments.follower.is_inverted) invert(image);
@@ -103,7 +104,7 @@ void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArgume
     undo_or_redo();
 }
 
-/// Delays each recorded frame until its time in the recording.
+/// Delays each recorded frame until it is due, to reproduce the timing of the recording.
 class Pace {
   public:
     void wait_for(const capture::Frame& frame) {
@@ -171,7 +172,7 @@ void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     outputs.use_sheets(was_in_world);
 }
 
-/// If a camera was calibrated on the web page, uses it for the following frames.
+/// If a camera was calibrated on the web page, uses this camera for the following frames.
 void use_calibrated_camera(WatchOutputs& outputs, Follower& follower) {
     const std::optional<Camera> camera = outputs.take_camera();
     if (!camera) return;

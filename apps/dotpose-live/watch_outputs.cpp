@@ -85,8 +85,8 @@ std::optional<Camera> WatchOutputs::take_camera() {
     return camera;
 }
 
-/// Writes a line. If the reader has closed the pipe, stops writing lines but continues to write the
-/// other outputs.
+/// Writes a line. If the reader has closed the pipe, no more lines are written, but the other
+/// outputs continue.
 void WatchOutputs::write_line(const std::string& line) {
     if (!lines_) return;
     try {

@@ -56,8 +56,8 @@ class WatchOutputs {
     WatchOutputs(const OutputOptions& options, const Follower& follower);
 
     /// Writes the outputs for a frame. Returns false if the user closed the window, or if no output
-    /// is left because the readers of all pipes have closed them. Throws Error if an output cannot
-    /// be written.
+    /// is left because all pipes were closed by their readers. Throws Error if an output cannot be
+    /// written.
     bool take(const capture::Frame& frame, const Reading& reading, const SourceState& source);
 
     /// Returns the camera that was calibrated on the web page since the previous call, or nullopt.
@@ -67,7 +67,7 @@ class WatchOutputs {
     void finish();
 
     /// Returns the sheets if the web page or another program has changed them since the previous
-    /// call. Returns nullopt if they have not changed or no web page is served.
+    /// call. Returns nullopt if the sheets have not changed or no web page is served.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
     /// Displays the follower's new sheets. `was_in_world` is true if the earlier poses are in world
     /// coordinates. If the plane of the poses changes, a new path is started.

@@ -143,7 +143,8 @@ std::string tip_text(const Camera& camera) {
                        sigma_text(camera, "tip_z_mm", 1, 4));
 }
 
-/// Returns the values in the camera file, grouped by step. The text for a missing value is empty.
+/// Returns the values in the camera file, grouped by calibration step. The text for a missing value
+/// is empty.
 json values_of(const std::optional<Camera>& camera) {
     json values = {{"lens", ""}, {"spin", ""}, {"drive", ""}, {"readout", ""}, {"pivot", ""}};
     if (!camera) return values;

@@ -29,7 +29,7 @@ struct HistoryRequest {
     double last_s = 0;
     double from_s = 0;
     double to_s = 0;
-    double ask = 0;  ///< the page changes this number to read the same time span again
+    double ask = 0;  ///< changed by the page to request the same time span again
     bool operator==(const HistoryRequest&) const = default;
 };
 
@@ -43,7 +43,8 @@ constexpr std::size_t kMaxRobotName = 400;
 constexpr double kMaxSpan_s = 31 * 86'400.0;
 /// Maximum time in a request, in seconds since 1970 (the end of 2099).
 constexpr double kMaxTime_s = 4.1e9;
-/// Maximum number of states that a query reads. At 10 Hz, a robot sends this number in 23 days.
+/// Maximum number of states that a query reads. At 10 Hz, a robot sends this number of states in 23
+/// days.
 constexpr std::int64_t kMaxReadStates = 20'000'000;
 
 double seconds_of(const serve::Command& request, std::string_view key, double max) {
@@ -98,7 +99,7 @@ struct WebHistory::Queries {
     std::mutex mutex;  ///< protects the following members
     std::condition_variable changed;
     bool ends = false;
-    std::deque<HistoryRequest> waiting;  ///< queued requests; the first one is being read
+    std::deque<HistoryRequest> waiting;  ///< queued requests, starting with the one being processed
     std::deque<std::pair<HistoryRequest, std::string>> results;
 
     bool is_ending() {
@@ -110,8 +111,8 @@ struct WebHistory::Queries {
     std::string read_states(const HistoryRequest& request);
 };
 
-/// Returns the value for a client. Must not wait for the database, because it is called on the
-/// server's thread.
+/// Returns the value for a client. This function is called on the server's thread, so it must not
+/// wait for the database.
 std::string WebHistory::Queries::value_for(const serve::Command& command) {
     try {
         const std::optional<HistoryRequest> request = request_of(command);

@@ -2,7 +2,7 @@
 /// commands.
 ///
 /// A separate thread reads and changes the sheet file and creates PDFs. These tasks may take
-/// seconds, because another program may hold the lock on the file and printed pages may be large.
+/// seconds, because another program may have locked the file, or a printed page may be large.
 #pragma once
 
 #include <atomic>

@@ -79,8 +79,8 @@ WebView::WebView(WebOptions options, const Follower& follower)
     }
     server_.start();
     if (sheet_view_) sheet_view_->start();
-    // The log is offered for download only if it is a regular file. The data in a pipe is available
-    // only to its reader.
+    // The log is offered for download only if it is a regular file, because the data in a pipe is
+    // available only to the reader of the pipe.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
         server_.set_route("/log.csv", [log = options_.log] {

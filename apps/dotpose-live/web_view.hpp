@@ -90,7 +90,7 @@ class WebView {
     RefusalHistory history_;
     WatchMetrics metrics_;
     WebRecordings recordings_;
-    std::size_t offered_ = 0;  ///< number of recorded files that are available for download
+    std::size_t offered_ = 0;  ///< number of recorded files offered for download
 
     Clock::time_point rate_begun_;
     std::int64_t rate_frames_ = 0;

@@ -118,8 +118,8 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources,
     }
 }
 
-/// Returns the path of the spin calibration picture: the path given to --draw. If the lens picture
-/// is also drawn, "-spin" is inserted before the extension.
+/// Returns the path of the spin calibration picture. This is the path given to --draw, with "-spin"
+/// inserted before the extension if the lens picture is also drawn.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;
@@ -150,8 +150,8 @@ Camera pivot_camera(const std::optional<Camera>& camera, const std::string& path
 }
 
 /// Calibrates the flat field, the lens, the mount, the heading, the pen tip and the readout, in
-/// this order. Skips parts without frames. Writes the camera file and the pictures, and returns a
-/// report.
+/// this order. Skips each part that has no frames. Writes the camera file and the pictures, and
+/// returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;
@@ -280,7 +280,7 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     }
 }
 
-/// Creates a print map instead of calibrating a camera. Returns the exit status.
+/// Creates a print map instead of a camera file. Returns the exit status.
 int run_print_map(const CalibrateArguments& arguments) {
     if (arguments.sources.is_given())
         throw BadArgument(

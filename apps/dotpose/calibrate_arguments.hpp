@@ -30,7 +30,7 @@ struct CalibrateArguments {
     CameraArgument camera;
     std::string out;
     std::string picture;
-    std::optional<CodeVariant> code;  ///< if none, the code is detected from the frames
+    std::optional<CodeVariant> code;  ///< nullopt to detect the code from the frames
     CalibrateOptions options;
 
     void add_to(Command& command);

@@ -30,7 +30,7 @@ void require_apart(const PrintMapArguments& arguments, const Sources& sources) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns the existing map at `out`, the path given to -o, or an empty map if there is none.
+/// Returns the map at `out` (option -o), or an empty map if the file does not exist.
 PrintMap earlier_map(const std::string& out) {
     std::error_code failed;
     if (!std::filesystem::exists(system::path_of(out), failed)) return {};

@@ -13,14 +13,14 @@ namespace dotpose::cli {
 inline constexpr const char* kMirrored =
     "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
-/// The frames for a calibration: all given images, and up to 50 frames from each video, camera or
-/// raw stream, each showing a different place. Images are read on demand. All other frames are kept
-/// in memory.
+/// The frames for a calibration: all given images, and up to 50 frames of different places from
+/// each video, camera or raw stream. Images are read on demand. All other frames are kept in
+/// memory.
 class CalibrationFrames {
   public:
-    /// Reads videos and raw streams to the end, and cameras until they have shown 50 places. Ctrl-C
-    /// ends the current source early. Throws Error if a source fails, if no frame of a source can
-    /// be located, or after a signal other than Ctrl-C.
+    /// Reads videos and raw streams to the end, and reads cameras until 50 different places have
+    /// been captured. Ctrl-C ends the current source early. Throws Error if a source fails, if no
+    /// frame of a source can be located, or after a signal other than Ctrl-C.
     CalibrationFrames(const SourceArguments& arguments, Sources& sources,
                       const CalibrateOptions& options);
 

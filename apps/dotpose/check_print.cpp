@@ -128,7 +128,8 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
         // Each visible part of a sheet is a separate field. Only the first field of a sheet is
         // used, because it is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
-        // Reads the entry again, because another process may have changed it during the check.
+        // Reads the entry again, because another process may have changed the entry during the
+        // check.
         const std::string& name = sheets[*field.sheet].name;
         const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
         if (found == file.sheets().end()) {
@@ -188,7 +189,8 @@ void require_apart(const CheckPrintArguments& arguments) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns the part of the error message that explains how to check a scan with too many pixels.
+/// Returns the part of the error message that explains how a scan with too many pixels can be
+/// checked.
 std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution>& resolution,
                        int max_megapixels) {
     const double megapixels = 1e-6 * scan.width_px * scan.height_px;

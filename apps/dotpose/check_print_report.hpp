@@ -9,14 +9,14 @@
 
 namespace dotpose::cli {
 
-/// The checked image and the sheets that it was compared with.
+/// The checked image and the sheets with which it was compared.
 struct CheckedScan {
     std::string file;
     int page = 1;   ///< number of the checked page
     int pages = 1;  ///< number of pages in the file
     int width_px = 0;
     int height_px = 0;
-    std::vector<SheetEntry> sheets;  ///< in the order of CheckPrintOptions::sheets
+    std::vector<SheetEntry> sheets;  ///< same order as in CheckPrintOptions::sheets
 };
 
 std::string text_report(const CheckedScan& scan, const PrintCheck& check);

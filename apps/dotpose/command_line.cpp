@@ -132,8 +132,8 @@ std::string message_of(const CLI::ParseError& error) {
     return text;
 }
 
-/// Calls `parse` and translates the exceptions thrown by CLI11. Returns false if the help or the
-/// version was printed. Throws UsageError if the command line is invalid.
+/// Calls `parse` and converts exceptions thrown by CLI11 to UsageError. Returns false if the help
+/// or the version was printed.
 bool parsed(CLI::App& app, const std::function<void()>& parse) {
     try {
         parse();

@@ -37,7 +37,7 @@ class ValidationError : public UsageError {
 bool parse_number(const std::string& text, double& number);
 bool parse_number(const std::string& text, int& number);
 
-/// Returns the reason why a value is invalid, or an empty string for a valid value.
+/// Function that returns the reason why a value is invalid, or an empty string for a valid value.
 using Check = std::function<std::string(const std::string& value)>;
 
 /// Checks option values. `choices` lists the valid values if there are only a few, and is empty
@@ -143,8 +143,8 @@ class Command {
     std::string get_name() const;
     std::string get_description() const;
     std::size_t count(const std::string& option) const;
-    Option* get_option(const std::string& name) const;           ///< throws if it does not exist
-    Option* get_option_no_throw(const std::string& name) const;  ///< null if it does not exist
+    Option* get_option(const std::string& name) const;           ///< throws if not found
+    Option* get_option_no_throw(const std::string& name) const;  ///< null if not found
     std::vector<Option*> get_options() const;
     std::vector<Command*> get_all_subcommands() const;
     std::vector<Command*> get_parsed_subcommands() const;

@@ -243,8 +243,8 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 }
 
 void refuse_non_finite_numbers(Command& app) {
-    // Types of options whose values are text. Such a value may look like a number: a file may be
-    // called "nan".
+    // Option types whose values are text. Text may look like a number: for example, a file may be
+    // named "nan".
     const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "FILE|-|DIR", "NAME", "PART",
                                          "RANGE", "SCAN", "SOURCE", "TEXT",       "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {

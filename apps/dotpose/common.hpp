@@ -23,7 +23,7 @@ namespace dotpose::cli {
 void add_code_option(Command& command, CodeVariant& code);
 
 /// Adds --code auto|anoto|libdots|microdots, for commands that read a pattern. The default is auto,
-/// which sets `code` to none.
+/// which sets `code` to nullopt.
 void add_code_option(Command& command, std::optional<CodeVariant>& code);
 
 /// Adds --section U,V, where U and V are integers from 0 to 62.
@@ -93,7 +93,7 @@ class PatternArguments {
     /// of the spacing.
     Pattern pattern() const;
 
-    /// Returns the expected code, or none to detect the code from the image.
+    /// Returns the expected code, or nullopt to detect the code from the image.
     std::optional<CodeVariant> expected_code() const { return expected_code_; }
 
   private:
@@ -126,7 +126,7 @@ struct FrameSize {
 FrameSize parse_frame_size(const std::string& flag, const std::string& text);
 
 /// Makes all numeric options of all subcommands reject values that are not finite, such as nan, inf
-/// and 1e999. Call it after all options have been added.
+/// and 1e999. Must be called after all options have been added.
 void refuse_non_finite_numbers(Command& app);
 
 /// Stores the arguments of `main` for `command_line`.
@@ -141,7 +141,7 @@ std::string quoted_for_shell(const std::string& word);
 /// Returns the command line, quoted for a shell, without the options in `without` and their values.
 std::string command_line(const std::set<std::string>& without = {});
 
-/// Returns a description of the page and of the region of the code plane that it covers.
+/// Returns a description of a page and the region of the code plane that the page covers.
 std::string region_text(const Sheet& sheet);
 
 /// Returns the name of a code variant, as in --code.

@@ -79,7 +79,7 @@ struct EvaluateArguments {
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
-    std::optional<CodeVariant> code;   ///< code of all frames, or none if not specified
+    std::optional<CodeVariant> code;   ///< code of all frames, or nullopt if not specified
     bool ignores_truth_codes = false;  ///< true to ignore the codes in truth.csv
     int threads = 0;
 };
@@ -134,7 +134,7 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
 }
 
 /// Evaluates the frames in batches. After Ctrl-C, returns only the outcomes of the completed
-/// batches, and at most `readable_frames()` outcomes.
+/// batches, limited to the first `readable_frames()` outcomes.
 std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line,
                                        const std::function<std::size_t()>& readable_frames) {
     const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -175,8 +175,8 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     return outcomes.size() < static_cast<std::size_t>(run.frames) ? kExitFailed : exit_code;
 }
 
-/// Makes `run` locate the frames with the camera file, as `locate --camera` does. A frame whose
-/// size differs from the size in the camera file is reported as a problem.
+/// Configures `run` to locate the frames with the camera file, as `locate --camera` does. A frame
+/// whose size differs from the size in the camera file is reported as a problem.
 void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameRun& run) {
     run.frame_at = [camera, rows, read = run.frame_at](int index) {
         KnownFrame frame = read(index);

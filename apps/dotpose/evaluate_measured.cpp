@@ -18,8 +18,8 @@ namespace dotpose::cli {
 namespace {
 
 /// Converts a place to world coordinates or, if `is_in_world` is false, to coordinates on its
-/// sheet. Returns nullopt if there is no place, or if world coordinates are requested and the sheet
-/// has no world pose.
+/// sheet. Returns nullopt if `place` is nullopt, or if world coordinates are requested but the
+/// sheet has no world pose.
 std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPlace>& place) {
     if (!place) return std::nullopt;
     const std::string& sheet = place->entry->name;
@@ -29,10 +29,10 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
     return FoundPlace{sheet, 1000 * world->x_m, 1000 * world->y_m, world->yaw_rad};
 }
 
-/// Returns true if the true places are in the world, and false if they are on sheets. Throws Error
-/// if a place is given only in the pattern frame, if its sheet is unknown or not specified, or if
-/// the places to be aligned are on several sheets. Also throws Error if the places are in the world
-/// but no sheet has a world pose.
+/// Returns true if the true places are in world coordinates, and false if they are in sheet
+/// coordinates. Throws Error if a place is given only in the pattern frame, if its sheet is unknown
+/// or not specified, or if places on several sheets are to be aligned. Also throws Error if the
+/// places are in world coordinates but no sheet has a world pose.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;

@@ -54,8 +54,8 @@ std::string degrees(double angle_rad) {
 }
 
 std::string p_wrong_text(double p_wrong) {
-    // Smallest probability that is reported. The model of paper, ink and camera does not justify
-    // smaller values.
+    // Minimum probability that is reported. The model of paper, ink and camera is not accurate
+    // enough to justify smaller values.
     constexpr double kMin_p_wrong = 1e-30;
     return fmt::format("{:.3g}", std::max(p_wrong * 1.005, kMin_p_wrong));
 }

@@ -13,7 +13,7 @@ enum class RecordFormat { json, csv, text };
 
 /// Version of the JSON line format, written as the first field of each line.
 /// docs/schema/lines-VERSION.json describes the format. Within a version, keys may be added, but
-/// existing keys are never removed and keep their meaning.
+/// existing keys are never removed and never change their meaning.
 inline constexpr const char* kSchemaVersion = "1";
 
 struct Field {

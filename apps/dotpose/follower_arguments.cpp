@@ -10,8 +10,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum distance of a reference point from the image centre, in px. It exceeds the size of any
-/// image but is well within the range of fixed-point poses.
+/// Maximum distance of a reference point from the image centre, in px. This limit exceeds the size
+/// of any image but is well within the range of fixed-point poses.
 constexpr double kMaxReference_px = 10'000;
 
 PixelPoint parse_reference_px(const std::string& text) {

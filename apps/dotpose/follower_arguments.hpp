@@ -16,18 +16,20 @@ struct FollowerArguments {
     CameraArgument camera;
     std::string print_map;  ///< path of the print map, or empty for none
     bool is_inverted = false;
-    FollowerOptions options;  ///< options that do not depend on the contents of the files
+    /// Options without `camera`, `sheets` and `print_map`, which `read` adds.
+    FollowerOptions options;
 
-    /// Adapts the camera file to the frames from `sources` (SourceArguments::fit_to). If --roi
-    /// is given and the camera file describes full frames, also converts --reference from the full
+    /// Adapts `camera` to the frames from `sources` (see SourceArguments::fit_to). If --roi is
+    /// given and the camera file describes full frames, also converts --reference from the full
     /// frame to the region.
     void fit_to(SourceArguments& sources);
 
-    /// Registers the input files that these options name.
+    /// Registers all files named by these options as inputs.
     void add_files(RunFiles& files) const;
 
-    /// Reads the sheet file and the print map. Throws Error if a file cannot be read, if the sheet
-    /// file is empty, or if the map does not belong to the sheets.
+    /// Returns `options` with the camera, the sheets and the print map. Reads the sheet file and
+    /// the print map. Throws Error if a file cannot be read, if the sheet file contains no sheets,
+    /// or if the map does not belong to the sheets.
     FollowerOptions read() const;
 };
 

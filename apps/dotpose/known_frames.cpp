@@ -105,8 +105,8 @@ KnownFrames known_images(const std::vector<std::string>& names,
 
 /// Frames from sources that can only be read sequentially. Several threads may request frames at
 /// the same time, but each frame can be requested only once. A request reads all frames up to the
-/// requested index and buffers the earlier ones until they are requested. Requests should therefore
-/// be roughly in order.
+/// requested index and buffers the earlier frames until they are requested. Requests should
+/// therefore be roughly in order.
 class FramesInOrder {
   public:
     /// Opens the first source. Throws Error or BadArgument if the source cannot be opened.

@@ -13,14 +13,14 @@
 namespace dotpose::cli {
 
 struct KnownFrames {
-    std::vector<TruthRow> rows;  ///< true poses, where `file` is the path or name of the frame
+    std::vector<TruthRow> rows;  ///< true poses, with the path or name of each frame in `file`
     /// Returns a frame. If the frame cannot be read, `problem` in the result contains the reason.
     dotpose::FrameSource frame_at;
     /// Returns the number of frames. If the run was interrupted, returns the number of frames read
     /// before the interruption.
     std::function<std::size_t()> readable_frames;
     /// Warns on standard error if there are more frames than poses. Must be called after the last
-    /// frame.
+    /// frame has been read.
     std::function<void()> finish = [] {};
 };
 

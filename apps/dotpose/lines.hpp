@@ -18,7 +18,7 @@ inline bool is_standard_output(const std::string& out) {
     return out.empty() || out == kStandardOutput;
 }
 
-/// Thrown when the reader of an output, such as `head`, has closed it.
+/// Thrown when the process that reads an output, such as `head`, has closed the output.
 struct ReaderLeft : Error {
     using Error::Error;
 };

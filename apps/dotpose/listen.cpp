@@ -101,7 +101,7 @@ class ByteSource {
     std::array<std::uint8_t, 4096> buffer_{};
 };
 
-/// Counts lost packets for the final report.
+/// Counts received and lost packets for the final report.
 class LossCounter {
   public:
     void count(const PosePacket& packet) {
@@ -128,7 +128,7 @@ class LossCounter {
 
 using Sinks = std::vector<std::unique_ptr<ReadingSink>>;
 
-/// Connects to the broker and starts the web page if the options ask for them.
+/// Connects to the broker if --mqtt is given, and starts the web page if --web is given.
 Sinks open_sinks(const ListenArguments& arguments) {
     Sinks sinks;
     sinks.push_back(open_publisher(arguments.publish, arguments.sheets));

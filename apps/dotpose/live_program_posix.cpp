@@ -33,8 +33,8 @@ int become_live() {
     for (std::string& word : words)
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    // Timeout in seconds for a camera that delivers no frames. OpenCV reads this variable when it
-    // is loaded, so it must be set before dotpose-live starts.
+    // Timeout in seconds for a camera that delivers no frames. OpenCV reads this environment
+    // variable when the library is loaded, so the variable must be set before dotpose-live starts.
     setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2", 0);
     execv(live_program().c_str(), arguments.data());
     return errno;

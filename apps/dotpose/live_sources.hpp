@@ -17,12 +17,13 @@ void hand_over();
 /// Like `hand_over`, but returns if dotpose-live is missing.
 void hand_over_if_possible();
 
-/// Opens a camera or a video. In `dotpose`, throws Error, because this requires dotpose-live.
+/// Opens a camera or a video. In `dotpose`, throws Error, because only dotpose-live can read
+/// cameras and videos.
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
 /// Creates a video file: H.264 if the name ends in .mp4, and Motion JPEG if it ends in .avi. In
-/// `dotpose`, throws Error, because this requires dotpose-live.
+/// `dotpose`, throws Error, because only dotpose-live can write videos.
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

@@ -155,7 +155,7 @@ RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Locates all frames of a run. Skips frames and sources that fail.
+/// Locates all frames of a run. After an error, continues with the next frame or source.
 class LocateRun {
   public:
     LocateRun(const LocateArguments& arguments, Sources& sources)
@@ -171,8 +171,8 @@ class LocateRun {
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
         // If a pipe delivers the image names, signals are not caught, because a signal must
-        // terminate the tool immediately even while it waits for a name. No line is lost, because
-        // each line is flushed.
+        // terminate the tool immediately, even while the tool is waiting for a name. No line is
+        // lost, because each line is flushed.
         if (!sources.has_pipe()) catch_interrupts();
     }
 
@@ -210,7 +210,8 @@ class LocateRun {
     capture::SourceOptions options_of(const LocateArguments& arguments,
                                       std::function<bool(Outcome)> pass_on) {
         capture::SourceOptions options = arguments.sources.options;
-        // Large images are reduced unless a camera file specifies the image size.
+        // Without a camera file, images of up to kDefaultImagePixels pixels are accepted, because
+        // Follower downscales large images. With a camera file, the image size must match the file.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
         options.tell = tell;
         options.stop = interrupted;

@@ -40,7 +40,7 @@ std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>
     return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
 }
 
-/// Returns the reason, with numbers, why a position is rejected as uncertain.
+/// Returns the reason why a position is rejected as uncertain, with the relevant numbers.
 std::string uncertainty_reason(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {

@@ -40,8 +40,8 @@ struct Record {
     int max_p_wrong_log2 = 0;  ///< log2 of the maximum p_wrong for which a position is accepted
 };
 
-/// Returns the record for the image located last. The caller must set the file name, the time and
-/// the advice.
+/// Returns the record for the most recently located image. The caller must set the file name, the
+/// time and the advice.
 Record record_of(const Located& located, const Follower& follower);
 
 /// Length of the array that `warnings` returns.
@@ -49,7 +49,7 @@ inline constexpr std::size_t kWarnings = 5;
 /// Returns the warnings for a frame. A warning that does not apply is empty. In order, the warnings
 /// report that
 /// - a code other than the given code explains the frame,
-/// - the place is not on any sheet of the sheet file,
+/// - the fix is not on any sheet in the sheet file,
 /// - the spacing according to the camera file differs from the spacing of the sheet,
 /// - the dots do not exclude the second pose in space,
 /// - the dots contradict the print map.
@@ -79,7 +79,8 @@ std::vector<Field> columns_of(std::vector<Field> fields, Columns columns);
 
 /// Returns the CSV header, including the line break, for a run with the options of `follower`.
 std::string csv_header(const Follower& follower, Units units, Columns columns);
-/// Returns a record without a result. The options of `follower` determine which fields it has.
+/// Returns a record without a result. The options of `follower` determine which fields the record
+/// has.
 Record empty_record(const Follower& follower);
 
 /// Returns one line of text: file, sheet, x, y and angle with their standard deviations, and the

@@ -15,8 +15,8 @@ std::string bare(std::string_view word) {
     return result;
 }
 
-/// Returns the only name that begins with `word`. Returns an empty string if no name or more than
-/// one name begins with it, or if `word` has fewer than kMinCharacters characters.
+/// Returns the name that begins with `word`. Returns an empty string if there is no such name or
+/// more than one, or if `word` has fewer than kMinCharacters characters.
 std::string only_continuation(const std::string& word, const std::vector<std::string>& names) {
     constexpr std::size_t kMinCharacters = 2;
     if (word.size() < kMinCharacters) return {};

@@ -20,8 +20,8 @@ struct LineArguments {
     Units units = Units::mm;
 };
 
-/// Adds --format json|csv and -o. With `has_text`, --format also accepts text. The default format
-/// is csv if the file name given to -o ends in .csv, and json otherwise.
+/// Adds --format json|csv and -o. If `has_text` is true, --format also accepts `text`. The default
+/// format is `csv` if the file name given to -o ends in .csv, and `json` otherwise.
 void add_format_options(Command& command, LineArguments& arguments, bool has_text = false);
 
 /// Adds the options of `add_format_options`, and --units mm|ros.

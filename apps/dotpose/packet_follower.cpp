@@ -28,8 +28,8 @@ Fix fix_of(const PosePacket& packet) {
 /// Sets a diagonal covariance for a fix, based on the deviation in the packet.
 void set_covariance(const PosePacket& packet, Fix& fix) {
     // For the smallest view, 8 x 8 dots, the standard deviation of the angle in rad is sqrt(6) / 8
-    // times that of the position in spacings. With more dots, the angle is more accurate, so this
-    // factor is an upper bound.
+    // times the standard deviation of the position in spacings. With more dots, the angle is more
+    // accurate, so this factor is an upper bound.
     constexpr float kAngleFromPosition = 0.306F;
     constexpr float kThetaStep_rad = 9.6e-5F;  // one unit of PosePacket::theta_bam16
     const float sigma = std::max<float>(packet.deviation_q12, 1) / 4096;

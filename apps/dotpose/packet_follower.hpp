@@ -19,8 +19,8 @@ inline int packets_since(std::uint16_t earlier, std::uint16_t later) {
 }
 
 /// Returns true if a packet is a repetition or arrived late. `packets` is the result of
-/// `packets_since`, called with the newest packet and this packet. A value below -16 indicates that
-/// the device was restarted, so the packet is not considered late.
+/// `packets_since` for the newest packet and this packet. A value below -16 indicates that the
+/// device was restarted, so the packet is not considered late.
 inline bool is_late(int packets) {
     constexpr int kMaxLate = 16;
     return packets <= 0 && packets >= -kMaxLate;

@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the 90th percentile of the grey levels. It approximates the grey level of the paper if
-/// the paper covers more than a tenth of the image and is the brightest object in it.
+/// Returns the 90th percentile of the grey levels. This percentile approximates the grey level of
+/// the paper if the paper covers more than a tenth of the image and is the brightest object in it.
 int paper_level(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -55,7 +55,7 @@ GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage
     return result;
 }
 
-/// Returns the central part of an image, at most `side_px` wide and high, enlarged by the factor
+/// Returns the central part of an image, at most `side_px` wide and high, enlarged by a factor of
 /// `by`.
 GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     const int width_px = std::min(image.width_px, side_px) - 1;
@@ -87,7 +87,7 @@ std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Stretches an image along one direction by the factor `by`, to compensate for the foreshortening
+/// Stretches an image along one direction by a factor of `by`, to compensate for the foreshortening
 /// of a tilted sheet.
 struct Stretch {
     double angle_rad = 0;
@@ -103,8 +103,8 @@ struct Stretch {
     }
 };
 
-/// Returns the central part of the stretched image, a square with sides of at most `side_px`. Its
-/// corners may be outside the original image.
+/// Returns the central part of the stretched image, a square with sides of at most `side_px`. The
+/// corners of the square may be outside the original image.
 GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& stretch) {
     const int side = std::min({image.width_px, image.height_px, side_px});
     return resampled(image, side, side, [&](int u, int v) {
@@ -191,8 +191,8 @@ bool is_out_of_focus(ImageView image) {
     return detail > kMinDetail && second_difference(image, 2) - noise < kFocused * detail;
 }
 
-/// Reduces the image by the factor `by`. Each pixel of the result is the mean of a block of `by` x
-/// `by` pixels.
+/// Downscales the image by a factor of `by`. Each pixel of the result is the mean of a block of
+/// `by` x `by` pixels.
 GreyImage reduced_by(ImageView image, int by) {
     GreyImage small{{}, image.width_px / by, image.height_px / by};
     for (int v = 0; v < small.height_px; ++v) {
@@ -206,9 +206,9 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Reduces the image by increasing factors until it contains a grid of dots whose spacing, in
-/// pixels of the original image, exceeds kMaxSpacing_px. Returns this spacing, or none if no
-/// reduced image contains such a grid.
+/// Downscales the image by increasing factors until it finds a grid of dots whose spacing in the
+/// original image exceeds kMaxSpacing_px. Returns this spacing, in px of the original image, or
+/// nullopt if no downscaled image shows such a grid.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
@@ -249,8 +249,8 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
 }
 
 /// Returns the advice to specify the code if the position is certain in one of the codes.
-/// Otherwise, returns an empty string. If the code is not given, a position may be uncertain only
-/// because positions in the other codes are also possible.
+/// Otherwise, returns an empty string. If the code is not given, the only reason for the
+/// uncertainty may be that positions in other codes are also possible.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
@@ -327,7 +327,8 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
         return "the dots are white on black: locate with --inverted";
     }
     // Minimum grey level of the paper. The contrast of a dot cannot exceed the grey level of the
-    // paper. Blur may reduce the contrast to a quarter, which must still be at least min_contrast.
+    // paper. Blur may reduce the contrast to a quarter of that level, and even the reduced contrast
+    // must be at least min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(

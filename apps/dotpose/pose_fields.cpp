@@ -46,7 +46,8 @@ PlanePose pattern_pose(const Fix& fix, double spacing_mm) {
 }
 
 PlanePose with_other_y(const PlanePose& pose) {
-    // Keeps an angle of pi, because -pi is the same direction but outside the range (-pi, pi].
+    // Leaves an angle of pi unchanged, because -pi is the same direction but is outside the range
+    // (-pi, pi].
     const double angle_rad =
         pose.theta_rad == std::numbers::pi ? std::numbers::pi : -pose.theta_rad;
     return {pose.x_mm, -pose.y_mm, angle_rad, world_covariance(pose.covariance, 0)};

@@ -93,7 +93,7 @@ SheetPrint print_of(const PrintArguments& arguments) {
     return print;
 }
 
-/// Runs `write` and shows its progress. Ctrl-C cancels it.
+/// Runs `write` and shows its progress. Ctrl-C cancels `write`.
 template <typename Write>
 void with_progress(const PrintArguments& arguments, const Write& write) {
     catch_interrupts();

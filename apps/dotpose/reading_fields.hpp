@@ -1,4 +1,4 @@
-/// Fields of an output line of `dotpose watch`: the fields that `dotpose locate` also writes, and
+/// Fields in an output line of `dotpose watch`: the fields that `dotpose locate` also writes, and
 /// the fields for the track.
 #pragma once
 

@@ -31,7 +31,7 @@ std::unique_ptr<ReadingSink> open_publisher(const PublishArguments& arguments,
                                             const std::string& sheets);
 
 /// Starts the web page of `listen` for a robot. Returns null if --web is not given. In `dotpose`,
-/// replaces this process like `open_publisher`. Throws Error on failure.
+/// replaces this process in the same way as `open_publisher`. Throws Error on failure.
 std::unique_ptr<ReadingSink> open_page(const PageArguments& arguments, const std::string& robot,
                                        const std::string& sheets);
 

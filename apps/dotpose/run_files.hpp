@@ -24,9 +24,9 @@ enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 Content content_of(RecordFormat format);
 Content content_of(const ReportArguments& report);
 
-/// Identity of a file. All paths to a file have the same identity, even if they go through links or
-/// different folders. New files in the same folder whose names differ only in case also have the
-/// same identity, because some file systems ignore case.
+/// Identity of a file. All paths to a file have the same identity, even if they contain links or
+/// lead through different folders. New files in the same folder whose names differ only in case
+/// also have the same identity, because some file systems ignore case.
 struct FileIdentity {
     std::uint64_t device = 0;
     std::uint64_t file = 0;  ///< identifies the file, or its folder if the file does not exist
@@ -59,12 +59,12 @@ class RunFiles {
     /// Registers a file that is read, changed and rewritten, or created if it does not exist.
     void updates(const std::string& option, const std::string& path, Content content);
 
-    /// Checks an input like `reads`, but does not store its path, because a run may have an
-    /// unlimited number of inputs.
+    /// Checks an input in the same way as `reads`, but does not store the path, because a run may
+    /// have an unlimited number of inputs.
     void require_not_written(const std::string& path) const;
 
-    /// Checks an output like `writes`, but does not store its path. Use this function for generated
-    /// names, which are known to differ from each other.
+    /// Checks an output in the same way as `writes`, but does not store the path. Use this function
+    /// for generated names, which are known to differ from each other.
     void require_free(const std::string& option, const std::string& path) const;
 
   private:

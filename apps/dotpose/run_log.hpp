@@ -109,7 +109,7 @@ struct RunStatistics {
     std::map<std::string, std::int64_t> without_fix;  ///< number of frames without a fix, by status
     std::map<std::string, std::int64_t> events;       ///< number of events by name
     std::map<std::string, std::int64_t> verdicts;
-    std::int64_t gaps = 0;  ///< number of sequences of consecutive frames without a fix
+    std::int64_t gaps = 0;  ///< number of periods without a fix
     double longest_gap_s = 0;
     double stationary_s = 0;
     double distance_mm = 0;      ///< length of the path, excluding jumps

@@ -9,7 +9,7 @@
 namespace dotpose::cli {
 
 /// Returns the options for reprinting the page of a sheet. If an earlier version of dotpose wrote
-/// the entry without these options, returns the most likely ones. Throws Error if the dots were
+/// the entry without these options, returns the most likely options. Throws Error if the dots were
 /// printed over a document, because the entry does not contain the document.
 PrintOptions reprint_options(const SheetEntry& entry);
 

@@ -40,7 +40,7 @@ constexpr const char* kSimulateExamples =
     "  dotpose simulate -o foreign --scene plain_grid\n"
     "  dotpose simulate -o drive.mp4 --drive --sheets sheets.json --speed 200 --size 320x240\n";
 
-// An option that sets an imperfection to a number.
+// A command-line option that sets one numeric member of Imperfections.
 struct NumberOption {
     const char* flag;
     const char* unit;
@@ -119,7 +119,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
 
     CameraPose& pose = shot.pose;
     if (arguments.angle_deg) {
-        // The range of the angle is (-180, 180] degrees.
+        // Normalises the angle to the range (-180, 180] degrees.
         pose.theta_rad = -std::remainder(-*arguments.angle_deg, 360) / kDegrees;
     }
     if (arguments.tilt_deg.given()) {
@@ -217,8 +217,8 @@ std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
 }
 
 /// Returns the drive over the sheets in the file, or none if --drive is not given. All frames have
-/// the imperfections of the first shot. If `has_length` is false, also sets the number of frames to
-/// the number in one lap.
+/// the imperfections of the first shot. If `has_length` is false, also sets `arguments.frames` to
+/// the number of frames in one lap.
 std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
     if (!arguments.drives) return std::nullopt;
     const std::vector<SheetEntry> sheets = read_sheets(system::path_of(arguments.sheets));

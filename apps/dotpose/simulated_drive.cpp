@@ -79,7 +79,7 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
 void SimulatedDrive::lay_path() {
     constexpr double kMargin_mm = 5;
     // Minimum amplitude of the path along an axis, as a fraction of the side of the bounding
-    // rectangle along this axis.
+    // rectangle that is parallel to this axis.
     constexpr double kMinFraction = 0.25;
     Vec2 low{1e9, 1e9};
     Vec2 high{-1e9, -1e9};

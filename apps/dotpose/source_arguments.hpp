@@ -35,8 +35,8 @@ struct SourceArguments {
     /// Adds only --size, --fps, --exposure, --gain, --flip and --roi.
     void add_frame_options(Command& command);
 
-    /// Enables flipping of the source if the camera file requires it. Then clears the flag in
-    /// `camera`, because the source delivers frames that are already flipped.
+    /// If the flag `flip` is set in `camera`, makes the sources flip their frames. Then clears the
+    /// flag, because the sources deliver frames that are already flipped.
     void flip_as(std::optional<Camera>& camera);
 
     /// Calls `flip_as`. If --roi is given and the camera file describes full frames, restricts

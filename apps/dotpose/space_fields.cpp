@@ -96,8 +96,8 @@ std::vector<Field> pattern_fields(const std::string& prefix, const CameraInSpace
     return fields;
 }
 
-/// Returns the tilt, azimuth and turn of a pose. Only the output with `Units::mm` contains these
-/// fields.
+/// Returns the fields for the tilt, azimuth and turn of a pose. Only the output with `Units::mm`
+/// contains these fields.
 std::vector<Field> lean_fields(const Quaternion& rotation) {
     const CameraLean lean = lean_of(rotation);
     return {{"camera_tilt_deg", degrees(lean.tilt_rad)},
@@ -137,14 +137,15 @@ std::vector<Field> world_fields_of(const std::string& prefix, const CameraInWorl
     return fields;
 }
 
-/// Returns the largest standard deviation of three consecutive coordinates, starting at `first`.
+/// Returns the largest of the standard deviations of the three coordinates `first` to `first` + 2.
 double largest_sigma(const SpaceCovariance& covariance, std::size_t first) {
     return std::sqrt(std::max({covariance[first][first], covariance[first + 1][first + 1],
                                covariance[first + 2][first + 2]}));
 }
 
-/// Returns the velocities along the axes of the world or the pattern frame, and the angular
-/// velocities about the axes of the camera.
+/// Returns the fields for the velocity, the angular velocity and their standard deviations. The
+/// velocity is along the axes of the world or the pattern frame. The angular velocity is about the
+/// axes of the camera.
 std::vector<Field> velocity_fields(const CameraMotion& motion, bool is_in_world, Units units) {
     const bool is_ros = units == Units::ros;
     const double length = is_ros ? 1 : 1000;

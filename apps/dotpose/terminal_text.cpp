@@ -33,7 +33,7 @@ constexpr std::array kBeginnings = {
     Beginning{"verdict", kRed},
 };
 
-/// Returns the line. If the line starts with one of kBeginnings, the prefix is coloured.
+/// Returns the line with its prefix coloured if the prefix is one of kBeginnings.
 std::string coloured(std::string_view line) {
     for (const Beginning& beginning : kBeginnings) {
         if (!line.starts_with(beginning.text)) continue;

@@ -13,8 +13,8 @@ namespace dotpose::cli {
 using base::printable;
 using base::with_escaped_controls;
 
-/// Flushes standard output, then writes to standard error. Does not throw if the stream is closed,
-/// unlike fmt::print.
+/// Flushes standard output, then writes to standard error. Unlike fmt::print, does not throw if a
+/// stream is closed.
 void write_to_stderr(const std::string& text);
 
 /// Writes "dotpose: MESSAGE" to standard error as one printable line.

@@ -23,8 +23,8 @@ constexpr int kWidth_px = board::kMaxWidth_px;
 constexpr int kHeight_px = board::kMaxHeight_px;
 /// A short, fixed exposure avoids motion blur. Try 20 to 200 sensor rows.
 constexpr int kExposure_rows = 60;
-/// Approximate number of sensor rows per frame in the mode for QVGA (CIF), including the blanking
-/// rows between frames.
+/// Approximate number of sensor rows per frame in CIF mode, which the driver uses for QVGA.
+/// Includes the blanking rows between frames.
 constexpr int kRowsPerFrame = 336;
 
 camera_fb_t* frame = nullptr;

@@ -93,7 +93,7 @@ void read_pixels() {
         }
     }
     gpio_put(kSelect, true);
-    sleep_us(4);  // ends the burst
+    sleep_us(4);  // minimum time to end the burst
 }
 
 }  // namespace

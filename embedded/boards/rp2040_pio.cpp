@@ -53,7 +53,7 @@ constexpr Setting kSettings[] = {
     {0x0C, 0x04}, {0x3E, 0x19}, {0x70, 0x3A}, {0x71, 0x35},  // scaling by 2, which also halves PCLK
     {0x72, 0x11}, {0x73, 0xF1}, {0xA2, 0x02}, {0x17, 0x16}, {0x18, 0x04}, {0x32, 0x80},  // window
     {0x19, 0x02}, {0x1A, 0x7A}, {0x03, 0x0A}, {0x13, 0x84},  // COM8: automatic gain, fixed exposure
-    {0x10, 0x08}, {0x07, 0x00},                              // exposure in rows, times 4
+    {0x10, 0x08}, {0x07, 0x00},                              // exposure, in units of 4 rows
 };
 
 void write(const Setting& setting) {
@@ -134,8 +134,8 @@ void set_up() {
 /// Stops the capture of the previous frame and discards its remaining data.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
-    // Aborting one channel may start the other. Both are therefore aborted together, and this is
-    // done twice.
+    // Aborting one channel may start the other. Both channels are therefore aborted together, and
+    // the abort is repeated once.
     const std::uint32_t both = 1U << channels[0] | 1U << channels[1];
     for (int i = 0; i < 2; ++i) {
         dma_hw->abort = both;

@@ -28,11 +28,11 @@ constexpr std::uint32_t kHeight_px = board::kMaxHeight_px;
 constexpr std::int64_t kMiddleOfExposure_us = -500;
 
 alignas(4) std::uint8_t rows[2][kWidth_px];
-volatile std::uint32_t rows_filled = 0;  // counted by the interrupt
+volatile std::uint32_t rows_filled = 0;  // incremented by the interrupt callback
 volatile bool has_begun = false;
 std::uint32_t rows_read = 0;
 
-/// Returns the time on a 64-bit clock in µs. Must be called at least every 71 minutes, because TIM2
+/// Returns the time in µs on a 64-bit clock. Must be called at least every 71 minutes, because TIM2
 /// wraps around after this time.
 std::int64_t now_us() {
     static std::uint32_t last = 0;

@@ -1,5 +1,5 @@
 // Runs the firmware program on a desktop. The devices must print the same lines. With --predict,
-// adds predictions to a file of frames, which the devices then track.
+// adds predictions to a file of frames. The devices then track these frames.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -36,7 +36,7 @@ void print(const char* text) {
 
 namespace {
 
-/// Locates frames without a prediction. Writes a prediction before each frame that was located.
+/// Locates frames without a prediction. Writes each located frame, preceded by a prediction.
 class Predictor {
   public:
     explicit Predictor(std::uint64_t seed) : rng_(seed) {}

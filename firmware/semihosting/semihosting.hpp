@@ -16,7 +16,7 @@ enum class Call : std::uint32_t {
 };
 
 /// File modes as in fopen. The file ":tt" is the console: standard output if it is opened for
-/// writing, standard error if it is opened for appending.
+/// writing, and standard error if it is opened for appending.
 inline constexpr std::uint32_t kRead = 1;
 inline constexpr std::uint32_t kWrite = 4;
 inline constexpr std::uint32_t kAppend = 8;

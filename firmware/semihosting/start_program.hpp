@@ -1,5 +1,5 @@
-/// Initialises the memory and runs the program. Called by the start-up code after it has set up the
-/// stack.
+/// Initialises the memory and runs the program. Called by the start-up code, which must already
+/// have set up the stack.
 #pragma once
 
 #include <array>

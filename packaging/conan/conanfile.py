@@ -53,6 +53,7 @@ class Dotpose(ConanFile):
         CMake(self).install()
 
     def package_info(self):
-        # The package brings its own files for find_package(dotpose), with a target for each library.
+        # The package provides its own files for find_package(dotpose), with a target for each
+        # library.
         self.cpp_info.builddirs = ["lib/cmake/dotpose"]
         self.cpp_info.set_property("cmake_find_mode", "none")

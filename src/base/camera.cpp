@@ -27,7 +27,7 @@ constexpr double kMaxStretch = 2;
 /// adjacent points.
 struct Between {
     std::size_t first;  ///< index of the point at or before the position, in [0, `count` - 2]
-    double part;        ///< fraction of the distance from this point to the next one, in [0, 1]
+    double part;        ///< fraction of the distance from this point to the next point, in [0, 1]
 };
 
 Between between(double at_px, int side_px, std::size_t count) {

@@ -36,7 +36,8 @@ class OutputFile : public ByteSink {
 
     void require_good() const override;
 
-    /// Closes the temporary file and renames it to the target. Throws Error if either fails.
+    /// Closes the temporary file and renames it to the target. Throws Error if either operation
+    /// fails.
     void commit();
 
   private:

@@ -47,7 +47,7 @@ bool acts_on_terminals(std::uint32_t code) {
     return code < 0x20 || is_del_or_c1(code) || breaks_line || turns_direction;
 }
 
-/// Replaces every character of a string. `shown` appends the replacement of one character to the
+/// Replaces every character of a string. `shown` appends the replacement for one character to the
 /// result. Invalid bytes are passed to `shown` one at a time.
 template <typename Shown>
 std::string rewritten(std::string_view text, Shown shown) {

@@ -23,7 +23,7 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Maximum ratio of the measured spacing to the spacing expected at the stated resolution. The
+/// Maximum ratio of the measured spacing to the spacing expected at the given resolution. The
 /// resolution is ignored if the ratio is greater than this value or less than its reciprocal.
 constexpr double kMaxSpacingRatio = 2;
 constexpr std::size_t kMinFieldDots = 30;
@@ -181,7 +181,7 @@ double PrintField::bad_share() const {
 namespace {
 
 /// If the fraction of wrong bits exceeds kSuspicious in any field, checks whether the page uses a
-/// different code variant. If so, reports only the wrong variant, because it causes all other
+/// different code variant. If so, only the wrong variant is reported, because it causes all other
 /// findings.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;

@@ -8,13 +8,13 @@
 
 namespace dotpose::calibrate {
 
-/// Equation of one dot along one axis: row . parameters = wanted. A fit with n parameters uses only
+/// Equation for one axis of one dot: row . parameters = wanted. A fit with n parameters uses only
 /// the first n coefficients of `row`.
 struct AxisEquation {
     std::array<double, 8> row{};
     double wanted = 0;
 };
-/// Equations of one dot along both axes.
+/// Equations for both axes of one dot.
 using DotEquation = std::array<AxisEquation, 2>;
 
 struct DotFit {

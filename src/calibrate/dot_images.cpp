@@ -42,7 +42,8 @@ struct DotImage {
     double contrast = 0;
     double level = 0;
     Vector2d centre;
-    Matrix2d covariance;  ///< covariance of the centre, for image noise of 1 grey level
+    /// Covariance of the centre if the image noise has a standard deviation of 1 grey level.
+    Matrix2d covariance;
     bool is_valid = false;
 };
 
@@ -87,7 +88,7 @@ class Light {
     std::vector<double> values_;
 };
 
-/// Sums of the normal equations of one dot. The parameters of the dot are contrast, level and
+/// Sums in the normal equations for one dot. The parameters of the dot are contrast, level and
 /// centre. All dots share one further parameter, the variance of the blur.
 struct DotSums {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();

@@ -18,8 +18,8 @@ struct ExpectedDot {
     Eigen::Matrix2d px_per_spacing;
 };
 
-/// Minimum spacing in the image, in px, measured in the direction in which it is smallest. At
-/// smaller spacings, the images of neighbouring dots overlap.
+/// Minimum spacing of dots that can be measured, in px. The spacing is measured in the direction in
+/// which it is smallest. At smaller spacings, the images of neighbouring dots overlap.
 inline constexpr double kMinSpacing_px = 4;
 
 /// Returns true if a dot is entirely inside the image and its spacing is at least kMinSpacing_px.

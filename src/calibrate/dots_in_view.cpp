@@ -43,8 +43,9 @@ struct Cells {
     FixedVec last{INT32_MIN, INT32_MIN};
 
     void add(double x, double y) {
-        // The margin covers dots that are displaced into the image. It also covers cells between
-        // the sampled border points where the image border curves outwards on the paper.
+        // The margin includes cells outside the image whose dots are displaced into the image. It
+        // also includes cells beyond the sampled border points, because the image border may curve
+        // outwards between these points.
         constexpr int kMargin = 2;
         const auto i = static_cast<std::int32_t>(std::lround(x));
         const auto j = static_cast<std::int32_t>(std::lround(y));

@@ -1,4 +1,4 @@
-// A fix's map from pixels to the code plane or to the paper, using Eigen types.
+// The map of a fix, from pixels to the code plane or to the paper, with Eigen types.
 #pragma once
 
 #include <Eigen/Core>

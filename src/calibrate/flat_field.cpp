@@ -1,4 +1,4 @@
-// Finds the flat field of a camera from the mean of many frames. If the camera moves between the
+// Computes the flat field of a camera from the mean of many frames. If the camera moves between the
 // frames, dots darken all pixels of the mean equally.
 #include <cmath>
 #include <optional>

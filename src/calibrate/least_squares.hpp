@@ -17,8 +17,7 @@ class NormalEquations {
 
     /// Adds an equation. `row` contains one coefficient per parameter.
     void add(std::span<const double> row, double wanted);
-    /// Adds an equation that sets a parameter to 0. The square of its residual is multiplied by
-    /// `weight`.
+    /// Adds the equation parameter = 0. The square of its residual is multiplied by `weight`.
     void pull_to_zero(int parameter, double weight);
 
     /// Returns the parameters with the smallest sum of squared residuals.
@@ -26,7 +25,7 @@ class NormalEquations {
     /// Returns the sum of squared residuals with all parameters set to 0, minus the sum at the
     /// solution.
     double explained_squares() const;
-    /// Returns the covariance of the solution, assuming that the wanted values have variance 1.
+    /// Returns the covariance of the solution, assuming that each `wanted` value has variance 1.
     Eigen::MatrixXd unit_covariance() const;
 
   private:
@@ -39,7 +38,7 @@ class NormalEquations {
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& symmetric);
 
 /// Returns the lower triangular matrix that transforms errors with this covariance into independent
-/// errors of variance 1.
+/// errors with variance 1.
 Eigen::MatrixXd whitening_of(const Eigen::MatrixXd& covariance);
 
 /// Returns the covariance of linear functions of parameters with known covariance: derivative *

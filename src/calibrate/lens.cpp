@@ -37,7 +37,7 @@ class Series {
     Series(int frames, const FrameAt& frame_at, const CalibrateOptions& options)
         : frame_at_(frame_at), options_(options), total_(2 * frames) {}
 
-    /// Returns the frame for the first round, or an empty optional if an earlier frame is
+    /// Returns frame `index` for the first round, or an empty optional if an earlier frame is
     /// identical.
     std::optional<GreyImage> new_frame(int index) {
         GreyImage image = frame_at_(index);
@@ -107,7 +107,8 @@ bool is_held_by_hand(const std::vector<LocatedFrame>& located, const FitSetting&
                                  setting, mounted.residual_px);
     }
     const double by_chance = 5 * static_cast<double>(located.size());
-    constexpr double kBeyondDoubt = 6;  // minimum excess over chance, in standard deviations
+    // Minimum excess over the gain expected by chance, in standard deviations.
+    constexpr double kBeyondDoubt = 6;
     return gain > by_chance + kBeyondDoubt * std::sqrt(2 * by_chance);
 }
 

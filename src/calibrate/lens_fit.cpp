@@ -100,7 +100,7 @@ struct HandheldResidual {
         const T cy = cos(pose[5]);
         const T sy = sin(pose[5]);
         // The point (s, t) on the paper is s (cy, sx sy, -cx sy) + t (0, cx, sx) + (0, 0, distance)
-        // in the camera frame. Solves for the point on the ray (a, b, focal).
+        // in the camera frame. Solves for the point at which the ray (a, b, focal) meets the paper.
         const T m00 = cy + a * per_focal * cx * sy;
         const T m01 = -a * per_focal * sx;
         const T m10 = sx * sy + b * per_focal * cx * sy;

@@ -20,7 +20,7 @@ enum class Stand {
 /// Parameters that all frames share. The value of `Stand` determines which parameters are fitted.
 /// Image positions are in px from the image centre. `reach` is half the diagonal of the image.
 struct SharedModel {
-    std::array<double, 3> lens{};  ///< k reach^2, and the distortion centre in px
+    std::array<double, 3> lens{};  ///< k * reach^2, and the distortion centre in px
     /// Members of PaperScale, with the perspective multiplied by `reach`.
     std::array<double, 5> paper{};
     std::array<double, 3> shape{0, 1, 0};  ///< hand-held only: reach / focal length, aspect, skew

@@ -7,15 +7,14 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Lens distortions to try if the lens is unknown: values of k r^2 in the corner of the image.
+/// Lens distortions to try if the lens is unknown, as values of k r^2 at the image corners.
 constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 0.12};
 
 /// Returns the half width of the dots, in spacings. This is the radius at which the mean radial
 /// profile of all dots is halfway between its values at the centre and at kReach.
 double half_width(const ImageView& image, const std::vector<LocatedDot>& dots, double spacing_px) {
     constexpr int kBins = 10;
-    // Maximum distance from the centre, in spacings. The next dot is at least 2/3 of a spacing
-    // away.
+    // Radius of the profile, in spacings. The nearest other dot is at least 2/3 of a spacing away.
     constexpr double kReach = 0.35;
     std::array<double, kBins> sums{};
     std::array<double, kBins> counts{};
@@ -83,7 +82,7 @@ std::optional<LocatedFrame> FrameReader::read(const ImageView& image) {
     for (const double stretch : kCornerStretches) {
         const FixedLens lens = FixedLens::from_k(stretch / (reach_px * reach_px));
         if (!locate_with(image, lens)) continue;
-        lens_ = lens;  // this lens is tried first for the next frame
+        lens_ = lens;  // this lens will be tried first in the next frame
         return read_trace(image);
     }
     return std::nullopt;
@@ -99,7 +98,7 @@ bool FrameReader::locate_with(const ImageView& image, const FixedLens& lens) {
 LocatedFrame FrameReader::read_trace(const ImageView& image) const {
     const Trace trace = locator_.trace();
     const FixedLens& lens = trace.options.lens;
-    // The lens that `locate` used, including the rounding to fixed point.
+    // The lens as used by `locate`, that is, rounded to fixed point.
     Camera used;
     used.k_per_px2 = lens.k_q40 * 0x1p-40;
     used.centre_px = {(image.width_px - 1) / 2.0 + lens.centre_dx_q8 / 256.0,

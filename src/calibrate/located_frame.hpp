@@ -34,10 +34,10 @@ std::vector<LocatedDot> dots_read(const Trace& trace);
 /// Dots in one frame. Pixel coordinates are not corrected for distortion.
 struct LocatedFrame {
     int index = 0;                  ///< index of the frame in the series
-    Place place;                    ///< place of step (0, 0)
+    Place place;                    ///< place in the code where `step` is (0, 0)
     std::vector<LocatedDot> dots;   ///< dots that belong to the pattern
-    std::vector<PixelPoint> blobs;  ///< all blobs with the size of a dot
-    double dot_width = 0;           ///< width of the dots at half their darkness, in spacings
+    std::vector<PixelPoint> blobs;  ///< all dot-sized blobs
+    double dot_width = 0;  ///< full width of the dots at half maximum darkness, in spacings
     double spacing_px = 0;
 };
 
@@ -56,7 +56,7 @@ class FrameReader {
     CodeVariant code() const { return reader_.code(); }
     /// Locates a frame. Returns an empty optional if there is no fix.
     std::optional<LocatedFrame> read(const ImageView& image);
-    /// Returns the results of the stages for the latest frame, including its fix.
+    /// Returns the results of all stages of `locate` for the latest frame, including its fix.
     Trace trace() const { return locator_.trace(); }
 
   private:

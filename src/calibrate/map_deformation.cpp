@@ -14,10 +14,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// Maximum number of coarse nodes. With this number, the factorisation takes 5 Gflop, and the
-/// matrix takes 46 MB.
+/// Maximum number of coarse nodes. With this number of nodes, factorising the matrix takes 5 Gflop,
+/// and storing it takes 46 MB.
 constexpr std::size_t kMaxNodes = 800;
-/// Unknowns of a node: shift along x, shift along y, and change in the displacement.
+/// Number of unknowns of a node: shift along x, shift along y, and change in the displacement.
 constexpr int kNodeTerms = 3;
 using NodeBlock = Eigen::Matrix<double, kNodeTerms, kNodeTerms>;
 

@@ -1,8 +1,8 @@
-// The part of the preconditioner that corrects slow deformations of the page, which vary little
-// over the width of a frame. A slow deformation moves all dots in a frame together, so a change in
-// the frame's pose nearly cancels its effect on the residuals. If the preconditioner consisted only
-// of the diagonal blocks of single frames, slow deformations would need many iterations to
-// converge. This part therefore solves for the deformation and the poses together.
+// The part of the preconditioner that handles slow deformations of the page, which vary little over
+// the width of a frame. A slow deformation moves all dots in a frame together, so a change in the
+// frame's pose nearly cancels the effect of the deformation on the residuals. If the preconditioner
+// consisted only of the diagonal blocks of single frames, slow deformations would need many
+// iterations to converge. This part therefore solves for the deformation and the poses together.
 #pragma once
 
 #include <cstdint>
@@ -45,14 +45,14 @@ class MapDeformation {
     using Following = Eigen::Matrix<float, kFrameTerms, Eigen::Dynamic>;
 
     /// Response of a frame to a deformation. Each column of `terms` belongs to one unknown of the
-    /// coarse nodes around the dots: it contains the terms of the frame if this unknown is 1 and
-    /// all other unknowns are 0.
+    /// coarse nodes around the frame's dots: it contains the terms of the frame if this unknown is
+    /// 1 and all other unknowns are 0.
     struct Follower {
         std::vector<std::uint32_t> nodes;
         Following terms;  ///< columns: shift x, shift y and displacement of each node
     };
-    /// Response of a frame, and its contribution to the matrix. The rows and columns of the
-    /// contribution are in the order of the nodes of the response.
+    /// Response of a frame, and the contribution of the frame to the matrix. The rows and columns
+    /// of `matrix` are in the order of `follower.nodes`.
     struct FrameEquations {
         Follower follower;
         Eigen::MatrixXd matrix;

@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 
-/// Terms of a similarity: shift along x and y, turn, and scale.
+/// Number of terms of a similarity: shift along x and y, turn, and scale.
 constexpr int kSimilarityTerms = 4;
 using SimilarityBlock = Eigen::Matrix<double, kSimilarityTerms, kSimilarityTerms>;
 /// Derivatives of the terms of a similarity with respect to the shifts of all coarse nodes.
@@ -64,7 +64,7 @@ Vector2d middle_of(const MapGrid& grid) {
 }
 
 /// Returns the similarity fitted to all dots that were seen, as a linear function of the shifts of
-/// the nodes. If the gauge is fixed, the map does not contain this similarity.
+/// the nodes. If the gauge is fixed, this similarity has been removed from the map.
 SimilarityRows page_similarity(const MapGrid& grid, const MapSolution& solution,
                                const MapDeformation& deformation) {
     SimilarityOfShifts fit(deformation, grid, middle_of(grid));
@@ -79,7 +79,7 @@ SimilarityRows page_similarity(const MapGrid& grid, const MapSolution& solution,
 /// shifts of the nodes. The view is a square whose diagonal is twice `reach_mm`.
 SimilarityRows view_similarity(const MapGrid& grid, double reach_mm, const Vector2d& centre_mm,
                                const MapDeformation& deformation) {
-    constexpr int kSamples = 9;  // along each axis
+    constexpr int kSamples = 9;  // number of samples along each axis
     SimilarityOfShifts fit(deformation, grid, centre_mm);
     const auto index = [&](double centre, int sample, double pitch, int count) {
         const double side = std::numbers::sqrt2 * reach_mm;
@@ -96,7 +96,8 @@ SimilarityRows view_similarity(const MapGrid& grid, double reach_mm, const Vecto
 }
 
 /// Returns a grid over the page with about kTypicalNodes nodes, or fewer if views are large. The
-/// distances between nodes are nearly equal along both axes. The covariances are not computed yet.
+/// distances between nodes are nearly equal along both axes. The covariances of the result are not
+/// computed yet.
 MapErrorGrid grid_over(const MapGrid& grid, double reach_mm) {
     constexpr double kTypicalNodes = 200;
     const Vector2d size = 2 * middle_of(grid);

@@ -11,7 +11,7 @@ namespace dotpose::calibrate {
 
 class MapField {
   public:
-    /// The four nodes around a dot, with their weights in the interpolation.
+    /// The four nodes around a dot, with their interpolation weights.
     struct Around {
         std::array<std::size_t, 4> nodes;
         std::array<double, 4> weights;

@@ -9,8 +9,8 @@
 
 namespace dotpose::calibrate {
 
-/// Number of parts into which the work is divided. It is constant because the rounding of sums must
-/// not depend on the number of cores.
+/// Number of parts into which the work is divided. The number is constant, because the rounding of
+/// sums must not depend on the number of cores.
 inline constexpr int kMapParts = 8;
 
 /// Calls `work(part)` for all parts, on all cores.

@@ -22,10 +22,10 @@ using Eigen::Vector2d;
 /// Number of linearisations. After each linearisation, the variances are estimated and the outliers
 /// are marked again.
 constexpr int kRounds = 3;
-/// The conjugate gradient iterations stop when the mean square of the preconditioned residual is at
-/// most this value, in units of the variance of an unknown. Smaller values do not make the map more
-/// accurate. All rounds but the last use kFirstConverged, because they only estimate variances and
-/// find outliers.
+/// Convergence limit of the conjugate gradient method: maximum mean square of the preconditioned
+/// residual, relative to the variance of an unknown. A lower limit does not make the map more
+/// accurate. All rounds except the last use kFirstConverged, because these rounds only estimate
+/// variances and find outliers.
 constexpr double kConverged = 1e-6;
 constexpr double kFirstConverged = 1e-4;
 /// Maximum squared residual of an observation in the first round, in units of the variance per
@@ -60,7 +60,7 @@ FreeView free_view(const FrameBlock& block, const FrameVector& right, const MapF
             variance * inverse.diagonal().tail<kViewTerms>()};
 }
 
-/// Returns the standard deviation of each view term between frames. If a term does not vary by more
+/// Returns the frame-to-frame standard deviation of each view term. If a term does not vary by more
 /// than its error, the camera is considered rigid in this term and the result is nearly 0.
 std::array<double, kViewTerms> view_sigma_of(const std::vector<FreeView>& views) {
     std::array<double, kViewTerms> result{};
@@ -71,7 +71,7 @@ std::array<double, kViewTerms> view_sigma_of(const std::vector<FreeView>& views)
             squares.push_back(view.terms[k] * view.terms[k]);
             variances.push_back(view.variance[k]);
         }
-        constexpr double kMedianOfSquare = 0.455;  // for a Gaussian variable with variance 1
+        constexpr double kMedianOfSquare = 0.455;  // for a standard normal variable
         constexpr double kRigid = 0.01;
         const double error = upper_median(variances);
         const double variance = upper_median(squares) / kMedianOfSquare - error;
@@ -175,11 +175,12 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
         std::sqrt(jitter / static_cast<double>(std::max<std::size_t>(seen, 1))), kMinJitter_mm);
 }
 
-/// Removes the mean offset, scale and turn from all offsets, because views of the page do not
-/// determine them. The means are computed from the dots that were seen. Applies the inverse
-/// similarity to the complete positions of the dots, not only to their intersections, because
-/// offsets and displacements turn with the page. For example, a turn by 0.003 rad changes the 40 µm
-/// offsets of a feed wave by 0.13 µm, and moves a dot that is displaced by 85 µm by 0.26 µm.
+/// Removes the mean shift, scale and turn from all offsets, because views of the page do not
+/// determine these means. The means form a similarity fitted to the dots that were seen. Its
+/// inverse is applied to the complete positions of the dots, not only to their intersections,
+/// because offsets and displacements turn with the page. For example, a turn by 0.003 rad changes
+/// the 40 µm offsets of a feed wave by 0.13 µm, and moves a dot with a displacement of 85 µm by
+/// 0.26 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;

@@ -32,7 +32,7 @@ struct MapObservation {
 /// Number of view terms: scale, two shear terms and two perspective terms. Their values may differ
 /// between frames.
 inline constexpr int kViewTerms = 5;
-/// Number of terms that all frames share: the view terms and the lens distortion.
+/// Number of terms that are common to all frames: the view terms and the lens distortion.
 inline constexpr int kCameraTerms = kViewTerms + 1;
 /// Number of parameters of a frame: position (2), angle, displacement of the dots, and the view
 /// terms.
@@ -93,14 +93,14 @@ struct MapErrorGrid {
 /// Unknowns and statistics of a map.
 struct MapSolution {
     std::vector<MapFrame> frames;
-    CameraVector camera = CameraVector::Zero();  ///< terms that all frames share
+    CameraVector camera = CameraVector::Zero();  ///< terms that are common to all frames
     double reach_mm = 1;                         ///< unit of lengths in the view terms
     MapField field;                              ///< slowly varying part of the offsets
     std::vector<Eigen::Vector2f> offset_mm;      ///< offset of each dot
     std::vector<std::uint32_t> views;            ///< number of views of each dot
     double noise_mm = 0;                         ///< see MapPage::noise
     double jitter_mm = 0;                        ///< see MapPage::jitter
-    /// Standard deviation of each view term between frames, estimated by `solve_map`.
+    /// Frame-to-frame standard deviation of each view term, estimated by `solve_map`.
     std::array<double, kViewTerms> view_sigma{};
     MapErrorGrid errors;
     std::size_t outliers = 0;

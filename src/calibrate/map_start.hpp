@@ -24,7 +24,7 @@ struct MapSighting {
     PlaneFromImage plane;
 };
 
-/// Adds the dots of a fix that are on the page. Their coordinates are in undistorted px until
+/// Adds the dots of a fix that are on the page. Their coordinates are undistorted and in px until
 /// `start_map` converts them to mm. Returns false and adds nothing if fewer than `min_dots` dots
 /// are on the page.
 bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::size_t min_dots,

@@ -42,8 +42,8 @@ class MapSystem {
     MapUnknowns preconditioned(const MapUnknowns& residual) const;
     void write(const MapUnknowns& at, MapSolution& solution);
 
-    /// Keeps the scale of the page: sets the scale of the camera and the mean scale of the frames
-    /// to 0. Without this constraint, a smaller page would have smaller residuals.
+    /// Preserves the scale of the page: sets the scale of the camera and the mean scale of the
+    /// frames to 0. Without this constraint, a smaller page would have smaller residuals.
     static void keep_scale(MapUnknowns& unknowns);
 
     const MapGrid& grid_;
@@ -52,7 +52,7 @@ class MapSystem {
     const MapSolution& solution_;
     double weight_;        ///< weight of an observation: 1 / noise^2
     double prior_weight_;  ///< weight of the prior on an offset, given the field: 1 / jitter^2
-    std::vector<double> information_;  ///< for each offset, sum of the weights of its equations
+    std::vector<double> information_;  ///< sum of the equation weights for each offset
     std::vector<Eigen::Vector2d> offsets_;
     /// sums_[part][dot] is the sum of the observed offsets of a dot. Each of the kMapParts parallel
     /// parts accumulates its own sums.

@@ -7,15 +7,15 @@
 
 namespace dotpose::calibrate {
 
-/// Unknowns of a map. The positions, angles (times the reach) and displacements of the frames are
-/// relative to the frames of the solution. All other values are absolute.
+/// Unknowns of a map. The positions, angles (multiplied by the reach) and displacements of the
+/// frames are relative to the frames of the solution. All other values are absolute.
 struct MapUnknowns {
     std::vector<FrameVector> frames;
     CameraVector camera = CameraVector::Zero();
     std::vector<Eigen::Vector2d> field;
 
     double inner(const MapUnknowns& other) const;
-    /// Replaces this with scale * this + by * other.
+    /// Computes *this = scale * *this + by * other.
     void combine(double scale, double by, const MapUnknowns& other);
 };
 

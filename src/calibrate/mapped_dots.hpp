@@ -12,7 +12,7 @@
 
 namespace dotpose::calibrate {
 
-/// A dot that `locate` read, and its offset in spacings.
+/// A dot that `locate` read, and its offset in the map, in spacings.
 struct MappedDot {
     LocatedDot dot;
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();
@@ -22,7 +22,7 @@ struct MappedDot {
 /// MapUse::used.
 struct MappedDots {
     MapUse use = MapUse::no_map;
-    const MapPage* page = nullptr;  ///< the map of the page
+    const MapPage* page = nullptr;  ///< the mapped page that contains the fix
     double noise = 0;               ///< MapPage::noise
     std::vector<MappedDot> dots;
 };
@@ -33,7 +33,7 @@ MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace);
 void add_map_error(const MapPage& page, Fix& fix);
 
 /// Returns true if the variances of the residuals with and without the map show that the map
-/// belongs to this print. `noise` is the noise of the map, in the unit of the residuals.
+/// belongs to this print. `noise` is the noise of the map, in the same unit as the residuals.
 bool is_same_print(double variance_with_map, double variance_without, double noise);
 
 }  // namespace dotpose::calibrate

@@ -31,13 +31,13 @@ struct MapDot {
     Vector2d offset;
 };
 
-/// Terms of the correction: position (2), scale, rotation, displacement, shear (2), perspective
-/// (2).
+/// Number of terms of the correction: position (2), scale, rotation, displacement, shear (2),
+/// perspective (2).
 constexpr int kTerms = 9;
 constexpr int kDisplacement = 4;
 constexpr int kShear = 5;
 constexpr int kPerspective = 7;
-constexpr double kReach_px = 100;  ///< unit of image lengths in the terms
+constexpr double kReach_px = 100;  ///< unit of image coordinates in the terms
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 using TermBlock = Eigen::Matrix<double, kTerms, kTerms>;
 
@@ -83,8 +83,8 @@ Correction correct(const FixPlane& plane, const std::vector<MapDot>& dots, doubl
     }
     const TermBlock inverse = normal.ldlt().solve(TermBlock::Identity());
     result.terms = inverse * right;
-    // Lower limit of the variance, which keeps the covariance invertible. The variance of any real
-    // camera is much larger.
+    // Lower limit of the variance, which keeps the covariance invertible. With any real camera, the
+    // variance is much larger.
     constexpr double kExact = 1e-12;
     const double left = squares - result.terms.dot(right);
     result.variance = std::max(left / std::max<double>(2.0 * result.dots - kTerms, 1), kExact);

@@ -27,8 +27,8 @@ using Eigen::Vector2d;
 constexpr int kMinSpinFrames = 3;
 constexpr double kMinTurn_rad = std::numbers::pi / 6;
 constexpr double kMinDrive_mm = 5;
-/// Maximum angle by which the robot may turn during a straight drive. It also determines the
-/// maximum distance of the robot from the line of the drive (see require_straight).
+/// Maximum angle by which the robot may turn during a straight drive. This angle also determines
+/// how far the robot may be from the line of the drive (see require_straight).
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
 /// Probability of mistaking noise for a drift if the robot stays on the spot.
 constexpr double kFalseDrift = 1e-3;
@@ -44,7 +44,7 @@ struct Station {
 
 /// Stations of all frames with a fix.
 struct Stations {
-    Camera camera;  ///< without reference point and angle offset
+    Camera camera;  ///< the camera without its reference point and angle offset
     std::vector<Station> stations;
     double spacing_mm = 0;
     double mm_per_px = 0;  ///< mean over the frames
@@ -148,7 +148,7 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
 }
 
 /// Returns the standard deviation, per axis, of a point's position due to errors in the lens
-/// calibration. It includes the errors of the position and direction of the image centre.
+/// calibration. The result includes the errors of the position and direction of the image centre.
 /// `offset_mm` is relative to the image centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
@@ -190,7 +190,7 @@ Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
            turned(station.theta_rad, spot_turn.offset) - station.place_mm;
 }
 
-/// Fits the turn of a robot that stays on the spot or, if `has_drift`, drifts.
+/// Fits the turn of a robot that stays on the spot or, if `has_drift` is true, drifts.
 SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
     const std::size_t parameters = has_drift ? 6 : 4;  // pivot, offset, drift
     NormalEquations equations(static_cast<int>(parameters));
@@ -212,9 +212,9 @@ SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
     return result;
 }
 
-/// Returns the error of the offset, per axis, that a drift of the robot causes. Returns 0 if noise
-/// explains the drift, according to an F test. Because the drift has two parameters, the test has 2
-/// and m = 2 n - 6 degrees of freedom, and its p-value is (squares with drift / squares without
+/// Returns the error of the offset, per axis, caused by a drift of the robot. Returns 0 if an F
+/// test shows that noise can explain the drift. Because the drift has two parameters, the test has
+/// 2 and m = 2 n - 6 degrees of freedom, and its p-value is (squares with drift / squares without
 /// drift) ^ (m / 2).
 double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on_the_spot) {
     if (stations.size() < kMinDriftFrames) return 0;
@@ -262,8 +262,8 @@ Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d&
     return along.dot(drive) < 0 ? Vector2d(-along) : along;
 }
 
-/// Throws Error if a position is too far from the line or if the frames are not in the order of the
-/// drive. The limit is the distance from the line that a robot reaches if it turns by
+/// Throws Error if a position is too far from the line or too far behind an earlier position. Both
+/// limits are equal to the distance from the line that a robot reaches if it turns by
 /// kMaxSwerve_rad in the middle of the drive.
 void require_straight(const std::vector<Vector2d>& on_line, double length_mm) {
     const double max_mm = std::tan(kMaxSwerve_rad) * length_mm / 2;

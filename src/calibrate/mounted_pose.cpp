@@ -177,7 +177,8 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
     }
 }
 
-/// Returns the velocity during the readout of a rolling shutter, from the last three parameters.
+/// Returns the velocity during the readout of a rolling shutter, computed from the last three
+/// parameters of the fit.
 ReadoutVelocity velocity_of(const PoseFit& pose, double readout_ms, const AxisScale& print) {
     constexpr int kFirst = kParameters;
     // Factors that convert the motion during the readout to velocities: the motion along x and y to

@@ -24,7 +24,7 @@ struct Normal {
     ceres::CRSMatrix jacobian;  ///< columns of the shared blocks come first
     MatrixXd shared;
     std::vector<UnsharedBlock> unshared;
-    /// Index in `unshared` of each column after the shared columns.
+    /// For each column after the shared columns, index of its block in `unshared`.
     std::vector<std::size_t> block_of_column;
 };
 

@@ -10,8 +10,9 @@ namespace dotpose::calibrate {
 void describe_mounted(const LensFit& fit, double reach_px, Camera& camera);
 
 /// Sets the standard deviations of the position and direction of the image centre relative to the
-/// dots in view. They are much smaller than the parameters' standard deviations suggest, because
-/// the errors of the parameters largely cancel at the image centre. Requires `camera.paper`.
+/// dots in view. The results are much smaller than the standard deviations of the parameters
+/// suggest, because the errors of the parameters largely cancel at the image centre. Requires
+/// `camera.paper`.
 void describe_centre(const LensFit& fit, double reach_px, Camera& camera);
 
 /// Sets the focal length if the tilts of the frames determine it.

@@ -97,10 +97,10 @@ Points robust_start(const std::vector<PivotView>& views) {
     return best;
 }
 
-/// Result of one improvement: a weighted fit to the views that agree with `start`.
+/// Result of one refinement step: a weighted fit to the views that agree with `start`.
 struct Step {
     Points points;
-    Matrix6d covariance;  ///< covariance of `points`, if the errors of the poses are independent
+    Matrix6d covariance;  ///< covariance of `points`, assuming independent pose errors
     std::vector<bool> is_used;
     double squares = 0;  ///< sum of the normalised squared residuals of `start`
 };
@@ -126,8 +126,8 @@ Step improved(const std::vector<PivotView>& views, const Points& start) {
     return step;
 }
 
-/// Returns the covariance of the points due to the errors of the dots. The error of a dot is the
-/// same in all frames that show it.
+/// Returns the covariance of the points due to dot errors. The error of a dot is the same in all
+/// frames that show the dot.
 Matrix6d covariance_of_dots(const std::vector<PivotView>& views, const Step& step) {
     std::unordered_map<std::uint64_t, Vector6d> shifts;
     for (std::size_t i = 0; i < views.size(); ++i) {

@@ -29,12 +29,12 @@ struct PivotFit {
     Eigen::Vector3d rest_mm;  ///< resting point on the paper, in the frame of the views
     /// Covariance of the tip and of the resting point. Frames that show the same dots have
     /// correlated errors, because the print errors of these dots shift all poses. The covariance is
-    /// therefore computed from the residuals of each dot in all frames. It is increased if the tip
-    /// moved by more than the errors of the poses.
+    /// therefore computed from the residuals of each dot in all frames. The covariance is increased
+    /// if the tip moved by more than the pose errors explain.
     Eigen::Matrix<double, 6, 6> covariance;
     std::vector<bool> is_used;  ///< indexed by view
-    double residual_mm = 0;     ///< rms per axis
-    double error_ratio = 1;     ///< rms residual, in standard deviations of the poses
+    double residual_mm = 0;     ///< rms residual per axis
+    double error_ratio = 1;  ///< rms residual, relative to the value expected from the pose errors
 };
 
 /// Returns the rms rotation angle about the axis with the smallest rotations. If all rotations are

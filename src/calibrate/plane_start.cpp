@@ -14,8 +14,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Viewing direction to one point on the paper, and its derivative with respect to the position of
-/// the point.
+/// Viewing direction towards one point on the paper, and the derivative of this direction with
+/// respect to the position of the point.
 struct LocalView {
     Vector2d place_mm;
     Vector2d ray;  ///< (x, y) of the direction (x, y, 1) in the camera frame

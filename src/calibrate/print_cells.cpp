@@ -18,7 +18,7 @@ constexpr double kMinLength = 0.15;
 
 /// Minimum fraction of correct dots among the dots in an outer line. A quarter of the dots are
 /// correct by chance. If the line belongs to a different region of the code whose columns happen to
-/// agree, half of the dots are correct.
+/// match those of the field, half of the dots are correct.
 constexpr double kMinRightShare = 0.7;
 
 /// Returns the located tiles whose maps are used to predict the cells of a tile: the tile itself

@@ -13,17 +13,18 @@ constexpr std::array kSymbols = {Symbol::up, Symbol::left, Symbol::right, Symbol
 /// Maximum distance of a dot from its intersection along x and y, in spacings. Ink at a larger
 /// distance belongs to a different dot.
 constexpr double kMaxOffset = 0.42;
-/// Minimum darkness of a dot, relative to a typical dot.
+/// Minimum darkness of a dot, relative to that of a typical dot.
 constexpr double kMinShare = 0.35;
 /// Level, relative to the darkness of a dot, that is subtracted before the centroid is computed.
-/// This suppresses noise and JPEG ringing.
+/// The subtraction suppresses noise and JPEG ringing.
 constexpr double kFloorShare = 0.15;
 /// Radius for sums over the pixels of a dot, in spacings: half the distance to the nearest possible
 /// dot.
 constexpr double kReach = 1.0 / 3;
 /// The border of a cell is considered covered by other print, such as text or pictures, if its
 /// darkness exceeds both of these limits. The first limit is relative to the darkness of a dot. The
-/// second limit is in standard deviations of blank paper, and is capped at the darkness of a dot.
+/// second limit is in standard deviations of the darkness of blank paper, and is capped at the
+/// darkness of a dot.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
 /// Displacement assumed for the measurement of levels, in spacings. An approximate value is
@@ -306,7 +307,7 @@ PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
     result.dot = median(strengths);
     result.paper = middle_mean(levels);
     if (result.paper <= 0) return result;
-    // Standard deviation of a normal distribution, divided by the distance between its quartiles.
+    // Standard deviation of a normal distribution, divided by its interquartile range.
     constexpr double kSigmaPerQuartiles = 1 / (2 * 0.6745);
     const std::size_t quarter = levels.size() / 4;
     result.noise =

@@ -21,14 +21,14 @@ constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;
-/// If the deviation of the mean scale from 1 exceeds this value, the stated pattern or resolution
+/// If the deviation of the mean scale from 1 exceeds this value, the given pattern or resolution
 /// must be wrong.
 constexpr double kImplausibleScale = 0.25;
 constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
 constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;
 constexpr double kNotableDistortion_mm = 0.1;
-/// Limits for the relative growth of the dot diameter. Growth outside these limits is a fault. Most
-/// printers stay within the limits.
+/// Limits for the relative change in dot diameter due to printing. A change outside these limits is
+/// reported as a fault. Most printers stay within the limits.
 constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
 constexpr double kNotableShare = 0.01;

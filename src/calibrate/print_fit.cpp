@@ -119,8 +119,8 @@ PlaneFit fit_plane(const std::vector<Match>& matches, ViewModel model,
     }
     double limit = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kPrintRounds; ++round) {
-        // The first steps do not fit perspective and lens, because these parameters can only be
-        // fitted if the others are approximately known.
+        // Perspective and lens are not fitted in the first steps, because their fit requires
+        // approximate values of the other parameters.
         for (int i = 0; i < kSteps; ++i) {
             const bool has_start = round > 0 || i > 0;
             const Free free{has_start && model != ViewModel::flat,

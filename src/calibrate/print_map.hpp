@@ -17,7 +17,7 @@ namespace dotpose::calibrate {
 ///
 ///   cell = centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2)
 ///
-/// where q = pixel - centre_px. It is the map of a fix (PlaneFromImage), converted to the pixel
+/// where q = pixel - centre_px. The map is that of a fix (PlaneFromImage), converted to the pixel
 /// coordinates of the scan.
 struct TileMap {
     Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
@@ -102,8 +102,9 @@ struct Tiling {
         return {u, v, std::min(u + side_px, width_px), std::min(v + side_px, height_px)};
     }
     /// Returns a rectangle around a tile, with a margin of a sixth of the side. At the edges of the
-    /// scan, the rectangle is moved rather than cropped. Adjacent rectangles overlap by a third of
-    /// the side, so a region smaller than the overlap is always completely inside one rectangle.
+    /// scan, the rectangle is shifted inwards rather than cropped. Adjacent rectangles overlap by a
+    /// third of the side, so a region smaller than the overlap is always completely inside one
+    /// rectangle.
     PixelRect overlapping_rect(int tile) const {
         const int around_px = side_px / 6;
         const int full_px = side_px + 2 * around_px;

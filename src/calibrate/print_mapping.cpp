@@ -134,7 +134,7 @@ MappedPage statistics_of(const MapPage& map, const MapGrid& grid, const MapSolut
     }
     const double all = squares / static_cast<double>(std::max<std::size_t>(page.seen, 1));
     page.slow_mm = std::sqrt(std::max(all - solution.jitter_mm * solution.jitter_mm, 0.0));
-    // The mount is considered rigid if the relative standard deviation of the scale between frames
+    // The mount is considered rigid if the relative frame-to-frame standard deviation of the scale
     // is less than this value.
     constexpr double kRigid = 2e-4;
     page.is_rigid = solution.view_sigma[0] < kRigid * solution.reach_mm;
@@ -165,7 +165,7 @@ struct PrintMapping::State {
     }
 
     PrintMappingOptions options;
-    std::vector<PageFrames> pages;   ///< in the order of the sheets
+    std::vector<PageFrames> pages;   ///< one element for each sheet, in the same order
     std::vector<KnownRegion> known;  ///< regions of the sheets, referenced by `locator`
     std::size_t frames = 0;
     Locator locator{DeviceOptions{}};

@@ -84,9 +84,9 @@ struct Fitted {
     }
 };
 
-/// Returns the scatter of individual dots, computed from the differences between neighbouring dots.
-/// These differences are almost free of distortion, because distortion displaces neighbours
-/// equally.
+/// Returns the scatter of individual dots, computed from the differences between the offsets of
+/// neighbouring dots. Distortion hardly affects these differences, because it displaces neighbours
+/// almost equally.
 double measure_scatter_mm(const Measuring& m, const Fitted& fitted, const Pattern& pattern) {
     std::vector<double> steps_mm;
     const auto off_mm = [&](const SeenCell& cell) {

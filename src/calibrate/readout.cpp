@@ -1,6 +1,6 @@
-// Finds the readout time of a rolling shutter from the frames of a drive. The motion during the
-// readout of a frame is the velocity of the camera during this frame, multiplied by the readout
-// time. The velocity is computed from the previous and the next frame.
+// Finds the readout time of a rolling shutter from frames captured during a drive. The motion
+// during the readout of a frame is the velocity of the camera during this frame, multiplied by the
+// readout time. The velocity is computed from the previous and the next frame.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A frame of the drive. Lengths are in spacings.
+/// A frame captured during the drive. Lengths are in spacings.
 struct Moving {
     Cell cell;
     Section section;
@@ -29,8 +29,8 @@ struct Moving {
     Vector2d motion;  ///< motion of the camera during the readout
 };
 
-/// Locates the frames of the drive. Returns one element per frame, in the order of the frames. The
-/// element is empty if the frame has no fix.
+/// Locates all frames. Returns one element for each frame, in frame order. The element is empty if
+/// the frame has no fix.
 std::vector<std::optional<Moving>> locate_drive(int frames, const FrameAt& frame_at,
                                                 const Camera& camera,
                                                 const CalibrateOptions& options) {

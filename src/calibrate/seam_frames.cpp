@@ -19,9 +19,9 @@ constexpr double kBeyondPage_mm = 400;
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// The search in a frame ends when the located sheets cover at least this many of its 64 fields
-/// (SheetView::fields). The number of dots is not a suitable criterion, because a fix contains only
-/// the dots of one sheet.
+/// The search in a frame ends when the located sheets cover at least this many of the frame's 64
+/// fields (SheetView::fields). The number of dots is not a suitable criterion, because a fix
+/// contains only the dots of one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.
@@ -156,8 +156,8 @@ SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optio
 }
 
 /// Returns the parts in the order in which they are located: first the whole image, then halves and
-/// quarters, and finally overlapping parts with at least one side that is about two thirds as long
-/// as the image side.
+/// quarters, and finally overlapping parts that are about two thirds as long as the image along at
+/// least one axis.
 std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
     std::vector<Part> parts;
     const auto cut = [](const Stretch& stretch, int side, int& begin, int& length) {

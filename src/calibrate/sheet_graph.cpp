@@ -20,10 +20,10 @@ namespace {
 constexpr double kRobust_sigmas = 4;
 /// Standard deviation of a prior that effectively fixes a parameter.
 constexpr double kPinned = 1e-7;
-/// Prior relative standard deviation of the scale of a camera.
+/// Prior relative standard deviation of the camera scale.
 constexpr double kCameraPrior = 0.03;
 /// Prior standard deviation of the aspect and the skew of a camera whose file contains no standard
-/// deviations for them. It is small because sensor pixels are square.
+/// deviations for them. The value is small, because sensor pixels are square.
 constexpr double kSquarePrior = 0.002;
 
 /// Vector in the plane. T is double or an automatic differentiation type.
@@ -42,7 +42,8 @@ Vector<T> turned(const T& angle, const Vector<T>& v) {
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-/// Residual of a view, in standard deviations. The parameters are camera, frame and sheet.
+/// Residual of a view, in standard deviations. The parameters are those of the camera, the frame
+/// and the sheet.
 struct ViewResidual {
     const SheetView& view;
     /// Position of the sheet's first intersection relative to the corner of the page.
@@ -326,8 +327,9 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
 }
 
-/// Returns the DotShare of each dot, for an affine map fitted to all dots. The shares are scaled so
-/// that dot errors with standard deviation 1 cause whitened residuals with standard deviation 1.
+/// Returns the DotShare of each dot, for an affine map fitted to all dots. The derivatives are
+/// scaled so that dot errors with standard deviation 1 cause whitened residuals with standard
+/// deviation 1.
 std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;

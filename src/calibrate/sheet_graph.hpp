@@ -1,5 +1,5 @@
-// Graph of sheets and frames (images), with an edge from each frame to each sheet that it shows. It
-// is used to compute the relative poses and the print scales of the sheets.
+// Graph of sheets and frames (images), with an edge from each frame to each sheet in the frame. The
+// graph is used to compute the relative poses and the print scales of the sheets.
 #pragma once
 
 #include <array>
@@ -80,9 +80,10 @@ class SheetGraph {
 
     std::vector<std::optional<Node>> nodes_;  ///< empty for sheets that are not connected
     std::vector<Node> variances_;
-    /// Poses of the camera's coordinate frame, by frame number.
+    /// Poses of the camera's coordinate system, indexed by frame number.
     std::map<int, FramePose> frames_;
-    /// Scale of the camera relative to the fixed sheet: logarithm of the mean scale, aspect, skew.
+    /// Scale of the camera relative to the fixed sheet. The elements are the logarithm of the mean
+    /// scale, the aspect and the skew.
     std::array<double, 3> camera_scale_{};
 };
 

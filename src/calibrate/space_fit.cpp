@@ -185,7 +185,7 @@ class NoiseModel {
 
   private:
     /// Scales the covariances so that the harmonic mean of their variances (trace / 2) is 1. The
-    /// harmonic mean is used because a few large covariances hardly change it.
+    /// harmonic mean is used because a few large covariances hardly affect it.
     static void normalize(std::vector<Matrix2d>& covariances) {
         double sum = 0;
         for (const Matrix2d& covariance : covariances)
@@ -257,7 +257,8 @@ struct Solutions {
     }
 };
 
-/// Returns true if two minima found from different starts are the same.
+/// Returns true if two minima found from different starts are the same. Compares only the
+/// rotations.
 bool is_same(const SpaceState& a, const SpaceState& b) {
     constexpr double kSame_rad = 1e-4;
     return Eigen::Quaterniond(a.rotation).angularDistance(Eigen::Quaterniond(b.rotation)) <

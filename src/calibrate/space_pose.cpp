@@ -37,7 +37,7 @@ CameraInSpace camera_of(const SpaceState& state, const Vector3d& origin_mm) {
 
 /// Adds the map error in the view to the covariance of the pose. A map error that shifts and turns
 /// the dots in the view shifts and turns the camera by the same amount. `middle_mm` is the position
-/// of the fix, in the coordinates of the state.
+/// of the fix, in the coordinates of `fit.state`.
 void add_error_of_map(const MapPage& map, const Fix& fix, const Vector3d& spacing_mm,
                       const Vector3d& middle_mm, SpaceFit& fit) {
     const auto error = map.error_covariance({fix.cell, fix.section});

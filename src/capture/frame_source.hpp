@@ -47,8 +47,8 @@ class FrameSource {
     /// Returns the frame rate reported by the source, in frames per second, or 0 if unknown.
     virtual double rate() const { return 0; }
 
-    /// Returns the mean number of bits per pixel of the compressed frames so far, or 0 if the
-    /// number is unknown or the compression is lossless.
+    /// Returns the mean number of bits per pixel in the compressed frames delivered so far, or 0 if
+    /// the number is unknown or the compression is lossless.
     virtual double bits_per_px() const { return 0; }
 
     /// Returns the total number of frames as reported by the source, or 0 if unknown.
@@ -56,7 +56,8 @@ class FrameSource {
 };
 
 struct SourceOptions {
-    /// Frame size, or 0 if not given. Required for raw frames. For a camera, the size to request.
+    /// Frame size, or 0 if not specified. Must be specified for raw frames. Cameras are asked to
+    /// deliver frames of this size.
     int width_px = 0;
     int height_px = 0;
     /// Frame rate requested from a camera. For other sources, frame timestamps are computed from
@@ -99,8 +100,8 @@ void prepare(const SourceOptions& options, const std::string& name, GreyImage& i
 /// Returns the time of frame `index` in microseconds: index / fps.
 std::int64_t time_of(std::int64_t index, double fps);
 
-/// Opens raw 8-bit grey frames on standard input. Throws BadArgument if the options do not specify
-/// the frame size.
+/// Opens a source that reads raw 8-bit grey frames from standard input. Throws BadArgument if the
+/// options do not specify the frame size.
 std::unique_ptr<FrameSource> open_raw(const SourceOptions& options);
 
 /// Opens a list of images. `next_path` returns the path of the next image, or an empty optional at

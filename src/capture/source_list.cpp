@@ -43,8 +43,8 @@ bool SourceList::open() {
     return true;
 }
 
-/// Returns the path of the next image. Its source is an image file, a folder or a glob. Returns an
-/// empty optional if the next source is of another kind, or if no sources are left.
+/// Returns the path of the next image from the image files, folders and globs in the list. Returns
+/// an empty optional if the next source is of another kind, or if no sources are left.
 std::optional<std::string> SourceList::next_image() {
     while (next_image_ == images_.size()) {
         auto name = take_name();

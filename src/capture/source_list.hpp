@@ -25,8 +25,8 @@ class SourceList : public FrameSource {
     bool open();
 
     /// Gets the next frame from the concatenated sources. Throws Error if a source fails. In this
-    /// case, the next call continues with the source after it. Throws BadArgument if the region
-    /// extends beyond the frame.
+    /// case, the next call continues with the source after the failed one. Throws BadArgument if
+    /// the region extends beyond the frame.
     bool next(Frame& frame) override;
     std::int64_t dropped() const override;
     double rate() const override { return source_ ? source_->rate() : 0; }

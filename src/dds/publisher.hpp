@@ -27,7 +27,7 @@ class Publisher {
     /// `robot` must be valid as part of a ROS topic name. Throws BadArgument if this program was
     /// built without DDS, and Error if DDS cannot be set up.
     Publisher(const std::string& robot, const PublisherOptions& options);
-    /// Waits a short time for reliable readers to receive all messages.
+    /// Waits briefly for reliable readers to receive all messages.
     ~Publisher();
     Publisher(const Publisher&) = delete;
     Publisher& operator=(const Publisher&) = delete;

@@ -17,8 +17,8 @@ using namespace dotpose::draw;
 constexpr double kMargin = 30;
 constexpr double kHead = 74;
 constexpr double kMaxSide = 520;
-/// Minimum full scale of the arrows, in px. It keeps the arrows short if the residuals are only
-/// noise.
+/// Minimum full-scale value of the arrows, in px. This minimum keeps the arrows short if the
+/// residuals are only noise.
 constexpr double kMinFullScale_px = 0.05;
 
 using Part = ResidualField::Part;

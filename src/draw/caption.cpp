@@ -22,8 +22,8 @@ struct Entry {
     std::string value;
 };
 
-/// Estimates the width of bold text from its number of characters. Underestimates text with many
-/// wide letters.
+/// Estimates the width of bold text from its number of characters. Underestimates the width of text
+/// with many wide letters.
 double text_width(const std::string& text, double size) {
     const auto is_first_byte = [](char c) { return (c & 0xC0) != 0x80; };
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));

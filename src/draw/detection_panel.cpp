@@ -91,8 +91,8 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     svg.line({0, middle.y}, {side, middle.y}, {});
     svg.line({middle.x, 0}, {middle.x, side}, {});
     svg.add("</g>");
-    // The square extends 1.7 spacings to each side, because the longest edges are about 1.5
-    // spacings long.
+    // The square extends 1.7 spacings from its centre to each side, because the longest edges are
+    // about 1.5 spacings long.
     const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
     svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
             colour::kEdge);

@@ -20,8 +20,8 @@ constexpr double kMaxMapSide = 1000;
 /// distance between arrows.
 constexpr double kMaxArrow = 45;
 constexpr double kMaxStep = 0.95;
-/// Minimum full scale of the arrows, in mm. It keeps the arrows short if the distortions are only
-/// noise.
+/// Minimum full-scale value of the arrows, in mm. This minimum keeps the arrows short if the
+/// distortions are only noise.
 constexpr double kMinMapScale_mm = 0.01;
 
 /// Rounds down to 1, 2 or 5 times a power of ten.

@@ -19,8 +19,8 @@ constexpr double kMargin_mm = 5;
 /// Line width of a ballpoint pen, in mm.
 constexpr double kLine_mm = 0.4;
 
-/// Returns the page unchanged if its size is known. Otherwise, sets its size and position so that
-/// it contains all strokes with a margin around them.
+/// Returns the page unchanged if its size is known. Otherwise, returns the page with its size and
+/// position set so that it contains all strokes and a margin around them.
 InkPage with_size(InkPage page) {
     if (page.width_mm > 0) return page;
     constexpr double kFar = std::numeric_limits<double>::max();

@@ -1,5 +1,5 @@
-// Draws a drive: the path on the page, a scatter plot of the position errors, and a plot of the
-// errors over time.
+// Draws the results of a drive: the path on the page, a scatter plot of the position errors, and a
+// plot of the errors over time.
 #include <algorithm>
 #include <cmath>
 #include <ostream>

@@ -20,7 +20,7 @@ double quality(const GridCell& cell) {
     return std::abs(cell.x * cell.y) / (kMaxWeight * kMaxWeight);
 }
 
-/// Returns a colour between red (0), amber and green (1).
+/// Returns a colour from red (0) through amber to green (1).
 std::string quality_colour(double quality) {
     struct Rgb {
         double red, green, blue;
@@ -71,7 +71,7 @@ class Reading {
     /// the same intersection has a higher quality.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
-    /// Draws a line of the grid as several strokes, because lens distortion may bend the line.
+    /// Draws a grid line as several strokes, because lens distortion may bend the line.
     void draw_grid_line(double i, double j, int steps, Point step) const;
 
     const FrameView& view_;
@@ -231,7 +231,7 @@ void Reading::draw_axes() const {
                           colour::kWindow, 4 * stroke, 11 * stroke));
     const double reach = 2.4 * view_.spacing();
     const Point ahead = reach * view_.ahead_of_reference();
-    const double arc = 0.6;  // radius of the arc as a fraction of the length of the arrows
+    const double arc = 0.6;  // radius of the arc as a fraction of the arrow length
     svg_.add(R"(<path d="M{:.2f} {:.2f}A{:.2f} {:.2f} 0 0 {} {:.2f} {:.2f}" fill="none" )"
              R"(stroke="{}" stroke-width="{:.2f}"/>)",
              reference.x + arc * reach, reference.y, arc * reach, arc * reach, ahead.y > 0 ? 1 : 0,

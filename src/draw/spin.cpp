@@ -16,8 +16,8 @@ namespace {
 
 using namespace dotpose::draw;
 
-/// Minimum full scale of the panel, in mm. It keeps the residuals in a small part of the panel if
-/// they are only noise.
+/// Minimum full-scale value of the panel, in mm. If the residuals are only noise, this minimum
+/// keeps them in a small part of the panel.
 constexpr double kMinFullScale_mm = 0.001;
 
 class SpinPicture {

@@ -20,8 +20,8 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kMaxArrow = 70;
-/// Minimum full scale of the arrows, in mm. It keeps the arrows short if the differences are only
-/// noise.
+/// Minimum full-scale value of the arrows, in mm. This minimum keeps the arrows short if the
+/// differences are only noise.
 constexpr double kMinArrowScale_mm = 0.002;
 
 /// Image centre of one frame, and the difference between its positions on the two sheets. Both are

@@ -14,7 +14,8 @@
 
 namespace dotpose::draw {
 
-/// A 2D point or vector. Variable names end with the unit, such as _px or _mm, where it matters.
+/// A 2D point or vector. Where the unit matters, variable names have a unit suffix, such as _px or
+/// _mm.
 struct Point {
     double x = 0;
     double y = 0;

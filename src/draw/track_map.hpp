@@ -22,7 +22,8 @@ struct MapRobot {
     /// Path of the robot. A new stroke begins wherever the position jumps.
     std::vector<std::vector<Point>> strokes_mm;
     Point place_mm;
-    std::optional<double> heading_rad;  ///< angle from +x towards +y of the plane; empty if unknown
+    /// Angle from +x towards +y of the plane, or empty if unknown.
+    std::optional<double> heading_rad;
     /// Problem to show after the name, such as "lost", or empty if there is none.
     std::string problem;
 };

@@ -1,4 +1,4 @@
-// Compares located frames with independently measured places.
+// Compares the located positions of frames with independently measured positions.
 #include "dotpose/tools/measured.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 using evaluate_detail::spread_of;
 using Complex = std::complex<double>;
 
-/// Located place and true place of a frame, in mm, as complex numbers x + iy.
+/// Located position and true position of a frame, in mm, as complex numbers x + iy.
 struct Pair {
     Complex found;
     Complex truth;
@@ -38,8 +38,9 @@ double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Returns true if the located place and the true place of a frame are known and on the same sheet.
-/// If the sheet of the true place is not specified, the located place may be on any sheet.
+/// Returns true if the located position and the true position of a frame are known and on the same
+/// sheet. If the sheet of the true position is not specified, the located position may be on any
+/// sheet.
 bool is_comparable(const MeasuredFrame& frame) {
     return frame.truth && frame.found &&
            (frame.truth->sheet.empty() || frame.truth->sheet == frame.found->sheet);
@@ -53,7 +54,8 @@ double median_of(std::vector<double> values) {
     return quantiles_of(std::move(values)).median;
 }
 
-/// Fits a similarity transform by least squares. If all true places coincide, fits only the offset.
+/// Fits a similarity transform by least squares. If all true positions are equal, fits only the
+/// offset.
 Map fit(std::span<const Pair> pairs) {
     constexpr double kMinSpread_mm = 1e-6;
     const auto count = static_cast<double>(pairs.size());
@@ -102,7 +104,7 @@ Map fit_most(std::span<const Pair> pairs) {
     const std::size_t all = n * (n - 1) / 2;
     for (std::size_t k = 0; k < std::min(all, kTries); ++k) {
         // Combines frames that are far apart in the list, because they are usually also far apart
-        // on the sheet. A map determined by two distant places is more accurate.
+        // on the sheet. A map determined by two distant points is more accurate.
         const std::size_t apart = 1 + (n / 2 + 7 * (k / n)) % (n - 1);
         const Map map = fit(std::array{pairs[k % n], pairs[(k + apart) % n]});
         const double median = median_residual(pairs, map);
@@ -204,8 +206,8 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
         if (frame.truth) result.is_in_world = frame.truth->is_in_world;
         result.errors.push_back(frame.found ? std::optional(error_of(frame, alignment))
                                             : std::nullopt);
-        // A fix is treated as wrong if its place is unknown in the coordinate frame of the true
-        // places.
+        // A fix is treated as wrong if its position is not known in the coordinate frame of the
+        // true positions.
         if (frame.status == Status::ok && !frame.found) ++result.wrong;
     }
     mark_wrong(frames, result.errors);

@@ -1,5 +1,5 @@
-// Writes the results of a comparison with measured places: a report, the errors of each frame, and
-// figures.
+// Writes the results of a comparison with measured positions: a report, the errors of each frame,
+// and figures.
 #include <cmath>
 #include <functional>
 #include <map>

@@ -1,4 +1,4 @@
-// Repeats the experiment of the paper's section IV-A with a simulated printer and camera.
+// Repeats the experiment of the paper (section IV-A) with a simulated printer and camera.
 #include "evaluate/protocol.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace evaluate_detail;
 
-/// Cell at the centre of the area, chosen arbitrarily.
+/// Cell at the centre of the measured area. The choice is arbitrary.
 constexpr Cell kMiddle{10'000, 20'000};
 
 /// Commanded pose of the device, and the page under it.
@@ -70,8 +70,8 @@ Station station_of(const Stand& stand, std::span<const Outcome> outcomes) {
         if (!outcome.is_fix() || outcome.is_wrong()) continue;
         ++station.located;
         const double spacing_mm = outcome.truth.spacing_mm;
-        // Wrong fixes are identified by comparison with the printed pattern, but the accuracy is
-        // measured relative to the commanded pose.
+        // Wrong fixes are identified by comparing them with the printed pattern, but the accuracy
+        // is measured relative to the commanded pose.
         const Deviation off = deviation_of(outcome.fix, sent_to(stand, spacing_mm));
         x_mm.push_back(off.x_grid * spacing_mm);
         y_mm.push_back(off.y_grid * spacing_mm);

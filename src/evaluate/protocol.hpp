@@ -1,4 +1,4 @@
-/// Functions for the paper's protocol, shared by its figures and its tests.
+/// Functions for the protocol of the paper's experiment, used by the figures and the tests.
 #pragma once
 
 #include <functional>

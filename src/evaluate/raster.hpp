@@ -1,4 +1,4 @@
-// Converts drawings to PNG, for programs that do not show SVG.
+// Converts drawings to PNG, for programs that cannot display SVG.
 #pragma once
 
 #include <filesystem>

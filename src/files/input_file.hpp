@@ -22,7 +22,7 @@ namespace dotpose::files {
 std::optional<std::string> text_of(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Reads the next line without its line break. Returns false at the end of the file. Throws Error
-/// if the line has more than 64 KB, without reading the rest of the line, or if reading fails.
+/// if reading fails, or if the line is longer than 64 KB. The rest of such a line is not read.
 bool next_line(std::istream& stream, std::string& line);
 
 /// Maximum nesting depth of JSON. The files of this project are nested less deeply, and recursive

@@ -17,7 +17,7 @@ class LeastSquares {
     void add(Vector row, double right) {
         for (std::size_t i = 0; i < kUnknowns; ++i) {
             if (row[i] == 0) continue;
-            // Givens rotation that makes row[i] 0.
+            // Givens rotation that sets row[i] to 0.
             const double radius = std::hypot(rows_[i][i], row[i]);
             const double c = rows_[i][i] / radius;
             const double s = row[i] / radius;

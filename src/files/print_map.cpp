@@ -101,8 +101,8 @@ std::size_t dots_of(std::uint64_t columns, std::uint64_t rows) {
     return static_cast<std::size_t>(columns * rows);
 }
 
-/// Returns true if the matrix of a node is a valid covariance matrix: the variances are from 0 to
-/// kMaxVariance, and no correlation exceeds 1 (with a margin for rounding).
+/// Returns true if the matrix of a node is a valid covariance matrix: the variances are between 0
+/// and kMaxVariance, and no correlation exceeds 1 (with a margin for rounding).
 bool is_covariance(const MapErrors::Node& node) {
     constexpr float kMaxVariance = 1e6F;
     const auto& [xx, xy, yy, xr, yr, rr] = node;
@@ -114,8 +114,8 @@ bool is_covariance(const MapErrors::Node& node) {
            fits(xr, xx, rr) && fits(yr, yy, rr);
 }
 
-/// Returns true if the numbers of nodes along the axes are valid: both 0, or both from kMinNodes to
-/// kMaxErrorNodes.
+/// Returns true if the numbers of nodes along the axes are valid: both 0, or both between kMinNodes
+/// and kMaxErrorNodes.
 bool is_error_grid(std::uint32_t columns, std::uint32_t rows) {
     constexpr std::uint32_t kMinNodes = 2;
     const auto is_number = [](std::uint32_t n) { return n >= kMinNodes && n <= kMaxErrorNodes; };

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "dotpose-sheets";
 
-/// A JSON object in the file, and its path for error messages.
+/// A JSON object in the file, and its location in the JSON tree for error messages.
 class Node {
   public:
     Node(const json& value, std::string file, std::string path)
@@ -268,8 +268,8 @@ std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
         array.push_back(object);
     }
     document["sheets"] = std::move(array);
-    // Replaces bytes that are not UTF-8. A command line may contain such bytes, for example in file
-    // names.
+    // Replaces bytes that are not valid UTF-8. A command line may contain such bytes, for example
+    // in file names.
     return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

@@ -140,7 +140,8 @@ void files::append(const SheetEntry& entry, std::vector<SheetEntry>& sheets) {
 }
 
 Cell files::free_origin(const std::vector<SheetEntry>& sheets, int columns, int rows) {
-    // The topmost free region begins one gap below the top of the plane or below another region.
+    // The topmost free region begins one gap below the top of the plane or one gap below another
+    // region.
     std::set<std::int64_t> tops = {kSheetGap_cells};
     for (const SheetEntry& entry : sheets)
         tops.insert(with_gap(rows_of(entry.sheet)).end);

@@ -57,8 +57,8 @@ std::vector<AxisSample> along(const Axis& axis, Run run) {
 double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> axes) {
     double best = 0;
     double best_likelihood = -std::numeric_limits<double>::infinity();
-    // Tries noise levels from a resting pen to a very fast pen. The steps are coarse, because a
-    // factor of 3 in the noise hardly changes the result.
+    // Tries noise levels that range from those of a resting pen to those of a very fast pen. The
+    // steps are coarse, because a factor of 3 in the noise hardly changes the result.
     for (double noise = 1e3; noise < 1e13; noise *= std::sqrt(10)) {
         double likelihood = 0;
         for (const Run& run : runs) {

@@ -10,8 +10,8 @@
 namespace dotpose::follow_detail {
 namespace {
 
-/// Tests whether a pixel is on the page. Ignores tilt and lens distortion, which causes errors of
-/// up to a few pixels.
+/// Tests whether a pixel is on the page. The test ignores tilt and lens distortion, so it can be
+/// wrong by a few pixels.
 class PixelsOnPage {
   public:
     PixelsOnPage(ImageView image, const DeviceOptions& options, const Fix& fix,

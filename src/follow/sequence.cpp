@@ -33,7 +33,7 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
-    // A fix that is certain only with the prior is used only if the tracker accepted it.
+    // If a fix is certain only with the prior, it is used only if the tracker accepted it.
     const bool is_with_prior = result.track.verdict == Verdict::with_prior;
     const bool is_fix = strict.status == Status::ok || is_with_prior;
     if (is_fix) {
@@ -52,7 +52,7 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
 }
 
 /// Updates the track of the camera. Ignores a pose in space if the frame has no sighting in the
-/// plane, because the sighting determines the coordinate frame.
+/// plane, because the planar sighting determines the coordinate frame of the pose.
 SpaceTrack Follower::track_in_space(const Located& located, const std::optional<Sighting>& sighting,
                                     std::int64_t time_us) {
     if (!located.space || !sighting) return space_tracker_.update(time_us);
@@ -98,7 +98,7 @@ Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Predict
 Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
                                const std::optional<Prediction>& expected) {
     // The given code may be wrong. Without a prediction and without sheets, the other codes are
-    // also tried. This allows a warning if a different code is in view.
+    // also tried, so that the user can be warned if a different code is in view.
     if (!expected && options_.sheets.empty()) {
         const CodeReading reading = locator(options).locate_in_code(image);
         return by_camera_file(reading.fix, {}, reading);
@@ -155,8 +155,8 @@ Follower::Found Follower::without_neighbours(const Found& found) {
     if (!cut) return found;
     Found again = look(cut->view(), used_, Prediction::like(guess.seen));
     if (!again.place || again.place->entry != guess.place->entry) return found;
-    // The prediction comes from the same image and not from an earlier one, so the fix is not a
-    // tracked fix.
+    // The prediction was computed from this image rather than an earlier one, so the fix is not
+    // marked as tracked.
     if (again.fix.attempt == Attempt::tracked) {
         again.seen.attempt = again.fix.attempt = guess.seen.attempt;
     }

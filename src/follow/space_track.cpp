@@ -25,13 +25,13 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector18 = Eigen::Matrix<double, 18, 1>;
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
-/// Change of log(agility) after two consecutive innovations with equal signs (increase) or with
+/// Change in log(agility) after two consecutive innovations with equal signs (increase) or with
 /// opposite signs (decrease). If both changes had the same magnitude, as in the planar tracker, the
 /// normalised squared errors of individual axes would be up to 1.4 instead of 1 at 200 frames per
 /// second (tests/unit/follow/space_track_test.cpp).
 constexpr double kAgilityIncrease = 0.451;
 constexpr double kAgilityDecrease = -0.405;
-/// Change of log(agility) for each unit by which the squared normalised innovation exceeds its
+/// Change in log(agility) for each unit by which the squared normalised innovation exceeds its
 /// expected value of 1. `dotpose_tables space_track` shows the effect.
 constexpr double kAgilityGain = 0.2;
 constexpr double kMinAgility = 1e-6;
@@ -41,7 +41,7 @@ constexpr double kInformationKept = 0.98;
 /// Minimum fraction of independent errors. With a minimum of 0.01, the positions in `dotpose_tables
 /// space_track` are 0.3 to 0.6 % more accurate, but the velocities up to 18 % less accurate.
 constexpr double kMinIndependent = 0.05;
-/// Maximum change of log(fraction of independent errors) per sighting.
+/// Maximum change in log(fraction of independent errors) per sighting.
 constexpr double kMaxFractionStep = 0.5;
 /// Innovation limit, in standard deviations. A larger innovation is not attributed to noise, and
 /// resets the agility to 1.
@@ -138,7 +138,8 @@ Motion started_at(const SpaceSighting& sighting, const SpaceTrackOptions& option
     return motion;
 }
 
-/// Predicts the state at a later time. Assumes constant acceleration over the interval.
+/// Predicts the state at a later time. The acceleration is reduced by a factor that depends on the
+/// length of the interval, and is then assumed to be constant.
 Motion predicted(const Motion& motion, std::int64_t time_us, const SpaceTrackOptions& options) {
     const double dt_s = static_cast<double>(time_us - motion.time_us) * 1e-6;
     const double kept = options.hold_s / (options.hold_s + dt_s);
@@ -172,8 +173,8 @@ Motion predicted(const Motion& motion, std::int64_t time_us, const SpaceTrackOpt
     return later;
 }
 
-/// Returns the normalised squared innovation of a pose. Uses the accelerations in the options
-/// instead of the adapted agility, so that the start of a manoeuvre is not rejected.
+/// Returns the normalised squared innovation of a pose. Uses an agility of 1 instead of the adapted
+/// agility, so that the start of a manoeuvre is not rejected.
 double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
                           const CameraInSpace& camera, const SpaceTrackOptions& options) {
     Motion agile = motion;

@@ -16,7 +16,7 @@ namespace dotpose::images {
 namespace {
 
 constexpr std::size_t kFileHeader = 14;
-constexpr std::size_t kOldHeader = 12;  // for OS/2 and Windows 2
+constexpr std::size_t kOldHeader = 12;  // header size for OS/2 and Windows 2
 
 /// Offsets of the header fields from the start of the file.
 enum Offset : std::size_t {

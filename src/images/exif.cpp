@@ -10,7 +10,7 @@
 namespace dotpose::images {
 
 bool is_of_camera(Bytes exif) {
-    constexpr std::size_t kMaxBytes = 65'535;  // limit of libexif
+    constexpr std::size_t kMaxBytes = 65'535;  // maximum size that libexif reads
     std::vector<std::uint8_t> segment{'E', 'x', 'i', 'f', 0, 0};
     if (!exif.empty() && exif.front() == segment.front()) segment.clear();
     const Bytes read = exif.first(std::min(exif.size(), kMaxBytes));

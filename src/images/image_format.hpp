@@ -33,7 +33,7 @@ struct ImageFormat {
     /// Returns the origin and the resolution from the metadata of the file. The resolution may be a
     /// default value set by the program that wrote the file.
     ImageOrigin (*origin)(const ImageInput& input);
-    /// Returns the number of pages. Null if files of this format have only one page.
+    /// Returns the number of pages. The pointer is null if files of this format have only one page.
     int (*count_pages)(Bytes file) = nullptr;
 };
 
@@ -74,7 +74,8 @@ ImageOrigin webp_origin(const ImageInput& input);
 std::vector<std::uint8_t> encode_jpeg(ImageView image);
 std::vector<std::uint8_t> encode_pgm(ImageView image);
 
-/// Throws Error if a side exceeds the limit, and ImageTooLarge if the image has too many pixels.
+/// Throws Error if a side exceeds kMaxImageSide_px, and ImageTooLarge if the image has too many
+/// pixels.
 void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels);
 
 inline constexpr double kMetresPerInch = 0.0254;

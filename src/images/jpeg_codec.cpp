@@ -36,7 +36,7 @@ struct Report : jpeg_error_mgr {
             report.format_message(jpeg, report.message.data());
             std::longjmp(report.leave, 1);
         };
-        // Messages with a level below 0 are warnings. Only the first one is kept.
+        // Messages with a level below 0 are warnings. Only the first warning is kept.
         emit_message = [](j_common_ptr jpeg, int level) {
             auto& report = *static_cast<Report*>(jpeg->err);
             if (level >= 0) return;

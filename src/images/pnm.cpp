@@ -1,4 +1,5 @@
-// Reads PBM, PGM and PPM files as text or binary (P1 to P6 of netpbm). Writes PGM.
+// Reads PBM, PGM and PPM files in their text and binary variants (P1 to P6 in netpbm). Writes PGM
+// files.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -37,7 +38,7 @@ class Reader {
         return first;
     }
 
-    /// Returns the next character that is neither white space nor in a comment.
+    /// Skips white space and comments, and returns the next character.
     char symbol() {
         char character = text();
         while (is_space(character))
@@ -61,14 +62,15 @@ class Reader {
         return value;
     }
 
-    /// Skips the line feed after the header if lines end with a carriage return and a line feed. If
-    /// at most `pixel_bytes` bytes are left, the next byte is a pixel and is not skipped.
+    /// Skips the line feed at the end of the header if the header ends with a carriage return and a
+    /// line feed. If at most `pixel_bytes` bytes are left, the next byte belongs to the pixels and
+    /// is not skipped.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }
 
   private:
-    /// Reads one character. A comment is read as the line break that ends it.
+    /// Reads one character. For a comment, returns the line break at its end.
     char text() {
         char character = static_cast<char>(byte());
         if (character != '#') return character;
@@ -108,8 +110,8 @@ Header read_header(Reader& reader, int max_pixels) {
     return header;
 }
 
-/// Returns the minimum number of bytes that encode the pixels. Memory is allocated only if the file
-/// has at least this size.
+/// Returns the minimum size of the pixel data in bytes. The image is allocated only if at least
+/// this much data follows the header.
 std::size_t min_bytes(const Header& header) {
     const std::size_t samples = header.width_px * header.height_px * header.channels;
     if (header.is_bitmap) {

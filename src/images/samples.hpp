@@ -13,7 +13,7 @@ template <typename Sample>
 struct Samples {
     int width_px = 0;
     int height_px = 0;
-    int channels = 1;  ///< 1: grey; 2: grey and opacity; 3: RGB; 4: RGB and opacity
+    int channels = 1;  ///< 1 (grey), 2 (grey, opacity), 3 (RGB) or 4 (RGB, opacity)
     std::vector<Sample> values;
 };
 
@@ -22,7 +22,8 @@ GreyImage to_grey(Samples<std::uint8_t> samples);
 GreyImage to_grey(Samples<std::uint16_t> samples);
 
 /// Returns the white level of a 16-bit image whose maximum level is `max_level`. Many sensors store
-/// 8 to 12 bits in the lower bits of 16-bit samples. White is then the maximum value of these bits.
+/// values of 8 to 12 bits in 16-bit samples. White is then the largest value that fits into these
+/// bits.
 std::uint32_t white_level(std::uint32_t max_level);
 
 }  // namespace dotpose::images

@@ -99,15 +99,16 @@ class TiffReader {
                                unit == RESUNIT_CENTIMETER ? kCentimetresPerInch : 1);
     }
 
-    /// Returns true if the page has EXIF data written by a camera. If the page has an EXIF
-    /// directory, makes it libtiff's current directory.
+    /// Returns true if the page has EXIF data written by a camera. If there is an EXIF directory,
+    /// it becomes libtiff's current directory.
     bool read_is_of_camera() {
         toff_t exif = 0;
         if (TIFFGetField(tiff_.get(), TIFFTAG_EXIFIFD, &exif) == 0 ||
             TIFFReadEXIFDirectory(tiff_.get(), exif) == 0)
             return false;
         return std::ranges::any_of(kCameraTags, [&](std::uint16_t tag) {
-            // libtiff stores either the value, or the number of values and a pointer to them.
+            // Depending on the tag, libtiff writes either one value, or the number of values and a
+            // pointer to them.
             std::uint64_t value = 0;
             const void* values = nullptr;
             return TIFFGetField(tiff_.get(), tag, &value, &values) != 0;
@@ -133,7 +134,7 @@ class TiffReader {
         void operator()(TIFF* tiff) const { TIFFClose(tiff); }
     };
 
-    /// Returns the value of a 16-bit tag, or its default.
+    /// Returns the value of a 16-bit tag, or the tag's default value if it is not set.
     std::uint16_t tag(std::uint32_t name) const {
         std::uint16_t value = 0;
         TIFFGetFieldDefaulted(tiff_.get(), name, &value);
@@ -151,7 +152,7 @@ class TiffReader {
     int colours() const { return tag(TIFFTAG_PHOTOMETRIC) == PHOTOMETRIC_RGB ? 3 : 1; }
 
     /// Returns true if the samples are interleaved grey or RGB samples of 8 or 16 bits, which are
-    /// read without a conversion. libtiff converts all other formats to 8-bit RGB.
+    /// read without conversion. libtiff converts all other formats to 8-bit RGB.
     bool has_plain_samples() const {
         const std::uint16_t bits = tag(TIFFTAG_BITSPERSAMPLE);
         std::uint16_t photometric = PHOTOMETRIC_PALETTE;
@@ -213,8 +214,8 @@ class TiffReader {
         }
     }
 
-    /// Removes all samples of each pixel except its colours and opacity. If the colours are
-    /// premultiplied by the opacity, composites them onto white.
+    /// Keeps only the colours and the opacity of each pixel. If the colours are premultiplied by
+    /// the opacity, composites them onto white and removes the opacity.
     template <typename Sample>
     Samples<Sample> plain(std::vector<Sample> stored, std::size_t per_pixel) const {
         const auto colours = static_cast<std::size_t>(this->colours());
@@ -249,7 +250,7 @@ class TiffReader {
                 std::copy_n(reason.begin(), input_.message.size() - 1, input_.message.begin());
             fail();
         }
-        // The orientation is ignored, as in all formats.
+        // The orientation tag is ignored, as it is for all image formats.
         image.orientation = ORIENTATION_TOPLEFT;
         image.req_orientation = ORIENTATION_TOPLEFT;
         const auto width = static_cast<std::uint32_t>(width_px_);
@@ -261,8 +262,8 @@ class TiffReader {
         Samples<std::uint8_t> samples{width_px_, height_px_, 3, {}};
         samples.values.reserve(3 * pixels.size());
         for (const std::uint32_t abgr : pixels) {
-            // libtiff returns colours that are premultiplied by the opacity. Adding the transparent
-            // fraction of white composites them onto white.
+            // libtiff returns colours that are premultiplied by the opacity. Adding white in
+            // proportion to the transparency composites them onto white.
             const std::uint32_t white = 255 - TIFFGetA(abgr);
             for (const std::uint32_t colour : {TIFFGetR(abgr), TIFFGetG(abgr), TIFFGetB(abgr)})
                 samples.values.push_back(static_cast<std::uint8_t>(std::min(colour + white, 255U)));

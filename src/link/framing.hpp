@@ -1,6 +1,6 @@
 // Framing: encodes a fixed number of arbitrary bytes as bytes without zeros (COBS), and appends a
-// CRC. The CRC covers the encoded bytes, because an error in a COBS code byte shifts all following
-// plain bytes, and a CRC over the plain bytes would not always detect this.
+// CRC. The CRC covers the encoded bytes. A CRC over the plain bytes would not always detect an
+// error in a COBS code byte, because such an error shifts all following plain bytes.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ inline constexpr std::size_t kPlainBytes = 27;
 /// Number of bytes after COBS encoding (Cheshire and Baker, 1999). COBS adds a single byte if there
 /// are at most 254 plain bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
-/// Number of bytes that encode the CRC. Each byte contains up to 7 bits of the CRC, and its top bit
-/// is set, so it is never zero.
+/// Number of bytes that encode the CRC. Each byte contains up to 7 bits of the CRC. Its top bit is
+/// set, so the byte is never zero.
 inline constexpr std::size_t kCheckBytes = 3;
 inline constexpr std::size_t kFramedBytes = kCodedBytes + kCheckBytes;
 

@@ -102,8 +102,8 @@ std::int16_t rounded_bam16(std::int32_t theta_bam) {
 std::uint8_t deviation_q12(const Fix& fix) {
     const float variance = std::max(fix.covariance[0][0], fix.covariance[1][1]);
     const float deviation = std::sqrt(std::max(variance, 0.0F)) * 4096.0F;
-    // 255 means that the deviation is unknown (for example, because the fix has no covariance) or
-    // too large to encode.
+    // 255 means that the standard deviation is unknown (for example, because the fix has no
+    // covariance) or too large to encode.
     if (!(deviation > 0) || deviation >= 254) return 255;
     return static_cast<std::uint8_t>(static_cast<int>(deviation) + 1);
 }
@@ -143,7 +143,7 @@ bool PacketReader::push(std::uint8_t byte) {
     }
     const std::size_t count = count_;
     count_ = 0;
-    if (count == 0) return false;  // no bytes between two end marks
+    if (count == 0) return false;  // there are no bytes between two end marks
     Plain plain;
     if (count == bytes_.size() && link::unframe(bytes_, plain) && unpack(plain, packet_)) {
         return true;

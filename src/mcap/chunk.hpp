@@ -14,9 +14,9 @@ struct ChunkEntry {
     std::uint64_t first_ns = 0;
     std::uint64_t last_ns = 0;
     std::uint64_t start = 0;                              ///< offset of the chunk in the file
-    std::uint64_t length = 0;                             ///< length of the record in bytes
-    std::map<std::uint16_t, std::uint64_t> index_starts;  ///< offset of the index of each channel
-    std::uint64_t index_length = 0;                       ///< total length of all indexes, in bytes
+    std::uint64_t length = 0;                             ///< length of the chunk record in bytes
+    std::map<std::uint16_t, std::uint64_t> index_starts;  ///< offset of each channel's index
+    std::uint64_t index_length = 0;                       ///< total length of the indexes in bytes
     /// Total length of the records in the chunk, in bytes.
     std::uint64_t size = 0;
 };
@@ -47,8 +47,8 @@ class Chunk {
         last_ns_ = std::max(last_ns_, time_ns);
     }
 
-    /// Appends the chunk and its indexes to `out`, and begins a new chunk. The first appended byte
-    /// will be at offset `place` in the file.
+    /// Appends the chunk and its indexes to `out`, and begins a new chunk. `place` is the file
+    /// offset of the first appended byte.
     ChunkEntry append_to(Bytes& out, std::uint64_t place) {
         ChunkEntry entry;
         entry.first_ns = is_timeless() ? 0 : first_ns_;
@@ -78,7 +78,7 @@ class Chunk {
   private:
     struct IndexedMessage {
         std::uint64_t time_ns = 0;
-        std::uint64_t offset = 0;  ///< offset within the records
+        std::uint64_t offset = 0;  ///< offset of the message within the records
     };
 
     bool is_timeless() const { return index_.empty(); }

@@ -1,4 +1,4 @@
-// CRC-32 according to ISO 3309, the checksum of MCAP, zlib and PNG.
+// CRC-32 according to ISO 3309, the checksum used by MCAP, zlib and PNG.
 #pragma once
 
 #include <array>

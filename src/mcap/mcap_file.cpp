@@ -71,9 +71,9 @@ class McapFile::Writer {
         const auto id = static_cast<std::uint16_t>(channel);
         const std::uint64_t number = contents_.messages.at(id)++;
         chunk_.add_message(id, static_cast<std::uint32_t>(number), time_ns, cdr);
-        // Ends the chunk once it covers at least `chunk_ns` and is at least as large as the end of
-        // the file. The end of the file is rewritten after each chunk, so small chunks would
-        // multiply the number of bytes written.
+        // Ends the chunk when it contains at least `chunk_bytes`, or when it covers at least
+        // `chunk_ns` and is at least as large as the end of the file. The end of the file is
+        // rewritten after each chunk, so smaller chunks would multiply the number of bytes written.
         const bool is_long =
             chunk_.duration_ns() >= static_cast<std::uint64_t>(options_.chunk_ns) &&
             chunk_.size() >= end_bytes_;
@@ -111,8 +111,9 @@ class McapFile::Writer {
         write_at_end(std::move(bytes));
     }
 
-    /// Overwrites the end of the file with `bytes` and a new end, in a single write. The file never
-    /// becomes shorter, because the new end contains everything that was in the old end.
+    /// Overwrites the end of the file with `bytes`, followed by a new end, in a single write. The
+    /// file never becomes shorter, because the new end contains everything that the old end
+    /// contained.
     void write_at_end(Bytes bytes) {
         const std::size_t data_bytes = bytes.size();
         data_.add(bytes);
@@ -131,7 +132,7 @@ class McapFile::Writer {
     int descriptor_;
     Crc32 data_;
     std::uint64_t size_ = 0;  ///< number of bytes before the data end record
-    /// Size of the end of the file in bytes, beginning with the data end record.
+    /// Size in bytes of the end of the file, which begins with the data end record.
     std::size_t end_bytes_ = 0;
     Contents contents_;
     std::map<std::string, std::uint16_t> schemas_;  ///< schema IDs by name

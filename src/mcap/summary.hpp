@@ -15,9 +15,9 @@ struct Contents {
     std::vector<ChunkEntry> chunks;
 };
 
-/// Appends the data end record, the summary, the footer and the magic bytes to `out`. The first
-/// appended byte will be at offset `place` in the file. `data` is the checksum of all bytes of the
-/// file before `place`.
+/// Appends the data end record, the summary, the footer and the magic bytes to `out`. `place` is
+/// the file offset of the first appended byte. `data` is the checksum of all bytes of the file
+/// before `place`.
 void append_end(Bytes& out, std::uint64_t place, const Contents& contents, const Crc32& data);
 
 /// Appends the eight magic bytes, which are at the beginning and at the end of a file.

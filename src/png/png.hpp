@@ -1,4 +1,4 @@
-/// Writes grey PNG images with libpng, for all libraries that write images.
+/// Writes grey PNG images with libpng. All libraries that write images use these functions.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "dotpose/export.hpp"
 #include "dotpose/image.hpp"
 
-// The other tools libraries call these functions, so they are exported.
+// These declarations are exported because several libraries use them.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::png {

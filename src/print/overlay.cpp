@@ -49,7 +49,7 @@ bool begins_like_pdf(const fs::path& path) {
     throw Error(fmt::format("{}: its objects are nested too deeply", path.string()));
 }
 
-/// Returns qpdf's warnings about faults that are repaired in the new file. Throws Error for faults
+/// Returns qpdf's warnings about faults that qpdf repairs in the new file. Throws Error for faults
 /// in the content or in stream data, because qpdf would copy such faults unchanged.
 std::set<std::string> repaired_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
@@ -237,8 +237,8 @@ class Overlay {
     }
 
     /// Draws the dots over or under the content of the page. Adds streams with the operators q and
-    /// Q around the content, so its own streams do not change and the dots are drawn in the initial
-    /// graphics state.
+    /// Q around the content, so the page's own streams do not change and the dots are drawn in the
+    /// initial graphics state.
     void draw(const OverlaidPage& laid_out) {
         const auto& [number, sheet, document_page] = laid_out;
         validate(sheet);
@@ -256,8 +256,8 @@ class Overlay {
         drawn.addPageContents(QPDFObjectHandle::newStream(&pdf_, after), false);
     }
 
-    /// Gives a page its own copies of the resources and of the XObject dictionary, because other
-    /// pages may share the originals. Returns the copy of the XObject dictionary.
+    /// Gives a page its own copies of its resource and XObject dictionaries, because other pages
+    /// may share the originals. Returns the copy of the XObject dictionary.
     static QPDFObjectHandle own_objects(QPDFPageObjectHelper drawn) {
         const auto copy = [](QPDFObjectHandle shared) {
             return shared.isDictionary() ? shared.shallowCopy() : QPDFObjectHandle::newDictionary();

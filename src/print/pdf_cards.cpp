@@ -13,8 +13,8 @@
 namespace dotpose::print {
 namespace {
 
-constexpr double kMarkGap_mm = 1;  // distance between the cards and a mark
-constexpr double kMark_mm = 4;     // length of a mark
+constexpr double kMarkGap_mm = 1;  // distance between the cards and a cut mark
+constexpr double kMark_mm = 4;     // length of a cut mark
 constexpr double kMargin_mm = kMarkGap_mm + kMark_mm;
 constexpr double kMarkWidth_mm = 0.1;
 

@@ -1,4 +1,4 @@
-/// Pages of cards: a grid of small pages on a larger page, which is cut apart after printing.
+/// Pages of cards: a grid of small pages on a larger page that is cut apart after printing.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace dotpose::print {
 
-/// Grid of cards in the middle of a page. Adjacent cards touch. The margin around the grid has
-/// space for cut marks.
+/// Grid of cards, centred on a page. Adjacent cards touch. The margin around the grid has space for
+/// cut marks.
 struct CardGrid {
     Paper paper;  ///< rotated by 90 degrees if more cards fit that way
     Paper card;
@@ -23,12 +23,12 @@ struct CardGrid {
     int cards() const { return columns * rows; }
 };
 
-/// Lays out the maximum number of cards that fit on the paper. Throws BadArgument if no card fits.
+/// Lays out as many cards as fit on the paper. Throws BadArgument if no card fits.
 CardGrid card_grid(Paper paper, Paper card);
 
-/// Returns the sheet of a card in the coordinate frame of the page. `slot` is the index of the card
-/// on the page, counted row by row. The card is shifted by less than a pixel at 300 dpi to align
-/// its dots with the printer pixels, as on a page of its own.
+/// Converts the sheet of a card to page coordinates. `slot` is the index of the card on the page,
+/// counted row by row. The card is shifted by less than a pixel at 300 dpi to align its dots with
+/// the printer pixels, as on a page of its own.
 Sheet on_page(const CardGrid& grid, int slot, Sheet card);
 
 /// Returns the cut marks as PDF content, in points from the bottom left corner of the page.

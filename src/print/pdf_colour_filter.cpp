@@ -44,7 +44,8 @@ void ColourFilter::handleToken(Token const& token) {
     }
     if (token.getType() != QPDFTokenizer::tt_word) {
         // The operators that this filter rewrites have fewer than kMaxPending operands. If
-        // kMaxPending tokens are pending, they are operands of a different operator.
+        // kMaxPending tokens are pending, they therefore belong to another operator and are written
+        // unchanged.
         if (pending_.size() == kMaxPending) flush();
         pending_.push_back(token);
         return;

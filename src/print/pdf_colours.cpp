@@ -24,9 +24,9 @@ std::map<std::string, ColourKind> named_spaces(QPDFObjectHandle resources) {
     return kinds;
 }
 
-/// If black is converted to cyan, magenta and yellow, sets the blending colour space of the
-/// transparency group of `holder` to CMYK. Blending in RGB would convert the mix of the three inks
-/// back to black.
+/// If black is converted to cyan, magenta and yellow, sets the blending colour space of `holder`'s
+/// transparency group to CMYK. Blending in RGB would convert the mix of the three inks back to
+/// black.
 void blend_in_cmyk(QPDFObjectHandle holder, InkChange change) {
     QPDFObjectHandle group = holder.getKey("/Group");
     if (!change.black_to_cmy || !group.isDictionary() || !group.hasKey("/CS")) return;

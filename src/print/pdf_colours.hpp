@@ -1,4 +1,4 @@
-/// Rewrites the colours of a page: in its content, and in copies of all objects that the content
+/// Rewrites the colours in the content of a page and in copies of all objects that the content
 /// draws.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace dotpose::print {
 /// Streams are rewritten only while the file is written.
 class ColourConverter {
   public:
-    /// `unpacked` counts the bytes of all converted content, and must outlive this object.
+    /// `unpacked` counts the unpacked bytes of all converted content. It must outlive this object.
     ColourConverter(InkChange change, UnpackedBytes& unpacked)
         : change_(change), unpacked_(unpacked) {}
 

@@ -123,7 +123,7 @@ class CrossReferences {
 
     std::shared_ptr<InputSource> file_;
     QPDFTokenizer tokenizer_;
-    QPDF stray_;  ///< empty document, because qpdf requires an owner for streams
+    QPDF stray_;  ///< empty document that owns the streams, because qpdf requires an owner
     UnpackedBytes& unpacked_;
     qpdf_offset_t size_ = 0;
     qpdf_offset_t start_ = 0;

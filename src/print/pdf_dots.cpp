@@ -84,7 +84,7 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
     const double px_per_mm = dpi / kInch_mm;
     const double half_mm = sheet.pattern.dot_mm / 2;
     const double left_mm = sheet.origin_x_mm - half_mm;
-    const double top_mm = sheet.origin_y_mm + half_mm;  // baseline of the first row
+    const double top_mm = sheet.origin_y_mm + half_mm;  // y coordinate of the first baseline
     const auto shift_mm = [&](double from_mm, double size_mm) {
         return clear_shift_px(from_mm * px_per_mm, (size_mm - from_mm) * px_per_mm) / px_per_mm;
     };

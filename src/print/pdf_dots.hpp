@@ -20,10 +20,10 @@ inline constexpr double kPointsPerMm = 72 / 25.4;
 
 /// Name of the creator in the documents that dotpose prints.
 inline constexpr const char* kCreator = "dotpose";
-/// Prefix of the resource names of the dots on a page.
+/// Prefix of the names of the page resources that draw the dots.
 inline constexpr const char* kDotsName = "/Dots";
 
-/// Counts the rows that are written on all pages, and reports the progress. qpdf requests the rows
+/// Counts the rows of dots written on all pages, and reports the progress. qpdf requests the rows
 /// while it writes the file. If `progress` throws an exception, qpdf replaces its message. The
 /// first exception is therefore stored in `stopped`.
 struct RowCount {

@@ -12,9 +12,9 @@ namespace dotpose::print {
 
 /// Kinds of colour spaces, by the meaning of their components.
 enum class ColourKind : std::uint8_t {
-    grey,   ///< one component; 0 is black
-    rgb,    ///< three components; 0 is dark
-    cmyk,   ///< four components; 0 is no ink
+    grey,   ///< one component, where 0 is black
+    rgb,    ///< three components, where 0 is dark
+    cmyk,   ///< four components, where 0 is no ink
     black,  ///< one component: the amount of black ink (Separation /Black or /All)
     other,  ///< colours that cannot be converted: patterns, spot colours, Lab, Indexed
 };
@@ -27,8 +27,8 @@ std::size_t components(ColourKind kind);
 ColourKind kind_of_space(QPDFObjectHandle space, QPDFObjectHandle spaces);
 
 /// Returns the amount of black ink, 0 to 1, with which a colour is printed. For grey and RGB, which
-/// the printer converts, returns the amount of black after the usual conversion. Returns 0 for
-/// `ColourKind::other`.
+/// the printer converts, returns the amount of black that the usual conversion yields. Returns 0
+/// for `ColourKind::other`.
 double black_of(ColourKind kind, std::span<const double> colour);
 
 /// Colour changes that `OverlayOptions` requests.

@@ -57,7 +57,7 @@ double width_mm(const std::string& text, double size_pt) {
     return thousandths * size_pt / 1000 / kPointsPerMm;
 }
 
-/// Returns the number of bytes of the UTF-8 character with the first byte `first`.
+/// Returns the number of bytes of the UTF-8 character that begins with the byte `first`.
 std::size_t length_of(char first) {
     const auto byte = static_cast<unsigned char>(first);
     return byte < 0xC0 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
@@ -71,9 +71,9 @@ std::string beginning(const std::string& utf8, std::size_t max_characters) {
     return utf8.substr(0, end);
 }
 
-/// Returns the text in the encoding of Helvetica, or nullopt if Helvetica lacks one of its letters
-/// and a different font is available. If no other font is available, missing letters become
-/// question marks.
+/// Returns the text encoded for Helvetica, or nullopt if Helvetica lacks a letter of the text and a
+/// different font is available. If no other font is available, missing letters become question
+/// marks.
 std::optional<std::string> in_helvetica(const std::string& utf8) {
     std::string text;
     const bool has_all_letters = QUtil::utf8_to_win_ansi(utf8, text, '?');
@@ -120,7 +120,7 @@ bool has_ruler(const Sheet& sheet, Side side) {
 }
 
 /// Positions of the x arrow and the y arrow of the page. Both arrows are farther from the dots than
-/// the rulers.
+/// the rulers are.
 struct Arrows {
     double x_of_y_arrow_mm = 0;
     double y_of_x_arrow_mm = 0;
@@ -173,7 +173,7 @@ std::string shown(const std::string& win_ansi) {
     return QPDFObjectHandle::newString(win_ansi).unparse();
 }
 
-/// Returns the text below the dots as PDF content. The first line is nearest to the dots.
+/// Returns the text below the dots as PDF content. The first line is closest to the dots.
 std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                          ScriptText& script) {
     const double reach = reach_mm(sheet.pattern);
@@ -231,8 +231,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;
     const double away_from_mm = free_margin_mm(sheet, side);
-    // Returns the point on the page at a position along the ruler and a distance from the dots. The
-    // left ruler runs downwards.
+    // Returns the point on the page that is `along_mm` along the ruler and `away_mm` away from the
+    // dots. The left ruler runs downwards.
     const auto at = [&](double along_mm, double away_mm) {
         return is_top ? point(sheet, along_mm, away_from_mm - away_mm)
                       : point(sheet, away_from_mm - away_mm, along_mm);
@@ -246,7 +246,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     }
     const double dots_begin_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
     // Returns true if a tick or number from `from_mm` to `to_mm` would cross the other ruler or its
-    // arrow. The other ruler's marks are at least `nearest_mm` away from the dots.
+    // arrow. The marks of the other ruler that could be crossed are at least `nearest_mm` away from
+    // the dots.
     const auto is_crossed = [&](double from_mm, double to_mm, double nearest_mm) {
         return to_mm > crossing_mm && from_mm < dots_begin_mm - nearest_mm;
     };
@@ -266,7 +267,7 @@ std::string ruler_content(const Sheet& sheet, Side side) {
         const double length_mm = width_mm(number, kNumber_pt);
         const double from_mm = mm == 0 ? kEdge_mm : mm - length_mm / 2;
         if (is_crossed(from_mm, from_mm + length_mm, kNumberAway_mm)) continue;
-        // The numbers of the left ruler are read upwards, so their tops are on the left.
+        // The numbers of the left ruler are written upwards, so their tops are on the left.
         numbers +=
             fmt::format("{} {} Tm {} Tj\n", is_top ? "1 0 0 1" : "0 1 -1 0",
                         at(is_top ? from_mm : from_mm + length_mm, kNumberAway_mm), shown(number));
@@ -292,8 +293,8 @@ std::string label_at(const Sheet& sheet, double x_mm, double baseline_mm, const 
     return fmt::format("1 0 0 1 {} Tm {} Tj\n", point(sheet, x_mm, baseline_mm), shown(text));
 }
 
-/// Returns the PDF content of the x arrow and the y arrow at the corner of the page. If the note
-/// about the corner fits beside the x arrow, the content includes the note.
+/// Returns the PDF content of the x arrow and the y arrow at the corner of the page. Includes the
+/// note about the corner if it fits beside the x arrow.
 std::string origin_content(const Sheet& sheet) {
     const auto arrows = arrows_of(sheet);
     if (!arrows) return {};

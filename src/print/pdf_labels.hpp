@@ -10,7 +10,7 @@
 namespace dotpose::print {
 
 struct PageNumber {
-    int number = 1;  ///< from 1
+    int number = 1;  ///< counted from 1
     int count = 1;
 };
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* kTooDeep = "streams whose lengths are in other streams";
 
-/// Maximum size of the stack that qpdf may use while reading. Valid documents need far less, and
+/// Maximum stack usage of qpdf while it reads, in bytes. Valid documents need far less stack, and
 /// the stack of a program's main thread is larger.
 constexpr std::ptrdiff_t kMaxStack_bytes = 2 << 20;
 
@@ -44,8 +44,8 @@ class ShallowFile : public FileInputSource {
     std::ptrdiff_t start_;
 };
 
-/// Counts the bytes that pass through and discards them. Throws std::runtime_error if there are
-/// more than `max` bytes.
+/// Counts the bytes written to this pipeline, and discards them. Throws std::runtime_error if there
+/// are more than `max` bytes.
 class ByteCount : public Pipeline {
   public:
     explicit ByteCount(std::uint64_t max) : Pipeline("byte count", nullptr), max_(max) {}

@@ -46,8 +46,8 @@ class UnpackedBytes {
     /// of a predictor.
     void count(QPDFObjectHandle stream);
 
-    /// Counts the bytes of all object streams (streams that contain other objects). Each of them is
-    /// treated as a page, so the limit for one page applies to it.
+    /// Counts the bytes of all object streams (streams that contain other objects). Each object
+    /// stream is treated as a page, so the limit for one page applies to it.
     void count_object_streams(QPDF& pdf);
 
   private:

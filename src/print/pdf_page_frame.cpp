@@ -19,7 +19,8 @@ Rectangle rectangle(QPDFObjectHandle box) {
             std::max(given.llx, given.urx), std::max(given.lly, given.ury)};
 }
 
-/// Returns the part of the page that viewers show: the intersection of crop box and media box.
+/// Returns the part of the page that viewers show: the intersection of the crop box and the media
+/// box.
 Rectangle shown_box(QPDFPageObjectHelper& page) {
     const Rectangle media = rectangle(page.getMediaBox());
     const Rectangle crop = rectangle(page.getCropBox());
@@ -59,7 +60,7 @@ PageFrame page_frame(QPDFPageObjectHelper page) {
     frame.box = box;
     frame.paper.width_mm = (turns % 2 == 0 ? width : height) * unit / kPointsPerMm;
     frame.paper.height_mm = (turns % 2 == 0 ? height : width) * unit / kPointsPerMm;
-    // Rotation matrices for 0 to 3 quarter turns. Pages are displayed rotated clockwise (PDF
+    // Rotation matrices for 0 to 3 quarter turns. Pages are displayed rotated clockwise (ISO
     // 32000-1, 8.3.3).
     constexpr int kTurned[4][4] = {{1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}};
     const auto& [a, b, c, d] = kTurned[turns];

@@ -12,7 +12,7 @@ namespace dotpose::print {
 /// Size and position of the displayed part of a page. Viewers display the crop box.
 struct PageFrame {
     Paper paper;  ///< displayed size
-    /// Intersection of crop box and media box, in units of the content.
+    /// Intersection of the crop box and the media box, in units of the content.
     QPDFObjectHandle::Rectangle box;
     /// Operands of `cm` that convert points from the bottom left corner of the displayed page to
     /// coordinates of the content.

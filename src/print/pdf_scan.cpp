@@ -21,7 +21,7 @@ namespace {
 // Limit for the amount of black ink, from 0 to 1. Content with more black ink hides black dots.
 constexpr double kHidingBlack = 0.1;
 
-/// The current colour. Content starts with black, device grey 0.
+/// The current colour. The initial colour is black (0 in DeviceGray).
 struct Colour {
     ColourKind kind = ColourKind::grey;
     bool is_black = true;
@@ -39,8 +39,8 @@ struct PageScan {
     PageContent found;
 };
 
-/// Maximum number of stored operands. No operator has more than 33: the 32 components of a colour
-/// and a name.
+/// Maximum number of stored operands. No operator has more than 33 operands: the 32 components of a
+/// colour and a name.
 constexpr std::size_t kMaxOperands = 64;
 
 struct Operand {

@@ -11,9 +11,9 @@
 namespace dotpose::print {
 
 struct PageContent {
-    bool paints_black = false;   ///< true if there is text or a drawing that needs black ink
-    bool paints_images = false;  ///< true if there are images, whose colours are not examined
-    /// True if there are filled shapes, shadings or images, which cover dots below them.
+    bool paints_black = false;   ///< true if the page has text or drawings that need black ink
+    bool paints_images = false;  ///< true if the page has images, whose colours are not examined
+    /// True if the page has filled shapes, shadings or images, which cover dots below them.
     bool paints_areas = false;
     int unclosed_saves = 0;  ///< number of operators q (save) without a matching Q
     int extra_restores = 0;  ///< number of operators Q (restore) without a preceding q

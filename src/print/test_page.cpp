@@ -44,7 +44,7 @@ Cell first_cell(int spacing, int dot) {
 
 /// Returns the setting of the patch whose first cell is nearest to a coordinate, or 0 if no patch
 /// is near. The coordinate may be slightly outside the patch, because the maps that `check_print`
-/// fits extend beyond it.
+/// fits extend beyond the patch.
 int setting_at(std::uint32_t coordinate) {
     constexpr std::uint32_t kHalf = kTestPatchCells / 2;
     if (coordinate < kTestPageCell + kHalf) return 0;

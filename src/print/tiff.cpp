@@ -8,7 +8,7 @@
 namespace dotpose::print {
 namespace {
 
-// Images with at least this size are written as BigTIFF. Offsets in classic TIFF have only 32 bits.
+// Images of at least this size are written as BigTIFF. Offsets in classic TIFF have only 32 bits.
 constexpr std::int64_t kBigTiff_bytes = std::int64_t{1} << 31;
 constexpr std::uint32_t kRowsPerStrip = 64;
 

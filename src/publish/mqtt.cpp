@@ -286,7 +286,8 @@ int MqttSubscriber::work() {
     const std::int64_t taken = received_ - before;
     if (code == MOSQ_ERR_SUCCESS) code = send_all(taken > 1 ? socket : -1);
     if (code == MOSQ_ERR_SUCCESS) code = mosquitto_loop_misc(handle());
-    // Waking up for each message takes longer than processing it, so messages accumulate for 1 ms.
+    // Waking up for each message takes longer than processing it, so this thread waits 1 ms for
+    // messages to accumulate.
     if (code == MOSQ_ERR_SUCCESS && taken > 0) std::this_thread::sleep_for(1ms);
     return code;
 }

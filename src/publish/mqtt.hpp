@@ -1,5 +1,5 @@
-// MQTT publisher with a bounded queue, and MQTT subscriber. Both use libmosquitto, connect in the
-// background, and reconnect after the connection breaks.
+// An MQTT publisher with a bounded queue, and an MQTT subscriber. Both use libmosquitto, connect in
+// the background, and reconnect after the connection breaks.
 #pragma once
 
 #include <chrono>
@@ -32,16 +32,16 @@ enum class Presence {
 struct MqttOptions {
     std::string host = "localhost";
     int port = 1883;
-    std::string user;  ///< user name; empty to connect without one
+    std::string user;  ///< user name, or empty to connect without a user name
     std::string password;
     bool has_tls = false;
     /// File with trusted certificates, or empty to use the system's certificates.
     std::string ca_file;
     int qos = 0;            ///< 0 for at most once, 1 for at least once
     std::string client_id;  ///< client ID, or empty to let the broker choose an ID
-    /// Topic of the presence messages of a publisher, or empty if no presence messages are sent.
-    /// The broker retains the newest message for later subscribers. The message for
-    /// `Presence::broken` is registered as the last will of the connection.
+    /// Topic of the publisher's presence messages, or empty to send no presence messages. The
+    /// broker retains the newest message for later subscribers. The message for `Presence::broken`
+    /// is registered as the last will of the connection.
     std::string presence_topic;
     /// Returns a presence message. Two threads call this function, but never at the same time.
     std::function<std::string(Presence)> presence;
@@ -70,8 +70,8 @@ class MqttClient {
     explicit MqttClient(MqttOptions options);
     virtual ~MqttClient();
 
-    /// Connects and waits up to 3 s for the answer. Throws Error if the broker refuses the user or
-    /// the certificates cannot be read. If the broker does not answer, reports this through
+    /// Connects and waits up to 3 s for the broker's answer. Throws Error if the broker refuses the
+    /// user or the certificates cannot be read. If the broker does not answer, reports this through
     /// `MqttOptions::tell`, and the thread keeps trying.
     void start();
     /// Disconnects and stops the thread. No virtual function is called afterwards.
@@ -133,11 +133,11 @@ class MqttPublisher : public MqttClient {
     /// the message for later subscribers. An empty retained message removes the previous one.
     void publish(std::string topic, std::string payload, bool is_retained = false);
 
-    /// Waits up to `patience` until all messages are sent. Returns false on timeout.
+    /// Waits up to `patience` for all messages to be sent. Returns false on timeout.
     bool flush(std::chrono::milliseconds patience);
 
     std::int64_t sent() const;
-    /// Returns the number of messages in the queue or being sent.
+    /// Returns the number of messages that are queued or being sent.
     std::int64_t unsent() const;
     /// Returns the number of messages that were never sent. They were dropped from a full queue,
     /// were invalid, or were being sent with QoS 0 when the connection broke.
@@ -170,7 +170,7 @@ class MqttSubscriber : public MqttClient {
   public:
     using Handler = std::function<void(std::string_view topic, std::string_view payload)>;
 
-    /// Subscribes to topics. Another thread calls `handle`. Throws the same errors as
+    /// Subscribes to topics. `handle` is called on another thread. Throws the same errors as
     /// MqttClient::start.
     MqttSubscriber(MqttOptions options, std::vector<std::string> topics, Handler handle);
     ~MqttSubscriber() override;

@@ -82,7 +82,7 @@ void MqttPublisher::send_waiting() {
         } else if (code == MOSQ_ERR_SUCCESS) {
             under_way_.insert(id);
         } else {
-            return;  // the connection is lost; the message stays in the queue
+            return;  // the connection is lost, so the message stays in the queue
         }
         waiting_.pop_back();
     }

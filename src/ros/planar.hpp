@@ -13,7 +13,7 @@ inline double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Returns the pose of C in A.
+/// Returns the pose of C in A, given the poses of B in A and of C in B.
 inline PlanarPose compose(const PlanarPose& b_in_a, const PlanarPose& c_in_b) {
     const double c = std::cos(b_in_a.yaw_rad);
     const double s = std::sin(b_in_a.yaw_rad);
@@ -21,7 +21,7 @@ inline PlanarPose compose(const PlanarPose& b_in_a, const PlanarPose& c_in_b) {
             b_in_a.y_m + s * c_in_b.x_m + c * c_in_b.y_m, wrapped(b_in_a.yaw_rad + c_in_b.yaw_rad)};
 }
 
-/// Returns the pose of A in B.
+/// Returns the pose of A in B, given the pose of B in A.
 inline PlanarPose inverse(const PlanarPose& b_in_a) {
     const double c = std::cos(b_in_a.yaw_rad);
     const double s = std::sin(b_in_a.yaw_rad);

@@ -40,8 +40,8 @@ TransformStamped transform_of(const Header& header, std::string child, const Pla
         header, std::move(child), {{planar.x_m, planar.y_m, 0}, rotation_about_z(planar.yaw_rad)}};
 }
 
-/// Returns the pose of a camera. The covariance needs no conversion, because the message also uses
-/// rotations about the axes of `map`.
+/// Returns the pose of a camera. The covariance needs no conversion, because it already refers to
+/// rotations about the axes of `map`, as the message requires.
 PoseWithCovariance pose_of(const CameraInWorld& camera) {
     const dotpose::Quaternion& q = camera.rotation;
     PoseWithCovariance result;
@@ -63,7 +63,7 @@ std::array<std::array<double, 3>, 3> matrix_of(const dotpose::Quaternion& q) {
               1 - 2 * (q.x * q.x + q.y * q.y)}}};
 }
 
-/// Returns the velocities in the frame of the camera.
+/// Returns the velocities of the camera in the camera frame.
 TwistWithCovariance twist_of(const CameraMotion& motion) {
     const auto rotation = matrix_of(motion.pose.rotation);
     std::array<std::array<double, 6>, 6> by_velocity{};
@@ -115,8 +115,8 @@ PlanarCovariance turned_covariance(const PlanarMotion& motion, double yaw_rad) {
     return propagated({{{c, s, 0, 0, 0, 0}, {-s, c, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0}}}, motion);
 }
 
-/// Returns the velocities in the frame of the robot. Their covariance includes the uncertainty of
-/// the yaw, which makes the directions of the velocities uncertain.
+/// Returns the velocities of the robot in the robot frame. Their covariance includes the
+/// uncertainty of the yaw, which makes the directions of the velocities uncertain.
 TwistWithCovariance twist_of(const PlanarMotion& motion) {
     const double c = std::cos(motion.pose.yaw_rad);
     const double s = std::sin(motion.pose.yaw_rad);
@@ -216,7 +216,7 @@ std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFr
     if (!camera.paper) return std::nullopt;
     const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
     const CameraPoint reference = from_image_centre(camera, camera.reference_px.value_or(centre));
-    // Pose of the robot relative to the camera, along the image axes with y up.
+    // Pose of the robot relative to the camera, in axes parallel to the image axes but with y up.
     const PlanarPose camera_from_base = {reference.x_mm / 1000, -reference.y_mm / 1000,
                                          -camera.theta_offset_rad};
     const PlanarPose base_from_camera = inverse(camera_from_base);

@@ -50,8 +50,8 @@ std::optional<PlanarFix> fix_in_pattern(const Located& located) {
                      covariance_in_m(covariance, spacing_m, {false})};
 }
 
-/// Returns the pose of the camera in space, or none if the pose is unknown or ambiguous. If
-/// `is_in_world` is true, also returns nullopt if the place in the world is unknown.
+/// Returns the pose of the camera in space, or nullopt if the pose is unknown or ambiguous. If
+/// `is_in_world` is true, also returns nullopt if the position in the world is unknown.
 std::optional<CameraInWorld> camera_of(const Located& located, bool is_in_world) {
     if (is_in_world) return certain_in_world(located.space, located.place);
     if (!located.space || located.space->is_ambiguous()) return std::nullopt;

@@ -1,6 +1,6 @@
 // Rules that determine which requests a server answers. They protect a server at a loopback address
-// from pages on other sites in the same browser. They protect a server on a network from clients
-// without the token.
+// from pages of other sites that are open in the same browser. They protect a server on a network
+// from clients without the token.
 #pragma once
 
 #include <string>
@@ -29,20 +29,21 @@ bool equals_in_constant_time(std::string_view a, std::string_view b);
 /// The properties of a request that determine whether it is answered. Members for missing headers
 /// are empty.
 struct RequestHead {
-    std::string host;           ///< header Host
-    std::string origin;         ///< header Origin, which browsers add to requests from scripts
-    std::string cookie;         ///< header Cookie
-    std::string authorization;  ///< header Authorization
+    std::string host;           ///< Host header
+    std::string origin;         ///< Origin header, which browsers add to requests from scripts
+    std::string cookie;         ///< Cookie header
+    std::string authorization;  ///< Authorization header
     std::string token;          ///< URL parameter `token`
     bool is_get = false;        ///< true if the method is GET
 };
 
 enum class Verdict {
     allowed,
-    allowed_by_url,  ///< allowed by the token in the URL; the response should store it as a cookie
-    wrong_host,      ///< the host is not a name of this server (DNS rebinding)
-    wrong_origin,    ///< the request is from a page on another site
-    wrong_token,     ///< the token is missing or wrong
+    /// Allowed by the token in the URL. The response should store the token as a cookie.
+    allowed_by_url,
+    wrong_host,    ///< the host is not a name of this server (DNS rebinding)
+    wrong_origin,  ///< the request is from a page on another site
+    wrong_token,   ///< the token is missing or wrong
     wrong_method,
 };
 

@@ -27,7 +27,7 @@ Address parse_address(const std::string& text);
 std::string text_of(const Address& address);
 
 /// Throws Error with the reason if a server cannot listen at the address, for example because
-/// another program already does.
+/// another program is already listening there.
 void require_free(const Address& address);
 
 }  // namespace dotpose::serve

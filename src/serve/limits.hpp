@@ -6,11 +6,11 @@
 
 namespace dotpose::serve {
 
-inline constexpr int kMaxConnections = 64;  ///< maximum number of sockets, HTTP and WebSocket
+inline constexpr int kMaxConnections = 64;  ///< maximum number of HTTP and WebSocket connections
 inline constexpr int kMaxClients = 16;      ///< maximum number of WebSockets
-inline constexpr int kHeadTimeout_s = 5;    ///< maximum time to send the head of a request
+inline constexpr int kHeadTimeout_s = 5;    ///< time limit for receiving the head of a request
 inline constexpr int kSilence_s = 20;       ///< time without a message after which a ping is sent
-inline constexpr int kMaxSilence_s = 40;    ///< silence after which a client is disconnected
+inline constexpr int kMaxSilence_s = 40;    ///< silence after which the client is disconnected
 inline constexpr std::size_t kMaxHeadBytes = 4096;     ///< maximum size of the head of a request
 inline constexpr std::size_t kChunkBytes = 32 * 1024;  ///< maximum size of one write
 inline constexpr std::size_t kMaxWaitingCommands = 32;

@@ -60,8 +60,10 @@ enum class Format { text, binary };
 
 struct ServerOptions {
     Address address;
-    std::string token;            ///< token for clients; may be empty at a loopback address
-    std::span<const Page> pages;  ///< must outlive the server; the page "/" is the start page
+    /// Token that clients must send. It may be empty at a loopback address.
+    std::string token;
+    /// Files of the web page, which must outlive the server. The page "/" is the start page.
+    std::span<const Page> pages;
     /// Called with messages for the user, such as reports of refused clients. Called on the
     /// server's thread.
     std::function<void(const std::string&)> tell = [](const std::string&) {};

@@ -63,7 +63,7 @@ class Topic {
     const bool is_binary_;
     std::atomic<int> ready_clients_{0};
     mutable std::mutex mutex_;
-    Encode encode_;  ///< encoder of the newest value; null after it has been called
+    Encode encode_;  ///< encoder of the newest value, or null once it has been called
     /// Encoder of the newest value if the value depends on the client, otherwise null.
     std::shared_ptr<const EncodeFor> encode_for_;
     /// Number of the newest value, counted from 1, or 0 if there is none.

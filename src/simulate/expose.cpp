@@ -31,7 +31,7 @@ class Sensor {
           kernel_(kernel),
           paper_(paper),
           // The length of a range is rounded up to a multiple of kLanes, and a range may begin at
-          // any pixel. It may therefore extend beyond the last pixel, so the row has kLanes
+          // any pixel. A range may therefore extend beyond the last pixel, so the row has kLanes
           // additional elements.
           row_(whole_lanes(width_ + 2 * border_ + kernel.taps) + kLanes),
           levels_(row_.size() * static_cast<std::size_t>(camera.height_px)) {
@@ -83,7 +83,7 @@ class Sensor {
         for (Raster::Spot& loss : losses_) {
             for (float& light : loss.darkness)
                 light *= paper[loss.pixel];
-            // Pixels whose ranges overlap or touch share one range.
+            // If the ranges of several pixels overlap or touch, they are merged into one range.
             if (reaches_.empty() || loss.pixel < reaches_.back().from ||
                 loss.pixel > reaches_.back().to) {
                 reaches_.push_back({loss.pixel, loss.pixel});
@@ -222,12 +222,13 @@ class Sensor {
     std::size_t border_;
     const Kernel& kernel_;
     const std::vector<float>& paper_;
-    std::vector<Raster::Spot> losses_;  // darkness times the light of bare paper
-    std::vector<Reach> reaches_;        // disjoint, from left to right
+    std::vector<Raster::Spot> losses_;  // absorbed light: darkness times the light of bare paper
+    std::vector<Reach> reaches_;        // disjoint ranges, from left to right
     // One sub-row after the horizontal convolution. It has at least 2 * border_ elements on each
     // side of the image.
     std::vector<float> row_;
-    std::vector<float> levels_;  // rows with the same length as row_
+    // Light in each pixel, in rows with the same length as row_.
+    std::vector<float> levels_;
 };
 
 // Samples the ink of a page image along the sub-rows of a frame.

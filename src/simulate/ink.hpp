@@ -11,7 +11,8 @@ namespace dotpose::simulate {
 
 struct InkEllipse {
     Vec2 centre_px;
-    /// Outline: all p with (p - centre)^T M^-1 (p - centre) = 1, where M = [xx xy; xy yy].
+    /// The outline is the set of points p with (p - centre)^T M^-1 (p - centre) = 1, where M = [xx
+    /// xy; xy yy].
     double xx = 0;
     double xy = 0;
     double yy = 0;
@@ -64,7 +65,7 @@ DisplacementOf code_of(const Pattern& pattern);
 
 /// A line with round ends.
 struct Stroke {
-    Vec2 from_mm;  ///< offsets from the pose point
+    Vec2 from_mm;  ///< end points, as offsets from the pose point
     Vec2 to_mm;
     double width_mm = 0;
 };
@@ -83,11 +84,11 @@ struct Word {
 inline constexpr double kLetterAdvance = 0.75;
 void add_word(Ink& ink, const View& view, const Word& word, double reflectance, Rng& rng);
 
-/// Adds `imperfections.graphics` thick strokes or words at random places in view.
+/// Adds `imperfections.graphics` thick strokes or words at random positions in view.
 void add_graphics(Ink& ink, const View& view, const Imperfections& imperfections, Rng& rng);
 
-/// Adds `imperfections.dirt_blobs` elliptical specks. Their longer axis is 0.6 to 3 times the
-/// diameter of a dot.
+/// Adds `imperfections.dirt_blobs` elliptical specks. The longer axis of a speck is 0.6 to 3 times
+/// the diameter of a dot.
 void add_dirt(Ink& ink, const View& view, double dot_mm, const Imperfections& imperfections,
               Rng& rng);
 

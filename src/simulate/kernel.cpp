@@ -16,8 +16,8 @@ double integral_of_edge(double x, double sigma) {
     return sigma * (z * 0.5 * std::erfc(-z / std::numbers::sqrt2) + density);
 }
 
-// Returns the weights for a scene that is shifted by `shift_px`. The response of a pixel is a box
-// of 1 px convolved with the Gaussian blur of the lens. The weight of a sub-pixel is the integral
+// Returns the weights for a scene that is shifted by `shift_px`. The response of a pixel is a box 1
+// px wide, convolved with the Gaussian blur of the lens. The weight of a sub-pixel is the integral
 // of this response over the sub-pixel. The weights are scaled to sum to `share`.
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
@@ -65,9 +65,9 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     Kernel kernel;
     kernel.per_pixel =
         imperfections.sub_pixels > 0 ? imperfections.sub_pixels : sub_pixels_for(dot_px);
-    // Drawing ink as the covered fractions of sub-pixels blurs it like a triangle filter two
-    // sub-pixels wide, with a variance of 1/6 sub-pixel^2. The Gaussian provides the remaining
-    // blur.
+    // Drawing ink as the covered fractions of sub-pixels blurs it like a triangle filter that is
+    // two sub-pixels wide and has a variance of 1/6 sub-pixel^2. The Gaussian provides the
+    // remaining blur.
     const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);
     const double sigma_px = std::sqrt(
         std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));

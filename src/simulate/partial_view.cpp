@@ -48,8 +48,8 @@ double draw_direction(const Shot& shot, Rng& rng) {
     return of_image + static_cast<double>(rng.below(4)) * std::numbers::pi / 2;
 }
 
-/// Returns half the side, in spacings, of a square so large that at most one of its corners is in
-/// view.
+/// Returns half the side length, in spacings, of a square so large that at most one of its corners
+/// is in view.
 double endless(const Shot& shot) {
     return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
 }
@@ -104,8 +104,8 @@ PageArea draw_island(const Shot& shot, Rng& rng) {
     return area;
 }
 
-/// Returns true if two areas are at least about two spacings apart. Treats the area `a` as a circle
-/// whose radius is 0.85 times half its diagonal.
+/// Returns true if two areas are at least about two spacings apart. Approximates the area `a` by a
+/// circle whose radius is 0.85 times half the diagonal of the area.
 bool are_apart(const PageArea& a, const PageArea& b) {
     constexpr double kGap = 2;
     const double reach = std::hypot(a.half_width, a.half_height);
@@ -142,7 +142,7 @@ void cover_partly(Shot& shot, const PartialView& view) {
         return;
     }
     // At the border of the sheet, some dots are only partly visible. The visible part of the sheet
-    // must therefore contain at least 15 % more than `min_dots` dots.
+    // must therefore contain at least 1.15 times `min_dots` dots.
     const double min_share = std::max(view.min_share, 1.15 * view.min_dots / intersections(shot));
     const double share = rng.uniform(min_share, std::max(min_share, view.max_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);

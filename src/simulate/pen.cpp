@@ -41,7 +41,7 @@ void move_to(double x_grid, double y_grid, CameraPose& pose) {
 }
 
 /// Returns the position at time `t` on a minimum-jerk path that starts and ends at rest. Time and
-/// position are from 0 to 1.
+/// position range from 0 to 1.
 double smooth_step(double t) {
     return t * t * t * (10 + t * (6 * t - 15));
 }
@@ -152,7 +152,8 @@ Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose) {
     const double spacing_mm = shot.page.pattern.spacing_mm;
     move_to((pose.x_mm - to_tip[0] + distance_mm * axis[0]) / spacing_mm,
             (pose.y_mm - to_tip[1] + distance_mm * axis[1]) / spacing_mm, result.pose);
-    // Normal of the paper in the camera frame: (sin ty, -sin tx cos ty, cos tx cos ty).
+    // Normal of the paper in the camera frame. For the tilts tx and ty about the image axes, the
+    // normal is (sin ty, -sin tx cos ty, cos tx cos ty).
     const auto component = [&pose](const Vector& unit) { return on_pattern(pose, unit)[2]; };
     const Vector normal{component({1, 0, 0}), component({0, 1, 0}), axis[2]};
     result.pose.tilt_y_rad = std::asin(normal[0]);

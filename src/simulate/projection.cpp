@@ -52,8 +52,8 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
     const double c = std::cos(turn_rad);
     const double s = std::sin(turn_rad);
     for (std::size_t i = 0; i < 3; ++i) {
-        // An offset in the pattern is R(turn) * (s, t), where R is a rotation. The axes of the
-        // pattern are therefore the columns of R(-turn).
+        // An offset in the pattern is R(turn) * (s, t), where R is a rotation. In the coordinates
+        // (s, t), the axes of the pattern are therefore the columns of R(-turn).
         x_axis_[i] = c * s_axis[i] - s * t_axis[i];
         y_axis_[i] = s * s_axis[i] + c * t_axis[i];
     }
@@ -113,7 +113,8 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     const double dx = pixel.x - centre_px_.x;
     const double dy = pixel.y - centre_px_.y;
     const double scale = 1 / (focal_px_ * (1 + k_ * (dx * dx + dy * dy)));  // paper, equation 2
-    // The viewing ray is (rx, ry, 1) * depth. On the paper, depth = distance + z. Therefore
+    // The viewing ray is (rx, ry, 1) * depth. It meets the paper at the offset (ox, oy), where
+    // depth = distance + z. Therefore
     // x_axis.xy * ox + y_axis.xy * oy = (rx, ry) * (distance + x_axis.z * ox + y_axis.z * oy).
     double rx = dx * scale - time * (readout_px_.x / focal_px_);
     double ry = dy * scale - time * (readout_px_.y / focal_px_);

@@ -91,8 +91,7 @@ void Raster::draw_band(int top) {
 // Darkens each sub-pixel in proportion to the fraction of its area that is covered by a convex
 // shape. In the horizontal direction, the covered area is computed exactly. In the vertical
 // direction, it is integrated by Gaussian quadrature over four chords, with an error below 0.1 %
-// even at the round ends of a dot. `chord_at(y)` returns the left and the right end of the chord at
-// y.
+// even at the round ends of a dot. `chord_at(y)` returns the left and right ends of the chord at y.
 template <typename ChordAt>
 void Raster::fill(double top, double bottom, double darkness, const ChordAt& chord_at) {
     struct Line {

@@ -59,7 +59,7 @@ class Raster {
 
     Layout layout_;
     std::vector<Ellipse> ellipses_;  // sorted by y
-    double max_half_height_ = 0;     // maximum half height of all ellipses
+    double max_half_height_ = 0;     // maximum half height of the ellipses
     std::vector<Polygon> polygons_;
     int band_top_ = 0;
     // A range of sub-pixels with ink. Most sub-pixels have no ink, so only these ranges are read.
@@ -68,7 +68,7 @@ class Raster {
     };
     float* row(int row_in_band);
     std::vector<float> band_;
-    std::vector<std::vector<Span>> spans_;  // may overlap
+    std::vector<std::vector<Span>> spans_;  // spans of each row in the band, which may overlap
     std::vector<double> coverage_;          // covered fraction of each sub-pixel in the current row
     Span touched_{};                        // range of non-zero elements of coverage_
     std::vector<Spot> spots_;

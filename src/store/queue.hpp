@@ -65,7 +65,7 @@ class Queue {
 
     std::unique_ptr<Database> database_;
     QueueOptions options_;
-    std::vector<State> batch_;  ///< states of the current transaction; used by `thread_` only
+    std::vector<State> batch_;  ///< states of the current transaction, used only by `thread_`
     bool is_removal_reported_ = false;
     std::int64_t kept_from_ = 0;  ///< first day that was kept when old days were last removed
     mutable std::mutex mutex_;

@@ -19,7 +19,7 @@ inline constexpr int kVersion = 1;
 /// Parts of the SQL statements that differ between databases.
 struct Dialect {
     std::string_view generated_key;  ///< definition of an integer primary key with generated values
-    std::string_view partition;      ///< last clause of the definition of the table `states`
+    std::string_view partition;      ///< last clause of the statement that creates `states`
     std::string_view create_view;    ///< start of the statement that creates the view
     std::string_view time;           ///< SQL expression that converts `time_us` to a time
 };
@@ -45,7 +45,7 @@ Integers integers_of(const State& state, std::int64_t robot_id, std::int64_t pla
 /// Returns the text of the column `reason`.
 std::string_view reason_text(Status reason);
 
-/// Returns the state in a row, without `robot` and `place`.
+/// Returns the state stored in a row, without `robot` and `place`.
 State state_of(const Integers& integers, std::string_view state, std::string_view reason);
 
 /// Returns the name of the partition for a day, such as "states_20261128". `day` is the number of

@@ -12,8 +12,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {
 
-/// A lock that at most one program holds at a time. The system releases the lock when the program
-/// exits, even if the program is killed.
+/// A lock that at most one program can hold at a time. The system releases the lock when the
+/// program exits, even if the program is killed.
 class FileLock {
   public:
     /// `path` is the lock file, which exists only while a program holds the lock or waits for it.

@@ -45,7 +45,7 @@ struct FileNumbers {
     auto operator<=>(const FileNumbers&) const = default;
 };
 
-/// Returns the numbers that identify a file, or none if the file does not exist.
+/// Returns the numbers that identify a file, or nullopt if the file does not exist.
 std::optional<FileNumbers> numbers_of(const std::filesystem::path& path);
 std::optional<FileNumbers> numbers_of(int descriptor);
 

@@ -11,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {
 
-/// Returns the files that match a shell pattern, in UTF-8 and sorted. On Windows, only the last
-/// part of the path may contain wildcards.
+/// Returns the files that match a shell pattern. The paths are in UTF-8 and sorted. On Windows,
+/// only the last part of the path may contain wildcards.
 std::vector<std::string> glob(const std::string& pattern);
 
 }  // namespace dotpose::system

@@ -39,7 +39,7 @@ struct CalibrationScene {
 
     CalibrationCoverage coverage;
     std::vector<Gauge> gauges;
-    /// Angle of the image x axis on the sheet, or empty if not located.
+    /// Angle of the image x axis on the sheet, or empty if the frame was not located.
     std::optional<double> theta_rad;
     bool is_taken = false;  ///< true if this frame was added to the calibration
 };
@@ -70,7 +70,7 @@ struct ScreenOptions {
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;
-    /// Implementations of the functions of the same names in Screen.
+    /// Implement the functions of the same names in Screen.
     virtual bool show(const Scene& scene) = 0;
     virtual void finish() = 0;
     virtual bool is_wanted() = 0;
@@ -94,8 +94,8 @@ class Screen {
     /// full.
     void finish();
 
-    /// Handles the events of the window while there is no new scene. Returns false if the user
-    /// closed the window or pressed q or Escape in it.
+    /// Handles window events while there is no new scene. Returns false if the user closed the
+    /// window or pressed q or Escape in it.
     bool is_wanted();
 
   private:
@@ -103,8 +103,8 @@ class Screen {
     std::unique_ptr<ScreenOutput> output_;
 };
 
-/// Returns true if a window can be opened. Tests whether an X server answers, which may be part of
-/// a Wayland session.
+/// Returns true if a window can be opened. Tests whether an X server answers. The X server may be
+/// part of a Wayland session.
 bool has_display();
 
 }  // namespace dotpose::video

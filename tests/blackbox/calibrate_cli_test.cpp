@@ -73,8 +73,8 @@ TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
 
 TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     simulate("turn", 1);
-    // The robot turns on the spot. Because the camera is at the robot's centre, the frames show one
-    // place at four angles.
+    // The robot turns on the spot. Because the camera is at the robot's centre, the frames show the
+    // same position at four angles.
     std::string turn;
     for (const int angle : {0, 90, 180, 270}) {
         const std::string folder = "turn" + std::to_string(angle);
@@ -205,7 +205,7 @@ TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
 
 TEST_F(CalibrateCommand, TakesTheSpacingFromTheSheetFile) {
     // In a new sheet file, the first sheet begins at cell 1024,1024, so frames at the following
-    // cells show it.
+    // cells show this sheet.
     ASSERT_EQ(run("print -o fine.svg --spacing 0.3 --sheets sheets.json --name fine"), 0);
     std::string frames;
     for (const int at : {1100, 1130, 1160, 1190, 1220}) {

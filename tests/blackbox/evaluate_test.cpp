@@ -146,7 +146,7 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     EXPECT_EQ(result()["located"], 5);
     // This limit is larger than the limit above for two reasons. The centre is 5 mm from the
     // camera, so an angle error of 0.03 degrees moves it by 3 µm. The coordinates in truth.csv have
-    // only 6 significant digits, so each may be wrong by up to 3 µm.
+    // only 6 significant digits, so each coordinate may be wrong by up to 3 µm.
     EXPECT_LT(result()["position_um"]["max"], 15);
     EXPECT_LT(result()["angle_deg"]["max"], 0.15);
 }

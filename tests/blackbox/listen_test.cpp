@@ -76,7 +76,7 @@ TEST_F(Listen, PrintsAPacketAsALine) {
     EXPECT_DOUBLE_EQ(line["theta_deg"], 45);
     EXPECT_EQ(line["section"], json::array({3, 4}));
     EXPECT_NEAR(line["p_wrong"], 9.1e-13, 0.1e-13);  // 2^-40
-    EXPECT_NEAR(line["sigma_mm"], 0.000977, 1e-6);   // 8 / 4096 of 0.5 mm
+    EXPECT_NEAR(line["sigma_mm"], 0.000977, 1e-6);   // 8/4096 of a spacing of 0.5 mm
 }
 
 TEST_F(Listen, SaysWhyThereIsNoPose) {

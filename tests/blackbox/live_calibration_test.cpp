@@ -69,8 +69,8 @@ TEST_F(LiveCalibration, EndsByItselfOnceNothingIsMissing) {
     EXPECT_GE(used(), 5);
     EXPECT_LT(used(), 45);
     EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "kept"), {}), used());
-    // The video shows each image three times. The calibration must use each image only once, so
-    // its result must equal the result for the images.
+    // The video shows each image three times. The calibration must use each image only once, so the
+    // result must be the same as for the images.
     const std::string report = output_;
     const std::string file_of_images = file("camera.yaml");
     put_raw("resting.raw");
@@ -131,8 +131,8 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
                   static_cast<std::streamsize>(image.pixels.size()));
     }
     raw.close();
-    // At 10 frames per second, the drive takes 6 s. If the program finds no frame at rest for 3 s,
-    // it also accepts frames in motion.
+    // At 10 frames per second, the drive takes 6 s. If no frame has been at rest for 3 s, the
+    // program also accepts frames that show motion.
     EXPECT_EQ(calibrate("--size 188x120 --fps 10 - <drive.raw"), 0) << errors_;
     EXPECT_TRUE(has_file());
     EXPECT_GE(used(), 10);

@@ -453,7 +453,7 @@ TEST_F(LocateCommand, wrong_usage_is_status_2_with_a_message) {
         "--code 7 a.pgm",           // not a name
         "--spacing 0 a.pgm",        // not a length
         "--spacing -1 a.pgm",       //
-        "--k 1 a.pgm",              // stronger than any lens
+        "--k 1 a.pgm",              // more distortion than any lens has
         "--k nan a.pgm",            //
         "--k wide a.pgm",           //
         "--reference 1 a.pgm",      // only one coordinate

@@ -82,7 +82,7 @@ class LocateCommand : public ToolCommand {
         write_pgm(directory_ / name, image.view());
     }
     /// Writes an image with libpng's simplified interface, which requires 16-bit samples to be
-    /// linear in the light intensity.
+    /// proportional to the light intensity.
     void write_as_png(const std::string& name, const GreyImage& image, png_uint_32 format,
                       const void* samples) const {
         png_image png{};

@@ -101,8 +101,8 @@ TEST_F(Completions, OfFish) {
 
 TEST_F(Completions, OfZsh) {
     if (!has("zsh")) GTEST_SKIP() << "no zsh; scripts/setup packaging installs it";
-    // The arguments of the script are pairs. For each pair, it types the first argument and a tab
-    // into a terminal, and waits until the second argument appears.
+    // The arguments of the script are pairs. For each pair, the script types the first argument and
+    // a tab into a terminal, and waits until the second argument appears.
     std::ofstream(directory_ / "try.zsh") << R"(
         zmodload zsh/zpty
         zpty -b typed zsh -f -i

@@ -1,5 +1,5 @@
-// Tests plausible mistakes of new users. The exit status must be non-zero, and a single message
-// must contain the cause and the next step.
+// Tests how plausible mistakes of new users are reported. The exit status must be non-zero, and a
+// single message must contain the cause and the next step.
 #include <ostream>
 #include <string>
 

@@ -122,7 +122,7 @@ TEST_F(PrintCommand, wrong_usage_is_status_2_with_one_message_and_no_file) {
         "-o a.png --origin 410815000,0",     // extends past the end of the plane
         "-o a.png --section 63,0",           // no such section
         "-o a.png --code 1",                 // not a name
-        "-o a.png --dpi 100",                // displacement too small for the resolution
+        "-o a.png --dpi 100",                // too coarse for the displacement
         "-o a.png --bogus",                  //
         "-o a.png stray",                    //
     };

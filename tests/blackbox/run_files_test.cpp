@@ -1,4 +1,4 @@
-// Checks that no command destroys one of its inputs, regardless of the names of its outputs.
+// Checks that no command destroys any of its inputs, regardless of the names of its outputs.
 #include <string>
 #include <vector>
 
@@ -127,7 +127,7 @@ TEST_F(RunFiles, a_camera_file_may_be_completed_but_not_turned_into_another_form
     expect_refused({"calibrate --camera ros.yaml --drive g/frame_000000.pgm -o ros.yaml"},
                    " would overwrite the input ");
     // The output replaces one of the inputs, which is allowed here. The command fails later,
-    // because three frames at random places do not form a drive.
+    // because three frames at random positions do not form a drive.
     EXPECT_EQ(run("calibrate --camera c.yaml --drive g/*.pgm -o c.yaml"), 1);
 }
 
@@ -141,7 +141,7 @@ TEST_F(RunFiles, other_names_are_taken_as_before) {
 }
 
 TEST_F(RunFiles, pictures_of_frames_are_outputs_too) {
-    // The list file has the same path as the picture of an image in the list.
+    // The list file has the same path as the picture that `--draw` writes for an image in the list.
     ASSERT_EQ(shell("mkdir p; mv l p/frame_000000.svg"), 0);
     const std::string list = file("p/frame_000000.svg");
     EXPECT_EQ(run("locate --list p/frame_000000.svg --draw p"), 1);

@@ -78,7 +78,7 @@ TEST_F(SheetFileWriting, no_page_is_written_where_its_entry_cannot_be) {
         {"$T print -o new.svg --paper 40x40 --sheets folder.json --name a", "Is a directory"},
         {"$T overlay in.pdf -o new.svg --sheets folder.json --name a", "Is a directory"},
         // Simulates a full disk. Files are limited to 512 bytes, and the entry of one sheet is
-        // larger.
+        // larger than this limit.
         {"(trap '' XFSZ; ulimit -f 1; $T print -o new.svg --paper 30x20 --sheets s.json --name a)",
          "cannot write s.json: File too large"},
         {"$T print -o new.svg --paper 40x40 --sheets /proc/s.json --name a",

@@ -133,7 +133,7 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     ASSERT_EQ(print("-o other.svg --paper 40x40 --sheets sheets.json --name other"), 0);
     ASSERT_EQ(print("-o page.png --dpi 1200 --paper 50x40 --sheets sheets.json --name page"), 0);
     const GreyImage page = read_image((directory_ / "page.png").string());
-    // The last two positions are on the margins: one to the left of the first column of dots, and
+    // The last two positions are in the margins: one to the left of the first column of dots, and
     // one above the first row.
     for (const auto& [u, v] :
          {std::pair(500, 500), {1111, 700}, {1800, 1333}, {200, 900}, {1200, 190}}) {
@@ -368,7 +368,7 @@ TEST_F(SheetFiles, labels_beside_the_dots_contradict_nothing_where_the_sheet_is_
     const int first_u = static_cast<int>((frame.width_px - 1) / 2.0 + 1.5 * px_per_mm) + 3;
     std::mt19937 random(12);
     for (int n = 0; n < 40; ++n) {
-        // Draws a blot of 2 x 2 pixels, like a small letter.
+        // Draws a blot of 2 x 2 pixels, similar to a small letter.
         const auto u = std::uniform_int_distribution(first_u, frame.width_px - 2)(random);
         const auto v = std::uniform_int_distribution(0, frame.height_px - 2)(random);
         for (const int at : {v * frame.width_px + u, (v + 1) * frame.width_px + u}) {

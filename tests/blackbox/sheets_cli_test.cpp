@@ -70,7 +70,7 @@ TEST_F(SheetsTool, a_new_name_keeps_all_else) {
     ASSERT_EQ(sheets_tool("rename table desk"), 0) << errors_;
     EXPECT_EQ(sheets(), expected);
     // The sheet `table` was renamed before. A sheet that now gets the name `table` must not inherit
-    // the properties of the earlier one.
+    // the properties of the earlier sheet.
     ASSERT_EQ(sheets_tool("rename shelf table"), 0) << errors_;
     EXPECT_FALSE(sheets().at(1).contains("room"));
     ASSERT_EQ(sheets_tool("remove desk"), 0) << errors_;

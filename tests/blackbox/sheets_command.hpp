@@ -9,8 +9,9 @@
 
 namespace dotpose::test {
 
-/// Returns a nominal frame centred on a position on the page, in mm from its upper left corner.
-/// `sheet` is the page's entry in the sheet file. It determines the cell at this position.
+/// Returns a nominal frame centred on a position on the page, in mm from the page's upper left
+/// corner. `sheet` is the page's entry in the sheet file, which determines the cell at this
+/// position.
 inline GreyImage frame_of(const json& sheet, double x_mm, double y_mm, double theta_rad,
                           std::uint64_t seed) {
     Setup setup;

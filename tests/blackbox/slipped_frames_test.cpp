@@ -80,8 +80,9 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    // The limit is 3 % because there are only a few frames. If the true fraction is 1 %, only one
-    // run in 70 exceeds the limit by chance.
+    // At most 3 % of the fixes may be off by more than 4 standard deviations. The limit is this
+    // high because there are only a few frames. If the true fraction is 1 %, one run in 70 exceeds
+    // it.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
     // Only half of the steps need to be detected, because the other steps affect only a corner of
     // the view or are smaller than the scatter of the dots.
@@ -153,8 +154,8 @@ TEST(SlippedSheet, PredictionsAreNoHelpToTheOtherSide) {
     EXPECT_LT(sigmas_off(tracked, shot), 4);
 }
 
-// Blurred dots have low contrast, so a gradient of the background causes a comparatively large bias
-// of their centroids.
+// Blurred dots have low contrast, so a brightness gradient in the background causes a comparatively
+// large bias of their centroids.
 TEST(BlurredFrames, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 150;
     const auto memory = std::make_unique<LargeMemory>();

@@ -22,7 +22,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kFrames = 8;
-constexpr int kMoving = 220;  ///< first frame, in which the robot is driving on the first sheet
+/// Index of the first frame, in which the robot is driving on the first sheet.
+constexpr int kMoving = 220;
 
 class WatchCamera : public ToolCommand {
   protected:

@@ -18,7 +18,7 @@ class WatchMemory : public ToolCommand {
   protected:
     static constexpr int kCycle = 100;
 
-    /// Writes half a second of the drive. The test repeats these frames.
+    /// Writes half a second of the drive as raw frames. The test repeats these frames.
     void put_frames() {
         save_drive_sheets(directory_ / "sheets.json");
         const DriveCamera camera(188, 120);

@@ -1,4 +1,4 @@
-// Tests that `dotpose watch` saves frames for calibration, and reports why most frames fail.
+// Tests that `dotpose watch` saves frames for calibration and reports why most frames fail.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -21,8 +21,8 @@ class WatchSave : public ToolCommand {
   protected:
     static constexpr int kPlaces = 5;
 
-    /// Writes simulated frames of different places to the folder `frames`. The file `slow.raw`
-    /// contains each of these frames three times.
+    /// Writes simulated frames, each taken at a different place, to the folder `frames`. Also
+    /// writes `slow.raw`, a video that contains each of these frames three times.
     void SetUp() override {
         ASSERT_EQ(run("simulate -o frames --seed 91 --frames " + std::to_string(kPlaces)), 0);
         ASSERT_EQ(shell("ffmpeg -v error -framerate 10 -i frames/frame_%06d.pgm -vf fps=30 "

@@ -1,5 +1,5 @@
-// Tests the messages of `dotpose watch` about its sources, and how it handles sources that end in
-// the middle of a frame.
+// Tests the messages that `dotpose watch` prints about its sources, and how it handles sources that
+// end in the middle of a frame.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -44,7 +44,8 @@ DriveReading reading_of(const json& line) {
 DriveErrors errors_of(const std::vector<json>& lines, const Drive& drive, int first = 0) {
     DriveErrors errors;
     for (const json& line : lines) {
-        // Finds the frame by its time, because a damaged video lacks some frames.
+        // Identifies the frame by its timestamp, because frames may be missing from a damaged
+        // video.
         const int frame = static_cast<int>(std::lround(line["t_s"].get<double>() * kDriveFps));
         errors.add(drive.at(first + frame), reading_of(line));
     }
@@ -81,8 +82,8 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_EQ(events[0].first, 0);
     EXPECT_EQ(events[1].first, frame_at(0.5));
     EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
-    // The tracker reports `lost` 70 ms, which is 14 frames, after the last frame in which the robot
-    // was on a sheet.
+    // The tracker reports `lost` 70 ms (14 frames) after the last frame in which the robot was on a
+    // sheet.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
     // From `put_down` on, the robot is too far away to have driven there at 400 mm/s. The tracker
     // reports `kidnapped` in the third such frame.
@@ -98,14 +99,15 @@ void expect_accurate(const std::vector<json>& lines, const Drive& drive) {
     const int lifted = frame_at(0.3) + frame_at(0.15);
     EXPECT_EQ(errors.wrong(), 0);
     EXPECT_GE(errors.fixes(), drive.frames() - lifted - 2);
-    // Nearly all errors are due to the print. The filter cannot remove them, but it must not add
-    // errors.
+    // Most of the position error comes from the print. The filter cannot reduce this error, but
+    // must not increase it.
     EXPECT_LT(errors.filtered_um(), 1.01 * errors.raw_um());
     EXPECT_LT(errors.velocity_mm_s(), 0.3);
     EXPECT_LT(errors.turn_deg_s(), 1);
 }
 
-/// Expects that frames that show both sheets are located as accurately as the other frames.
+/// Expects the heading error of each frame near the seam to be less than five reported standard
+/// deviations.
 void expect_accurate_at_seam(const std::vector<json>& lines, const Drive& drive) {
     int frames = 0;
     for (const json& line : lines) {
@@ -157,7 +159,7 @@ TEST_F(Watch, WritesLogMapPacketsAndVideo) {
     EXPECT_EQ(packets, 60);
     EXPECT_EQ(reader.packet().sequence, 59);
     EXPECT_EQ(reader.packet().time_us, 295'000U);
-    // The recording consists of the frame, 800 px wide, and a panel of 400 px.
+    // The recording shows the frame, 800 px wide, and a panel that is 400 px wide.
     shell(
         "ffprobe -v error -count_frames -select_streams v -show_entries "
         "stream=codec_name,nb_read_frames,width -of csv=p=0 run.mp4 > probe");
@@ -240,7 +242,7 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_EQ(lines[i]["verdict"], "accepted") << i;
     }
     EXPECT_GE(with_prior, 3);
-    // If every frame shows only a small window, no frame is certain. The tracker then has no track,
+    // If every frame shows only a small window, no fix is certain. The tracker then has no track,
     // and therefore no prior for the next frames.
     ASSERT_EQ(run(std::string("watch - --size 188x120 --fps 200 --max-p-wrong 1e-13 --roi "
                               "60,26,68x68 ") +
@@ -251,8 +253,8 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_NE(line["verdict"], "with_prior");
 }
 
-// The robot drives at 250 mm/s. A frame with the time of the next or previous frame would have a
-// position error of more than 1 mm.
+// The robot drives at 250 mm/s. If a frame had the timestamp of the previous or next frame, its
+// position error would exceed 1 mm.
 TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     constexpr int kFirst = 200;
     constexpr int kLength = 60;
@@ -265,7 +267,7 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
         EXPECT_GE(errors.fixes(), static_cast<int>(lines.size()) - 1) << name;
         return lines.size();
     };
-    // H.264 frames are decoded in a different order than they are displayed.
+    // In H.264, the decoding order of frames differs from their display order.
     encode("-c:v libx264 -crf 12", "ordered.mp4");
     encode("-c:v libx264 -crf 12", "ordered.avi");
     EXPECT_EQ(watch("ordered.mp4"), std::size_t{kLength});

@@ -4,8 +4,8 @@
 //
 //   dotpose_dds_reader best-effort|reliable NAME TOPIC TYPE [TOPIC TYPE]...
 //
-// TOPIC is a ROS topic, and TYPE a type such as nav_msgs/Odometry. The program creates the file
-// NAME when all topics have writers. It ends when all writers are gone, or after five minutes.
+// TOPIC is a ROS topic, and TYPE is its type, such as nav_msgs/Odometry. The program creates the
+// file NAME when all topics have writers. It ends when all writers are gone, or after five minutes.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -34,7 +34,7 @@ using namespace eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
-/// Type support that stores each sample as the bytes that were received.
+/// Type support that stores the received bytes of each sample without decoding them.
 class RawType : public TopicDataType {
   public:
     explicit RawType(const std::string& name) {
@@ -101,7 +101,7 @@ class Printer : public DataReaderListener {
 };
 
 /// If ROS_AUTOMATIC_DISCOVERY_RANGE is set, searches for participants only at the ports of this
-/// computer and without multicast, as ROS nodes do with the value LOCALHOST.
+/// computer and without multicast, as ROS nodes do if the value is LOCALHOST.
 DomainParticipantQos participant_quality() {
     DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
     if (std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE") == nullptr) return qos;

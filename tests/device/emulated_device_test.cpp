@@ -1,7 +1,7 @@
-// Runs the device program from embedded/ in an emulator, on the frames of a simulated drive.
-// `dotpose listen` receives its packets. The packets must be bit-identical to those of the desktop
-// program, and the poses close to those of a `DeviceLocator` without predictions. All frames must
-// be on time, and no frame may be lost.
+// Runs the device program from embedded/ in an emulator, with the frames of a simulated drive.
+// `dotpose listen` receives the packets. They must be bit-identical to the packets of the desktop
+// program, and their poses must be close to those of a `DeviceLocator` without predictions. All
+// frames must be on time, and no frame may be lost.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -63,7 +63,7 @@ CameraPose pose_at(double t_s) {
     return pose;
 }
 
-/// Returns the frames of the drive. All frames of the second rest are equal.
+/// Returns the frames of the drive. All frames of the second rest are identical.
 std::vector<GreyImage> drive() {
     Setup setup;
     setup.seed = 27;
@@ -171,7 +171,7 @@ class EmulatedDevice : public testing::Test {
     /// A pseudo-terminal. Bytes written to kDescriptor can be read from the terminal `name`.
     class SerialLine {
       public:
-        /// A single digit, because shells do not support larger descriptors.
+        /// Must be a single digit, because shells do not support larger descriptors.
         static constexpr int kDescriptor = 9;
         SerialLine() {
             int master = -1;

@@ -89,7 +89,7 @@ TEST(Metadata, EspIdfGetsVersionAndCompilerThatIsNewEnough) {
     const YAML::Node component = YAML::Load(text_of("idf_component.yml"));
     EXPECT_EQ(component["version"].as<std::string>(), DOTPOSE_VERSION);
     EXPECT_FALSE(component["description"].as<std::string>().empty());
-    // ESP-IDF 5.1 is the first version with GCC 12.
+    // ESP-IDF 5.1 is the first version that includes GCC 12.
     EXPECT_EQ(component["dependencies"]["idf"].as<std::string>(), ">=5.1");
 }
 

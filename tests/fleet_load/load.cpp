@@ -32,11 +32,11 @@ struct Arguments {
 struct Outcome {
     std::int64_t published = 0;
     std::int64_t answered = 0;
-    std::int64_t latest_us = 0;  ///< maximum delay from due time to publication
+    std::int64_t latest_us = 0;  ///< maximum delay of a publication after its due time
 };
 
-/// Publishes all states of the robots over a connection. Within each publication period, the states
-/// of the robots are distributed evenly.
+/// Publishes all states of the robots over a connection. Spreads the states of the robots evenly
+/// over each publication period.
 Outcome publish_all(Connection& connection, const Robots& robots, const Arguments& arguments) {
     constexpr std::int64_t kBatch_us = 1000;
     constexpr std::int64_t kPatience_us = 30'000'000;

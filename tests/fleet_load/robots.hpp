@@ -7,8 +7,8 @@
 
 namespace dotpose::test {
 
-/// Robots that drive in circles, named robot0 and so on. The message texts are prepared in advance,
-/// because sending a state must take little time.
+/// Robots that drive in circles. Their names are robot0, robot1, and so on. The message texts are
+/// prepared in advance, because sending a state must take little time.
 class Robots {
   public:
     Robots(int first, int count);

@@ -36,7 +36,7 @@ inline void check(const Fix& fix, const DeviceOptions& options) {
     }
 }
 
-/// Pushes the rows of an image to a locator whose memory still contains data of other frames.
+/// Pushes the rows of an image to a locator whose memory still contains data from other frames.
 inline Fix push_rows(const ImageView& image, Locator& locator) {
     static_cast<void>(locator.begin(image.width_px, image.height_px));
     for (int v = 0; v < image.height_px; ++v)

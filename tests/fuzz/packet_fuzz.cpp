@@ -1,5 +1,5 @@
-// Fuzzes the packet reader with arbitrary bytes. Each packet found must equal a packet that
-// `encode` produces.
+// Fuzzes the packet reader with arbitrary bytes. Each decoded packet must contain valid values, and
+// must not change when it is encoded and decoded again.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

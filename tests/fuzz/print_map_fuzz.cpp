@@ -1,5 +1,5 @@
-// Fuzzes `parse_print_map`. It must return a valid map, or throw Error. Random inputs have a wrong
-// checksum, so the fuzz target replaces it with the correct one.
+// Fuzzes `parse_print_map`. It must return a valid map, or throw Error. Inputs do not contain a
+// checksum, because random checksums would be wrong. The fuzz target appends the correct checksum.
 #include <cstdlib>
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Returns the CRC-32 of IEEE 802.3, bit by bit.
+/// Computes the CRC-32 of IEEE 802.3 bit by bit.
 std::uint32_t crc32_of(const std::string& bytes) {
     std::uint32_t crc = 0xFFFFFFFF;
     for (const char byte : bytes) {

@@ -1,5 +1,5 @@
-// Fuzzes `read_log` with arbitrary files. It must return rows from which figures and a picture can
-// be computed, or throw Error.
+// Fuzzes `read_log` with arbitrary files. It must return rows from which statistics and a picture
+// can be computed, or throw Error.
 #include "reads_or_refuses.hpp"
 #include "run_log.hpp"
 

@@ -49,7 +49,7 @@ class TerminalFleet {
     void press(const std::string& keys) {
         ASSERT_EQ(write(terminal_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
     }
-    /// Returns the newest complete screen, as lines that end with "\033[K".
+    /// Returns the newest complete screen. Each line ends with "\033[K".
     std::string screen() {
         receive();
         const std::size_t end = output_.rfind("\033[J");

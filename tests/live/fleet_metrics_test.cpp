@@ -1,4 +1,5 @@
-// Tests the metrics of `dotpose fleet`, and the files for Prometheus and Grafana, with promtool.
+// Tests the metrics of `dotpose fleet`, and the files for Prometheus and Grafana. promtool checks
+// the metrics and the alert rules.
 #include "fleet_metrics.hpp"
 
 #include <fstream>
@@ -53,7 +54,7 @@ std::set<std::string> metric_names(const std::string& text) {
     return names;
 }
 
-/// Returns a text with at least one sample of every metric.
+/// Returns the metrics of a fleet, with at least one sample of every metric.
 std::string complete_metrics() {
     Receiver r;
     nlohmann::json camera = {{"rate", 30}, {"frames", 30}, {"refused", {{"no_grid", 1}}}};

@@ -1,5 +1,4 @@
-// Tests `dotpose fleet` with many robots, with shared subscriptions, with bridged brokers, and with
-// interruptions.
+// Tests `dotpose fleet` with many robots, shared subscriptions, bridged brokers and interruptions.
 #include <array>
 #include <csignal>
 #include <filesystem>
@@ -66,7 +65,7 @@ class FleetScale : public Mqtt {
         wait_until([&] { return logged(folders).size() >= count; }, 60s);
     }
 
-    /// Returns the states 0 to `states` - 1 of the robots 0 to `robots` - 1, once each.
+    /// Returns states 0 to `states` - 1 of robots 0 to `robots` - 1, once each.
     static std::multiset<Logged> states_of(int robots, int states) {
         std::multiset<Logged> all;
         for (int robot = 0; robot < robots; ++robot) {

@@ -1,5 +1,5 @@
-// Tests the conditions of robots, their alerts, and the order and pages of the table, at simulated
-// times and without a broker.
+// Tests robot conditions, alerts, and the sorting and paging of the table. Uses simulated times and
+// no broker.
 #include "fleet_state.hpp"
 
 #include <string>
@@ -50,7 +50,7 @@ TEST(FleetConditions, FollowTheStatesAndTheSilence) {
 TEST(FleetConditions, FollowTheConnection) {
     Receiver r;
     r.receive({.robot = "anna"});
-    // The time in the last will is the time of the connection, here an hour ago.
+    // The last will contains the time of the connection, which was an hour ago.
     r.connect("anna", "CONNECTIONBROKEN", 3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::silent);
     EXPECT_EQ(r.robot("anna").reason, "connection broke");
@@ -127,7 +127,7 @@ TEST(FleetConditions, AnEmptyConnectionMessageRemovesTheRobot) {
     EXPECT_EQ(r.fleet.bad(), 0);
 }
 
-/// Returns the changes of conditions as text, such as "anna lost (moving)".
+/// Returns the changes of the robots' conditions as text, such as "anna lost (moving)".
 std::vector<std::string> words(AlertWatch& watch, const Receiver& r) {
     std::vector<std::string> words;
     for (const auto& alert : watch.changes(r.fleet.robots(r.now()), r.now())) {

@@ -47,8 +47,7 @@ json table_of(const Receiver& r, Command request) {
     return json::parse(table_value(snapshot_of(r), hall(), Delivery::all, request));
 }
 
-/// Receives the states of four robots, one of which is silent, one lost, and one on an unknown
-/// sheet.
+/// Receives the states of four robots. One is silent, one is lost, and one is on an unknown sheet.
 void receive_four(Receiver& r) {
     r.receive({.robot = "silent1", .x_m = 0.5, .map = "hall"});
     r.pass(6);
@@ -216,7 +215,7 @@ TEST(FleetMapValues, TrailsAreLimitedInTotal) {
     const MapMessage message(trails_value(snapshot_of(r), r.fleet, {}, {}));
     EXPECT_EQ(message.head["count"], 150);
     const auto points = message.at<std::uint32_t>(4);
-    EXPECT_EQ(points, 100U);  // every second one of the newest 200 points
+    EXPECT_EQ(points, 100U);  // every other point of the newest 200 points
     EXPECT_LE(150 * points, cli::kMaxTrailPoints);
     EXPECT_EQ(message.records.size(), 150 * (8 + 8 * points));
     const double origin_mm = message.head["origin_mm"][0];

@@ -26,7 +26,8 @@ std::vector<json> json_lines(const std::string& text) {
 
 class SpaceState : public Mqtt {
   protected:
-    /// Watches the frames of space_frames.hpp, and returns the states that mosquitto_sub receives.
+    /// Runs `dotpose watch` on the frames of space_frames.hpp, and returns the states that
+    /// mosquitto_sub receives.
     std::vector<json> states(const std::string& watch_options) {
         Broker broker(directory_);
         const std::string reader =

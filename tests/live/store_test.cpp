@@ -290,7 +290,7 @@ TEST(DatabaseFiles, OtherFilesAreRefused) {
                 HasSubstr("the URL of the database is not valid"));
 }
 
-/// A database in memory that can be made to fail.
+/// An in-memory database that can be made to fail.
 class FakeDatabase : public store::Database {
   public:
     struct Contents {
@@ -392,7 +392,7 @@ TEST(StoreQueue, DropsTheOldestStatesBeyondItsBuffer) {
 TEST(StoreQueue, MessagesMayUseTheQueue) {
     FakeDatabase::Contents contents;
     contents.is_away = true;
-    // Null until the queue is constructed. The constructor may already report a failure.
+    // Null until the queue is constructed, because the constructor may already report a failure.
     const store::Queue* used = nullptr;
     std::int64_t dropped = 0;
     store::Queue queue(std::make_unique<FakeDatabase>(contents), true,

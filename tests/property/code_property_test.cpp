@@ -74,9 +74,9 @@ Grid encode(const Draw& draw) {
     return grid;
 }
 
-/// Turns the window by the quarter turns of the draw. Checks that the turned window is either
-/// refused or decoded to a place that contains it. Returns a description of the failure, or "" if
-/// there is none.
+/// Turns the window by the number of quarter turns in the draw. Checks that the turned window is
+/// either refused or decoded to a place that contains it. Returns a description of the failure, or
+/// "" if there is none.
 std::string check_turned(const Draw& draw, const Grid& upright) {
     Grid seen = upright;
     for (int i = 0; i < draw.quarter_turns; ++i)

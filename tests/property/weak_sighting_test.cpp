@@ -72,7 +72,7 @@ void read(View& view, Rng& rng) {
 }
 
 /// Decodes the view. Returns log2 of the p_wrong that the decoder reports, or 1 if the decoder
-/// finds no place or a wrong one.
+/// finds no place or a wrong place.
 int claim(View& view) {
     core::Grid grid = view.grid();
     Decoding decoding;

@@ -21,7 +21,7 @@ const typeIds = { message: 1, uint8: 3, int32: 6, uint32: 7, float64: 11, byte: 
 const kOfArrays = 48;
 const kOfSequences = 144;
 
-/** ROS types of members to which the npm package gives a different type. */
+/** ROS types of the members that have a different type in the npm package. */
 const asInRos = { "diagnostic_msgs/DiagnosticStatus level": "byte" };
 
 function described({ name, definitions }) {
@@ -43,7 +43,7 @@ function described({ name, definitions }) {
   return { type_name: name.replace("/", "/msg/"), fields };
 }
 
-/** Returns the hash of a type, given its own definition followed by the definitions of all types in it.
+/** Returns the hash of a type, given its definition and the definitions of all types that it contains.
    The hash is computed from JSON with spaces after commas and colons. */
 function typeHash([whole, ...parts]) {
   const byName = (a, b) => (a.type_name < b.type_name ? -1 : 1);

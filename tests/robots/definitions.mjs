@@ -4,7 +4,7 @@ import common from "@foxglove/rosmsg-msgs-common";
 const all = common.ros2jazzy;
 
 /** Returns the definition of a type such as "nav_msgs/Odometry", followed by the definitions of all
- * types in it. */
+ * types that it contains. */
 export function definitionsOf(type, found = new Map()) {
   const definition = all[type] ?? all[type.replace("builtin_interfaces/", "")];
   if (definition === undefined) throw new Error(`no definition of ${type}`);

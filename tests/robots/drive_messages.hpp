@@ -42,7 +42,8 @@ inline std::int64_t time_us(const nlohmann::json& line) {
     return std::llround(line["t_s"].get<double>() * 1e6);
 }
 
-/// Expects one pose for each line with a fix, with the same values and the same time.
+/// Expects one pose for each line that contains a fix. The pose must have the same values and the
+/// same time as the line.
 inline void expect_poses_of(const std::vector<nlohmann::json>& lines,
                             const std::vector<nlohmann::json>& poses,
                             const MessageTolerance& tolerance) {
@@ -104,8 +105,8 @@ inline void expect_messages_of(const std::vector<nlohmann::json>& lines,
     EXPECT_EQ(next, odometry.size());
 }
 
-/// Expects that the product of the transforms is the pose of the tracker, and that the transform
-/// from odom to base_link is continuous even when the robot jumps.
+/// Expects that the product of the transforms equals the pose reported by the tracker, and that the
+/// transform from odom to base_link is continuous even when the robot jumps.
 inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
                                const std::vector<nlohmann::json>& messages,
                                const std::string& robot) {

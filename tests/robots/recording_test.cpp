@@ -23,8 +23,8 @@ class Recording : public WatchCommand {
   protected:
     using ToolCommand::shell;
 
-    /// Records frames from a pipe, sends the signal to the tool when it has processed `frames`
-    /// frames, and returns its exit code.
+    /// Records frames from a pipe, sends `signal` to the tool after it has processed `frames`
+    /// frames, and returns the exit code of the tool.
     int stop_after(int frames, const std::string& signal) {
         return shell("mkfifo frames; : >lines; \"$T\" watch - " + std::string(kRaw) + " " + kTrack +
                      " --no-window --mcap run.mcap -o lines <frames & tool=$!; exec 3>frames; "
@@ -88,7 +88,7 @@ TEST_F(Recording, HasTheFramesIfAskedFor) {
     const json& message = images[3]["message"];
     EXPECT_EQ(message["format"], "png");
     EXPECT_EQ(message["header"]["frame_id"], "camera_optical");
-    // If another program decodes the image, its pixels must equal those of the frame.
+    // The image, decoded by another program, must have the same pixels as the frame.
     const auto bytes = message["data"].get<std::vector<std::uint8_t>>();
     std::ofstream(directory_ / "frame.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),

@@ -33,7 +33,7 @@ constexpr double kPageHeight_mm = 80;
 // of a frame, so frames do not extend beyond the page.
 constexpr double kEdge_mm = 8;
 constexpr int kPrinter_dpi = 1200;
-// Tolerance of a position. A renderer may shift all dots by one of its pixels, which is 0.021 mm,
+// Tolerance for positions. A renderer may shift all dots by one of its pixels, which is 0.021 mm,
 // and the error of a fix is about 0.002 mm.
 constexpr double kTolerance_mm = 0.03;
 

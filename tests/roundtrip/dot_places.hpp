@@ -9,7 +9,8 @@ namespace dotpose::roundtrip {
 struct DotErrors {
     int dots = 0;
     int missing = 0;  ///< number of dots without any ink
-    /// Number of dots that are closer to the position of another symbol than to the correct one.
+    /// Number of dots that are closer to the position of another symbol than to that of the correct
+    /// symbol.
     int wrong_symbols = 0;
     /// Mean and maximum distance of a centroid from its nominal position, after subtracting the
     /// mean offset from all centroids.

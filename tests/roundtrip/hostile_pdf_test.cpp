@@ -102,7 +102,7 @@ TEST_F(HostileDocument, depth_is_bounded_and_named) {
     const char* const kDraws = "/Resources << /XObject << /A 5 0 R >> >>";
     expect_refused(page_with(kDraws, stream("/A Do"), forms("/A Do")),
                    "in.pdf, page 1: its forms are nested deeper than 100 levels");
-    // If colours are changed, forms that are not drawn are converted, too.
+    // If colours are changed, forms that are not drawn are also converted.
     expect_refused(page_with(kDraws, stream(""), forms("")),
                    "in.pdf, page 1: its resources are nested deeper than 100 levels",
                    change_colours_);

@@ -1,6 +1,6 @@
-// Writes a day of states of many robots to a database as `dotpose fleet --store` does, but faster
-// than real time. Then reads all states, checks that none is missing, and prints rates and times.
-// docs/fleet.md contains the results.
+// Writes the states that many robots send in a day to a database, as `dotpose fleet --store` does,
+// but faster than real time. Then reads all states, checks that none is missing, and prints rates
+// and times. docs/fleet.md contains the results.
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -97,8 +97,8 @@ void write_all(const Arguments& arguments) {
     std::fflush(stdout);
 }
 
-/// Reads the states of a robot between two times. Returns their number, or -1 if the message
-/// numbers are not consecutive.
+/// Reads the states that a robot sent in a time interval. Returns the number of states, or -1 if
+/// the message numbers are not consecutive.
 std::int64_t count_states(store::Database& database, int robot, std::int64_t from_s,
                           std::int64_t to_s, int hz) {
     std::int64_t count = 0;

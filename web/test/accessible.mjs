@@ -7,7 +7,7 @@ const kAxe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.m
 
 /** Requires that axe finds no violations, and that nothing is wider than the screen. */
 export async function audit(page) {
-    // The content security policy of the page does not restrict the test's scripts.
+    // Scripts run by the test are not subject to the page's content security policy.
     await page.evaluate(kAxe);
     const { violations } = await page.evaluate(() => globalThis.axe.run());
     assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);

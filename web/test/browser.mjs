@@ -49,7 +49,7 @@ export async function serve() {
     };
 }
 
-/** Starts Chromium. `clip` is the y4m file that the fake camera shows. */
+/** Starts Chromium. `clip` is the y4m file that the fake camera plays. */
 export async function launch({ clip, ...options } = {}) {
     const profile = mkdtempSync(join(tmpdir(), "dotpose-page-"));
     const quiet = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"];

@@ -17,7 +17,7 @@ const kLens_per_px2 = -8.7e-6;
 const kCorner_px = Math.hypot(kWidth_px / 2, kHeight_px / 2);
 /** Position of the robot's centre relative to the image centre, along the image axes. */
 const kMount_mm = { x: 14.5, y: -6.25 };
-/** Direction of the robot minus the direction of the image x axis. */
+/** Heading of the robot relative to the image x axis. */
 const kHeading_rad = Math.PI / 2;
 const kPeriod_ms = 50;
 const kReadout_ms = 20;
@@ -50,7 +50,10 @@ function rotated(v, axis, angle) {
     return v.map((value, i) => value * c + cross[i] * s + axis[i] * dot * (1 - c));
 }
 
-/** Renders the view of a pen whose tip rests at one point. The pen is turned, and then tilted in a direction. */
+/**
+ * Renders the view from a pen whose tip rests on a fixed point. The pen is rotated by `turn_deg` and then tilted in the
+ * direction `side_deg`.
+ */
 function pen(index, tilt_deg, side_deg, turn_deg) {
     const [tilt, side, turn] = [tilt_deg, side_deg, turn_deg].map((angle) => (angle * Math.PI) / 180);
     const on_sheet = (v) => rotated(rotated(v, [0, 0, 1], turn), [Math.sin(side), -Math.cos(side), 0], tilt);
@@ -76,7 +79,7 @@ function pivot() {
     return [[0, 0, 0], [3, 90, 120], ...rings].map((tilts, i) => pen(i, ...tilts));
 }
 
-/** Frames from a robot that turns on the spot. Its centre stays at `kPlace`. */
+/** Frames from a robot that turns on the spot. The robot's centre stays at `kPlace`. */
 function turn(steps) {
     return Array.from({ length: steps }, (_, i) => {
         const angle_deg = 7 + (360 / steps) * i;
@@ -97,7 +100,7 @@ function drive(frames, step_mm) {
     });
 }
 
-/** Frames from a camera with a rolling shutter that moves along the x axis of its image. */
+/** Frames from a rolling-shutter camera that moves along its image x axis. */
 function fastDrive(frames, step_mm) {
     const readout_px = ((step_mm / kScale_mm_per_px) * kReadout_ms) / kPeriod_ms;
     return Array.from({ length: frames }, (_, i) =>
@@ -105,14 +108,16 @@ function fastDrive(frames, step_mm) {
     );
 }
 
-/** One frame at each of 30 random places, at random angles. */
+/** 30 frames at random positions and angles. */
 function places() {
     const into = join(folder, "places");
     dotpose("simulate", "-o", into, "--frames", "30", "--seed", "5", "--section", "3,5", "--k", String(kLens_per_px2));
     return Array.from({ length: 30 }, (_, i) => pixelsOf(join(into, `frame_${String(i).padStart(6, "0")}.pgm`)));
 }
 
-/** Runs `dotpose watch` with its web page. The camera repeats the frames passed in the latest call to `show`. */
+/**
+ * Runs `dotpose watch` with its web page. The simulated camera repeats the frames passed in the latest call to `show`.
+ */
 class Run {
     #frames = [];
     #next = 0;
@@ -144,13 +149,13 @@ class Run {
     }
 
     /**
-     * Writes the next frame if the program has read all previous ones. On a busy machine, the program may lag behind.
+     * Writes the next frame if the program has read all previous frames. On a busy machine, the program may lag behind.
      */
     #write() {
         if (this.#reads && this.#frames.length > 0 && this.program.stdin.writableLength === 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
     }
 
-    /** Returns the exit status. */
+    /** Ends the program and returns its exit status. */
     async stop() {
         clearInterval(this.#timer);
         this.program.stdin.end();
@@ -174,7 +179,7 @@ function mountOf(camera) {
 
 const titleIs = (text) => document.getElementById("calibration-title").textContent.endsWith(text);
 
-/** Starts a step while the camera shows `frames`, waits for its result, and saves it. */
+/** Runs a calibration step on `frames`: starts the step, waits for the result, and saves the result. */
 async function calibrate(page, run, step, frames) {
     run.show([frames[0]]);
     await page.click(`[data-step=${step}]`);
@@ -212,7 +217,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
         await page.waitForSelector("[data-step=lens]:enabled");
         assert.equal(await page.locator(".steps .known").count(), 0);
 
-        // The page describes the coverage in words while frames are taken.
+        // While frames are taken, the page lists in words what is still needed.
         await page.click("[data-step=lens]");
         await page.waitForSelector("#calibration-needs li");
         assert.match(await page.textContent("#calibration-needs"), /\w+/);
@@ -258,7 +263,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
         assert.ok(Math.abs(camera.readout_ms - kReadout_ms) < 0.5, JSON.stringify(camera));
         assert.equal(await page.locator(".steps .known").count(), 4);
 
-        // A new calibration of the lens keeps the mount.
+        // Calibrating the lens again does not change the mount.
         await calibrate(page, run, "lens", shots.rests);
         const again = cameraIn(file);
         assert.equal(again.theta_offset_rad, camera.theta_offset_rad);
@@ -302,7 +307,7 @@ async function picture(page, name) {
     if (process.env.DOTPOSE_PICTURES) await takeForms(page, process.env.DOTPOSE_PICTURES, name);
 }
 
-/** Returns the newest JSON line for a frame. */
+/** Returns the program's newest output line. */
 function newestLine(page) {
     return page.evaluate(
         () =>
@@ -357,7 +362,7 @@ test("the tip of a pen is calibrated by pivoting, and the run uses it", async ()
         assert.ok(Math.abs(camera.focal_px - kPen.focal_px) < 1e-6);
         assert.match(await page.textContent("#calibration-steps"), /0\.50\d ± .* mm from the camera/);
 
-        // The lines of the next frames contain the position of the tip.
+        // The output lines for the next frames contain the tip position.
         run.show(shots.pivot.slice(5, 6));
         await page.waitForFunction(() => document.getElementById("live-status").textContent === "live");
         let line;
@@ -390,7 +395,7 @@ test("the page says why there is no result", async () => {
         await page.click("#calibration-finish");
         await page.waitForFunction(problemIs, "at least 3 are needed");
 
-        // Frames at two places are not enough to calibrate the lens.
+        // Frames from two positions are not enough to calibrate the lens.
         run.show(shots.rests.slice(0, 6));
         await page.click("[data-step=lens]");
         await page.click("#calibration-finish");

@@ -19,7 +19,7 @@ function readPgm(bytes) {
 
 /**
  * Writes `clip.y4m` to the folder. For each frame, returns the true pose, the tool's output line for the luma of the
- * frame (`tool`), and the frame as a picture (`png`). `options` are further options for `dotpose simulate`.
+ * frame (`tool`), and the frame as a PNG file (`png`). `options` are additional options for `dotpose simulate`.
  */
 export function makeClip(folder, { frames, size, options = [] }) {
     const still = join(folder, "frames");

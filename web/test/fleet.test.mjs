@@ -160,7 +160,7 @@ test("a click on the map chooses a robot, and a restart forgets it", async () =>
     await untilInView(page, 1);
     const box = await page.locator("#fleet-map").boundingBox();
     // The map is fitted to its only robot, so the robot is near the middle. The click is repeated, because the robot
-    // may move away first.
+    // may have moved away in the meantime.
     await until(async () => {
         await page.click("#fleet-fit");
         await page.waitForTimeout(200);

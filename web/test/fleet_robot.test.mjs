@@ -54,7 +54,7 @@ test("the stored history of a robot is drawn on the map and over time", async ()
     assert.equal(await pixelsOf(page, "--warn"), 0);
     await showSpan("hour");
 
-    // The command-line tool reads the same states.
+    // The command-line tool reads the states from the same database.
     const states = dotpose("fleet", "history", "--store", database, "--robot", "anna").trim().split("\n").map((line) => JSON.parse(line));
     const lost = states.filter(({ state }) => state === "lost").length;
     assert.ok(states.length > 50 && lost > 0);
@@ -114,7 +114,7 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
     await untilInView(page, 1);
     await page.click("#fleet-fit");
     await page.waitForTimeout(2000);
-    // Measures the line segments that extend the trails. Their opacity distinguishes them from other lines.
+    // Measures the line segments that extend the trails. Trails differ from other lines in their opacity.
     const longest = await page.evaluate(async () => {
         const { moveTo, lineTo } = CanvasRenderingContext2D.prototype;
         const [segments, xs] = [[], []];

@@ -12,7 +12,7 @@ import { kTool, launch } from "./browser.mjs";
 
 export const kLoad = join(dirname(kTool), "dotpose_fleet_load");
 export const kSilentAfter_s = 3;
-/** Maximum delay with which the page shows a condition, in addition to the time limit of the condition. */
+/** Maximum time until the page shows a condition, measured from the end of the condition's own time limit. */
 export const kShown_s = 2;
 
 export let folder;
@@ -50,7 +50,7 @@ export async function until(condition, what) {
     }
 }
 
-/** Each test has its own broker, because a broker remembers the robots that were killed. */
+/** Starts a broker. Each test has its own broker, because a broker remembers the robots that were killed. */
 async function startBroker() {
     const port = await freePort();
     const settings = ["allow_anonymous true", "max_inflight_messages 1000", "max_queued_messages 100000", "set_tcp_nodelay true"];
@@ -78,7 +78,7 @@ export async function fleet(options = [], port = 0) {
     return { url, stop };
 }
 
-/** A robot that drives along x. It sends a state every `period_ms`, and moves by 10 mm per state. */
+/** A robot that drives along x. Sends a state every `period_ms`, and moves by 10 mm between states. */
 export class Robot {
     constructor(name, place = {}, period_ms = 100) {
         this.name = name;
@@ -87,7 +87,7 @@ export class Robot {
         this.is_lost = false;
         /** Returns the position of state n, in m. */
         this.path = (n) => [0.1 + 0.01 * n, this.place.y_m];
-        /** Additional members of the states in which the robot is localized. */
+        /** Additional members for states that contain a position. */
         this.more = {};
         const connection = `uagv/v2/dotpose/${name}/connection`;
         const will = JSON.stringify({ headerId: 0, timestamp: new Date().toISOString(), connectionState: "CONNECTIONBROKEN" });

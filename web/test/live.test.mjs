@@ -29,7 +29,7 @@ function watch({ video }, options = [], address = "0") {
     return watchSource([video, "--realtime", "--fps", "10", "--web-recordings", folder], options, address);
 }
 
-/** Returns the frame, the pose and the state that the page shows at one moment. */
+/** Returns the frame number, the pose and the state that the page currently shows. */
 function shownPose(page) {
     return page.evaluate(() => {
         const text = (id) => document.getElementById(id).textContent;

@@ -39,8 +39,8 @@ async function runCamera(address, frames) {
 }
 
 /**
- * Returns the true pose for a line of the log. It is the pose in the clip that is nearest to the
- * logged pose, because the positions in the clip are metres apart.
+ * Returns the true pose for a line of the log: the pose in the clip that is nearest to the logged pose. This choice is
+ * unambiguous, because the positions in the clip are metres apart.
  */
 function truthOf(line) {
     const near = (at) => Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
@@ -66,7 +66,7 @@ test("the luma straight from the camera gives the poses of the clip, to the bit 
     assert.match(rate, /^\d+ frames per second, straight from the camera$/);
     const lines = readCsv(log);
     requireTruth(lines);
-    // Frames without a prediction must have the same pose as in the command-line tool.
+    // For frames without a prediction, the pose must equal the output of the command-line tool.
     const first = lines.filter((line) => line.attempt === "first");
     assert.ok(first.length >= 4, `${first.length} frames were read without prediction`);
     for (const line of first) {
@@ -140,11 +140,11 @@ test("a picture is read, and one of something else gets a hint", async () => {
     await page.close();
 });
 
-/** First cell of the A4 sheet "table", and the place on this sheet that is shown at the image centre, in cells. */
+/** First cell of the A4 sheet "table". `kOnTable` is the position shown at the image centre, in cells. */
 const kOrigin = [1000, 2000];
 const kOnTable = [1200.3, 2300.6];
 
-/** Returns a sheet file with the sheet "table", which the tool printed. */
+/** Prints the sheet "table" with the command-line tool. Returns the path of the sheet file. */
 function sheetFile() {
     const path = join(folder, "sheets.json");
     rmSync(path, { force: true });
@@ -153,13 +153,13 @@ function sheetFile() {
     return path;
 }
 
-/** Returns frames of a sheet in section 0, 0. `at` is the place that is shown at the image centre, in cells. */
+/** Returns frames of a sheet in section 0, 0. `at` is the position shown at the image centre, in cells. */
 function viewsOf(at, size, frames = 1) {
     const still = mkdtempSync(join(folder, "view-"));
     return makeClip(still, { frames, size, options: ["--section", "0,0", "--at", at.join()] });
 }
 
-/** Opens a picture, and waits for its result. If `ok` is true, the picture must be located, otherwise refused. */
+/** Opens a picture, and waits for its result. The picture must be located if `ok` is true, and refused otherwise. */
 async function openPicture(page, buffer, ok) {
     await page.setInputFiles("#look-file", { name: "view.png", mimeType: "image/png", buffer });
     await page.waitForFunction((is_ok) => (document.getElementById("look-x").textContent !== "–") === is_ok, ok);

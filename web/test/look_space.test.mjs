@@ -1,5 +1,5 @@
 // Tests the pose of the camera in space in the view "Look". The poses of a simulated tilted camera are compared with
-// the truth and with the command-line tool.
+// the true poses and with the output of the command-line tool.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -23,7 +23,7 @@ let folder;
 let server;
 let browser;
 let clip;
-/** Output lines from the tool for 40 frames of the view, with poses in space. */
+/** The tool's output lines, with poses in space, for 40 frames of the view. */
 let lines;
 
 before(async () => {
@@ -49,7 +49,7 @@ const openPicture = (page, buffer) => page.setInputFiles("#look-file", { name: "
 const near = (value, expected, tolerance, name) =>
     assert.ok(Math.abs(value - expected) <= tolerance, `${name}: ${value}, not ${expected}`);
 
-/** Returns the values on the page with their standard deviations, as [value, sigma]. */
+/** Returns the values shown on the page and their standard deviations, as pairs [value, sigma]. */
 async function shown(page) {
     await page.waitForFunction(() => document.getElementById("look-height").textContent !== "–");
     const one = async (id) => {

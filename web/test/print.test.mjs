@@ -80,7 +80,7 @@ test("what is printed passes check-print and is located where it should be", asy
     assert.match(verdict, /\b600\b|100(\.0+)? ?%|ok/i);
     const fix = JSON.parse(dotpose("locate", "--code", "anoto", rendered.path));
     assert.equal(fix.status, "ok");
-    // The expected position is the centre of the page, relative to the first dot.
+    // The expected x is that of the page centre, in pattern coordinates.
     const origin_mm = JSON.parse(await page.evaluate(() => localStorage.getItem("dotpose-sheets"))).at(-1).layout;
     const expected_mm = 410815000 * 0.508 + 148 / 2 - origin_mm.first_x_mm;
     assert.ok(Math.abs(fix.x_mm - expected_mm) < 0.03, `${fix.x_mm}, not ${expected_mm}`);

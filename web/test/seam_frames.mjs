@@ -9,7 +9,9 @@ const kMmPerPx = 0.046;
 const kSpacing_mm = 0.508;
 const kSide_mm = 31;
 const kFirst_mm = 0.5;
-/** Pose of the right sheet in the coordinates of the left page. The right sheet is lower and turned clockwise. */
+/**
+ * Pose of the right sheet in the coordinates of the left page. The right sheet is shifted down and rotated clockwise.
+ */
 const kRight = { x_mm: 31.5, y_mm: 0.7, turn_rad: 0.012 };
 
 function entry(name, origin_x) {

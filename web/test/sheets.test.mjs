@@ -77,7 +77,7 @@ async function drag(page, from, to) {
     await page.mouse.up();
 }
 
-/** Sends a command as a page would, and returns its answer. */
+/** Sends a command as a page would, and returns the answer. */
 function command(page, values) {
     return page.evaluate(
         (sent) =>
@@ -129,7 +129,7 @@ test("a sheet is moved and turned by mouse and keyboard, and the edits are undon
         assert.ok(Math.abs(moved.x_mm - 180) < 2 * mm_per_px && Math.abs(moved.y_mm + 20) < 2 * mm_per_px, JSON.stringify(moved));
         assert.equal(moved.yaw_deg, 0);
 
-        // The handle is above the middle of the upper edge. The sheet turns about its middle.
+        // The rotation handle is above the middle of the sheet's upper edge. The sheet rotates about its centre.
         const map = await mapOf(page);
         const middle = map.at(moved.x_mm + 60, moved.y_mm - 50);
         const [u, v] = map.at(moved.x_mm + 60, moved.y_mm);
@@ -159,7 +159,7 @@ test("a sheet is moved and turned by mouse and keyboard, and the edits are undon
         await message(page, /Done again/);
         assert.deepEqual(placeOf("shelf"), moved);
 
-        // A sheet without a pose in the world gets one when the user moves it.
+        // A sheet without a pose in the world gets a pose when the user moves the sheet.
         await select(page, "door");
         assert.equal(placeOf("door"), null);
         await page.focus("#sheets-map");
@@ -260,7 +260,7 @@ test("sheets are renamed and removed like on the command line, and both are undo
         await undo(/^Refused: .*'window'.*can no longer be undone/);
         assert.deepEqual(names(), [kTable, "door", "window"]);
 
-        // The only sheet in the file cannot be removed, because the run needs at least one.
+        // The only sheet in the file cannot be removed, because the run needs at least one sheet.
         for (const name of ["window", "door"]) {
             await select(page, name);
             await page.click("#sheet-remove");

@@ -21,7 +21,7 @@ before(async () => {
     folder = mkdtempSync(join(tmpdir(), "dotpose-space-"));
     const view = ["--size", "320x240", "--working-distance", String(kDistance_mm), `--tilt=0,${kTilt_deg}`, "--angle", String(kTurn_deg)];
     dotpose("simulate", "-o", join(folder, "frames"), "--frames", "60", ...view);
-    // The same view, on a sheet with a known pose in the world. All frames show the same place.
+    // The frames in "still" show the same view on a sheet with a known pose in the world. The camera is at rest.
     const sheets = join(folder, "sheets.json");
     dotpose("print", "-o", join(folder, "page.svg"), "--paper", "A5", "--origin", "1000,2000", "--sheets", sheets, "--name", "desk");
     dotpose("sheets", "place", "desk", "--sheets", sheets, "--x", "100", "--y", "50", "--yaw", String(kYaw_deg));
@@ -39,7 +39,7 @@ after(async () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
 });
 
-/** Opens the page of a run, waits for its first frame, and returns the result of `look`. */
+/** Opens the page of a run, waits for the first frame, and returns the result of `look`. */
 async function seen(frames, options, look) {
     const run = await watchSource([join(folder, frames), "--realtime", "--fps", "3"], options);
     try {

@@ -3,8 +3,8 @@ import { spawn } from "node:child_process";
 import { kTool } from "./browser.mjs";
 
 /**
- * Starts `dotpose watch` with the source and further options. Returns the address of the page, the
- * input of the program, and a function that ends the program.
+ * Starts `dotpose watch` with the source and additional options. Returns the address of the page, the standard input of
+ * the program, and a function that ends the program.
  */
 export async function watchSource(source, options = [], address = "0") {
     const always = ["--web", address, "--no-window", "-o", "/dev/null"];

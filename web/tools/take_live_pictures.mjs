@@ -16,7 +16,7 @@ const kPictures = fileURLToPath(new URL("../../docs/pictures/", import.meta.url)
 const folder = mkdtempSync(join(tmpdir(), "dotpose-pictures-"));
 const browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 const programs = [];
-// The pages show file names as they are passed, so the files are passed without their folder.
+// The pages show file names exactly as given on the command line, so the files are given without their folder.
 process.chdir(folder);
 
 function pause(seconds) {
@@ -108,7 +108,7 @@ const kParts = {
         const { page } = await open(browser.context, /the page is at (\S+)/.exec(fleet.messages)[1]);
         await page.click("#fleet-rows button:text-is('robot7')");
         await page.waitForSelector("#fleet-stored", { state: "visible" });
-        // After the page size has changed, the map shows the whole track only if the form is submitted again.
+        // After a change of the page size, the form must be submitted again for the map to show the whole track.
         const ready = async () => {
             await page.click("#fleet-stored-form button[type=submit]");
             await page.waitForSelector("#fleet-stored-figure", { state: "visible" });

@@ -1,5 +1,5 @@
-// Takes the pictures of the page for web/README.md. Run `node tools/take_picture.mjs` after
-// web/build. Needs ffmpeg.
+// Takes the pictures of the page for web/README.md. Run `node tools/take_picture.mjs` after running web/build. Needs
+// ffmpeg.
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";

@@ -20,8 +20,8 @@ bool are_sides(std::int32_t columns, std::int32_t rows) {
     return columns >= 1 && columns <= kMaxCells && rows >= 1 && rows <= kMaxCells;
 }
 
-/// Writes the symbols of a block of columns. `width` is the number of columns of the whole
-/// rectangle, and therefore the distance between rows in `symbols`.
+/// Writes the symbols of a block of columns. `width` is the number of columns in the whole
+/// rectangle, and therefore the row stride of `symbols`.
 void write_block(CodeVariant code, const dotpose_place& first, std::uint32_t columns,
                  std::uint32_t rows, std::uint8_t* symbols, std::size_t width) {
     std::array<std::uint32_t, kBlock_columns> column_bits;

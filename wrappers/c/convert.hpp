@@ -84,8 +84,7 @@ bool can_move(const Prediction& prediction);
 
 void to_c(const Prediction& prediction, dotpose_prediction& result);
 
-/// Sets `result` to a fix that has no pose and the given status of an invalid call. Returns
-/// `status`.
+/// Sets `result` to a fix without a pose. `status` describes the misuse. Returns `status`.
 dotpose_status refuse(dotpose_status status, dotpose_fix& result);
 
 }  // namespace dotpose::c

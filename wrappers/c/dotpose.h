@@ -123,7 +123,7 @@ enum {
 #define DOTPOSE_POSITIONS_PER_AXIS 410815348u
 #define DOTPOSE_SECTIONS 63u
 
-/* Place in the code: 16 bytes. */
+/* Place in the code (16 bytes). */
 typedef struct dotpose_place {
     uint32_t x; /*  0: column, less than DOTPOSE_POSITIONS_PER_AXIS */
     uint32_t y; /*  4: row, less than DOTPOSE_POSITIONS_PER_AXIS */
@@ -140,21 +140,21 @@ enum {
 };
 
 /* Returns the direction in which the dot at `place` is displaced: `dx` to the right and `dy` down.
- * One of them is -1 or 1, and the other is 0. The unit is the length of a displacement, usually a
- * sixth of the spacing. Returns BAD_VALUE if the code or the place does not exist. */
+ * Either `dx` or `dy` is -1 or 1, and the other is 0. The unit is the displacement length, usually
+ * a sixth of the spacing. Returns BAD_VALUE if the code or the place does not exist. */
 dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, int32_t* dx,
                                     int32_t* dy);
 
 /* Writes the symbols (DOTPOSE_SYMBOL_) of columns x rows dots, row by row from `top_left`, for
- * example to print a sheet. `bytes` is the size of `symbols`. If it is less than columns x rows,
- * returns TOO_LITTLE_MEMORY. `columns` and `rows` must be from 1 to 65535.
- * The pattern wraps around at the end of an axis, as in locators. */
+ * example to print a sheet. `bytes` is the size of `symbols`. Returns TOO_LITTLE_MEMORY if `bytes`
+ * is less than columns x rows. `columns` and `rows` must be from 1 to 65535. The pattern wraps
+ * around at the end of an axis, as in locators. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
 
 /* ---- Results -------------------------------------------------------------------------------- */
 
-/* Mapping from image points to the paper plane, in spacings: 44 bytes. For a point (u, v), in px
+/* Mapping from image points to the paper plane, in spacings (44 bytes). For a point (u, v), in px
  * relative to `centre`:
  *     plane = at_centre + (du u + dv v) / (1 + perspective . (u, v) + lens (u^2 + v^2)). */
 typedef struct dotpose_plane {
@@ -288,7 +288,7 @@ typedef struct dotpose_fix {
  * the fix unchanged. */
 dotpose_status dotpose_fix_init(dotpose_fix* fix, size_t bytes);
 
-/* Expected position of the pattern in the next frame: 76 bytes. */
+/* Expected position of the pattern in the next frame (76 bytes). */
 typedef struct dotpose_prediction {
     dotpose_plane pattern_from_image; /*  0 */
     dotpose_place place;              /* 44 */
@@ -299,8 +299,8 @@ typedef struct dotpose_prediction {
 } dotpose_prediction;
 
 /* Predicts that the next frame has the same pose as `fix`. A frame that confirms its prediction is
- * located in a fraction of the time. Any other frame is located as if it had no prediction. For
- * frames that are pushed row by row, see dotpose_begin. Returns NO_FIX if the fix is not ok. */
+ * located much faster. Any other frame is located as if it had no prediction. For frames that are
+ * pushed row by row, see dotpose_begin. Returns NO_FIX if the fix is not ok. */
 dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction);
 
 /* Moves a prediction by `by_x_q16` and `by_y_q16` spacings in the pattern frame, and turns it by
@@ -328,7 +328,7 @@ enum {
 enum {
     DOTPOSE_EFFORT_DEVICE = 0, /* one attempt in integer arithmetic, as on a device */
     DOTPOSE_EFFORT_ONCE = 1,   /* only the first attempt */
-    DOTPOSE_EFFORT_TWICE = 2   /* if the first attempt fails, a second one on the filtered frame */
+    DOTPOSE_EFFORT_TWICE = 2   /* if the first attempt fails, also tries the filtered frame */
 };
 
 /* Dots used to read the position. */
@@ -337,7 +337,7 @@ enum {
     DOTPOSE_DECODER_ALL = 1     /* all dots in view */
 };
 
-/* Options for a locator: 96 bytes. include/dotpose/locator_options.hpp explains what each option
+/* Options for a locator (96 bytes). include/dotpose/locator_options.hpp explains what each option
  * does and when to change it. */
 typedef struct dotpose_options {
     uint32_t size; /* 0: set by dotpose_options_init */
@@ -362,7 +362,7 @@ typedef struct dotpose_options {
 
 /* Sets the default options. `bytes` is the caller's sizeof(dotpose_options). */
 dotpose_status dotpose_options_init(dotpose_options* options, size_t bytes);
-/* Returns the name of the first member that is out of range, which causes BAD_ARGUMENT. Returns
+/* Returns the name of the first member that is out of range and would cause BAD_ARGUMENT. Returns
  * null if all members are valid. */
 const char* dotpose_bad_option(const dotpose_options* options);
 
@@ -385,8 +385,8 @@ size_t dotpose_locator_bytes(int32_t kind);
 dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
                                     const dotpose_options* options, dotpose_locator** locator);
 
-/* Sets up a locator of DOTPOSE_KIND_DEVICE. If a program uses only this function to set up
- * locators, the linker can remove the code of the other kinds, because its sections are unused. */
+/* Sets up a locator of DOTPOSE_KIND_DEVICE. If a program sets up locators only with this function,
+ * the linker can remove the code of the other kinds as unused sections. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
 /* Like dotpose_device_init, but for DOTPOSE_KIND_DEVICE_36X36, DOTPOSE_KIND_DEVICE_160X120 and
@@ -407,10 +407,10 @@ dotpose_status dotpose_locator_create(int32_t kind, const dotpose_options* optio
  * `locator` is null. */
 void dotpose_locator_destroy(dotpose_locator* locator);
 
-/* Changes the options. Discards a frame that was begun but not finished. */
+/* Changes the options. Discards an unfinished frame. */
 dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* options);
 
-/* Printed rectangle of the code plane: 20 bytes. */
+/* Printed rectangle of the code plane (20 bytes). */
 typedef struct dotpose_region {
     uint8_t code;      /*  0: DOTPOSE_CODE_ of the sheet */
     uint8_t section_u; /*  1: section of the code, 0 to 62 */
@@ -422,7 +422,7 @@ typedef struct dotpose_region {
     uint32_t rows;     /* 16: at least 1 */
 } dotpose_region;
 
-/* Whether sheets other than the known ones may be in view. */
+/* Whether sheets other than the known sheets may be in view. */
 enum {
     /* Other sheets are also located if enough of their dots are in view. */
     DOTPOSE_OTHERS_POSSIBLE = 0,
@@ -432,8 +432,8 @@ enum {
 
 /* Sets the regions of the sheets that may be in view. About 30 dots in view, in images of at least
  * 24 x 24 px, are then enough for a fix. The locator reads `regions` in each frame, so the array
- * must remain valid and unchanged. If `count` is 0, all places are possible again. Discards a frame
- * that was begun. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not
+ * must remain valid and unchanged. If `count` is 0, all places are possible again. Discards an
+ * unfinished frame. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not
  * inside the plane, or has a code or section that does not exist. Device locators search only the
  * regions in their code. */
 dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
@@ -445,7 +445,7 @@ dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, i
                               int32_t height_px, ptrdiff_t stride_bytes,
                               const dotpose_prediction* prediction, dotpose_fix* fix);
 
-/* Camera motion since the previous image, from odometry: 20 bytes. */
+/* Camera motion since the previous image, from odometry (20 bytes). */
 typedef struct dotpose_measured_motion {
     float right_mm;  /*  0: displacement of the reference point along x of the previous image */
     float down_mm;   /*  4: displacement along y of the previous image */
@@ -476,7 +476,7 @@ dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t
 dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels);
 dotpose_status dotpose_finish(dotpose_locator* locator, dotpose_fix* fix);
 
-/* Dot found in an image: 16 bytes. */
+/* Dot found in an image (16 bytes). */
 typedef struct dotpose_dot {
     float u_px;      /*  0: undistorted position */
     float v_px;      /*  4 */
@@ -499,7 +499,7 @@ typedef struct dotpose_code_evidence {
     int32_t state[9];
 } dotpose_code_evidence;
 
-/* Code in which a frame was read, and a possible alternative: 28 bytes. */
+/* Code in which a frame was read, and a possible alternative (28 bytes). */
 typedef struct dotpose_code_reading {
     int32_t code;        /*  0: DOTPOSE_CODE_ in which the frame was read */
     int32_t has_other;   /*  4: 1 if a place in another code also explains the frame, else 0 */
@@ -507,19 +507,20 @@ typedef struct dotpose_code_reading {
     dotpose_place other; /* 12: place in the other code that corresponds to the fix's cell */
 } dotpose_code_reading;
 
-/* Locates an image whose code is not known, and adds the image to the evidence. If two codes
- * explain the frame about equally well, the status is ambiguous_code. Sets the locator's code to
- * the code that was read. The prediction must refer to the code that the locator used before this
- * call. `prediction`, `evidence` and `reading` may be null. If `evidence` is null, uses only this
- * frame. Returns WRONG_KIND for device locators. */
+/* Locates an image whose code is not known, and updates the evidence. If two codes explain the
+ * frame about equally well, the status is ambiguous_code. Sets the locator's code to the code that
+ * was read. The prediction must refer to the code that the locator used before this call.
+ * `prediction`, `evidence` and `reading` may be null. If `evidence` is null, uses only this frame.
+ * Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
                                        int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                        const dotpose_prediction* prediction,
                                        dotpose_code_evidence* evidence,
                                        dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Locates an image using the code set in the options. Reports in `reading` whether another code
- * also explains the image. `reading` may be null. Returns WRONG_KIND for device locators. */
+/* Locates an image using the code set in the locator's options. Reports in `reading` whether
+ * another code also explains the image. `reading` may be null. Returns WRONG_KIND for device
+ * locators. */
 dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* pixels,
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
@@ -549,7 +550,7 @@ typedef struct dotpose_tracker {
     uint64_t state[216];
 } dotpose_tracker;
 
-/* Limits on the robot's motion, and criteria for accepting sightings: 88 bytes. Each comment ends
+/* Limits on the robot's motion, and criteria for accepting sightings (88 bytes). Each comment ends
  * with the default. */
 typedef struct dotpose_track_options {
     uint32_t size;                         /*  0: set by dotpose_track_options_init */
@@ -574,7 +575,7 @@ typedef struct dotpose_track_options {
     float reserved;                        /* 84: 0 */
 } dotpose_track_options;
 
-/* Robot position and angle measured in one frame, in any plane: 80 bytes. */
+/* Robot position and angle measured in one frame, in any plane (80 bytes). */
 typedef struct dotpose_sighting {
     int64_t time_us;      /*  0: middle of the exposure; at most 2^62 in magnitude */
     int64_t x_nm;         /*  8: at most 2^60 in magnitude, like y_nm */
@@ -596,7 +597,7 @@ enum {
     DOTPOSE_VERDICT_TOO_WEAK = 4
 };
 
-/* Bits of `events`: changes in a frame. */
+/* Bits of `events`: changes caused by a frame. */
 enum {
     DOTPOSE_EVENT_FIX = 1,        /* the robot was found, for the first time or again */
     DOTPOSE_EVENT_LOST = 2,       /* no accepted sighting for too long, or pose too uncertain */
@@ -605,7 +606,7 @@ enum {
     DOTPOSE_EVENT_MOVING = 16     /* the robot moves again */
 };
 
-/* Robot state at the time of the newest frame: 232 bytes. The pose is invalid while the robot is
+/* Robot state at the time of the newest frame (232 bytes). The pose is invalid while the robot is
  * lost. */
 typedef struct dotpose_track {
     int64_t time_us;       /*  0 */
@@ -652,9 +653,9 @@ dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t ti
                                             const dotpose_measured_motion* motion,
                                             dotpose_track* track);
 
-/* Predicts the pose of the frame at `time_us`, from the newest fix and its sighting. `locator` must
- * be the locator that will locate the frame, because the prediction depends on its code and
- * reference point. Returns NO_FIX if the fix is not ok. */
+/* Predicts the pose for the frame at `time_us`, from the newest fix and its sighting. `locator`
+ * must be the locator that will locate the frame, because the prediction depends on the locator's
+ * code and reference point. Returns NO_FIX if the fix is not ok. */
 dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t time_us,
                                        const dotpose_fix* newest, const dotpose_sighting* seen,
                                        const dotpose_locator* locator,
@@ -664,8 +665,8 @@ dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t t
 
 #define DOTPOSE_PACKET_BYTES 32
 
-/* Contents of a pose packet, the result of one frame: 52 bytes. If `status` is not DOTPOSE_OK, only
- * the members before `cell_x` are valid. */
+/* Contents of a pose packet, which reports the result for one frame (52 bytes). If `status` is not
+ * DOTPOSE_OK, only the members before `cell_x` are valid. */
 typedef struct dotpose_packet {
     uint32_t sequence;       /*  0: frame counter, 16 bits; gaps indicate lost packets */
     uint32_t time_us;        /*  4: on the sender's clock */
@@ -713,7 +714,7 @@ typedef struct dotpose_pacer {
     uint64_t state[40];
 } dotpose_pacer;
 
-/* Movement criteria and frame periods: 40 bytes. Each comment ends with the default. */
+/* Movement criteria and frame periods (40 bytes). Each comment ends with the default. */
 typedef struct dotpose_pacer_options {
     uint32_t size;                /*  0: set by dotpose_pacer_options_init */
     int32_t moved_q16;            /*  4: movement threshold per axis, in spacings; 6554 */
@@ -728,9 +729,9 @@ typedef struct dotpose_pacer_options {
 dotpose_status dotpose_pacer_options_init(dotpose_pacer_options* options, size_t bytes);
 /* Sets up a pacer. If `options` is null, uses the defaults. */
 dotpose_status dotpose_pacer_init(dotpose_pacer* pacer, const dotpose_pacer_options* options);
-/* Updates the pacer with the fix of a frame, which may have any status, and the time of the frame.
- * Sets `next_us` to the earliest time for the next frame, and `is_moving` to 1 if the device is
- * moving, else to 0. `is_moving` may be null. */
+/* Updates the pacer with the fix and the time of a frame. The fix may have any status. Sets
+ * `next_us` to the earliest time for the next frame, and `is_moving` to 1 if the device is moving,
+ * else to 0. `is_moving` may be null. */
 dotpose_status dotpose_pacer_next_frame(dotpose_pacer* pacer, const dotpose_fix* fix,
                                         int64_t time_us, int64_t* next_us, int32_t* is_moving);
 

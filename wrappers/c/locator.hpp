@@ -83,7 +83,7 @@ inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
 /// Members common to all kinds of locators, at the beginning of each object.
 struct dotpose_locator {
     std::uint32_t mark = 0;
-    std::int32_t rows_left = 0;  ///< number of rows of the current frame that were not pushed yet
+    std::int32_t rows_left = 0;  ///< number of rows of the current frame still to be pushed
     bool has_begun = false;      ///< true if a frame has been begun but not finished
     const dotpose::c::Actions* actions = nullptr;
     dotpose::RowLocator* locator = nullptr;
@@ -109,7 +109,7 @@ dotpose_status read_image(const std::uint8_t* pixels, std::int32_t width_px, std
 /// Reads a prediction. `given` may be null.
 dotpose_status read_prediction(const dotpose_prediction* given, Frame& frame);
 
-/// Alignment of the caller's memory, in bytes.
+/// Required alignment of memory provided by the caller, in bytes.
 inline constexpr std::size_t kAlignment = 8;
 
 /// A locator of one kind, with its memory.

@@ -47,7 +47,8 @@ LocatorOptions options_of(const dotpose_options& o) {
 }
 
 const char* bad_member(const dotpose_options& o) {
-    // Enumerations have fewer bits in C++, so their values are checked before the conversion.
+    // The C++ enumerations have fewer bits than int32_t, so the values are checked before the
+    // conversion.
     if (o.code != DOTPOSE_CODE_DETECT && !c::is_code(o.code)) return "code";
     if (!c::is_one_of(o.effort, Effort::twice)) return "effort";
     if (!c::is_one_of(o.decoder, Decoder::all)) return "decoder";

@@ -66,8 +66,8 @@ void write(const GreyImage& image, std::FILE* file) {
     std::fwrite(image.pixels.data(), 1, image.pixels.size(), file);
 }
 
-/// Numbers in a line, in the order of the columns. Floating-point numbers are stored as the
-/// hexadecimal digits of their bits.
+/// Collects the numbers of a line, in column order. Floating-point numbers are stored as
+/// hexadecimal bit patterns.
 class Numbers {
   public:
     template <std::integral Int>
@@ -140,7 +140,7 @@ class Lines {
     std::uint64_t index_;
 };
 
-/// Locates a frame with every method, and tracks the next frame with a prediction from the first
+/// Locates a frame with every method. Also locates the next frame, with a prediction from the first
 /// fix.
 void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
     const auto memory = std::make_unique<LargeMemory>();

@@ -28,8 +28,8 @@ struct PixelPoint {
 };
 
 /// The map from the undistorted image to the paper, for a camera that is mounted at a fixed height.
-/// A point at (a, b) undistorted px from the distortion centre has these coordinates in the camera
-/// frame:
+/// The undistorted pixel that is (a, b) px from the distortion centre shows the point with these
+/// coordinates in the camera frame:
 ///
 ///     x = mm_per_px_x (a + skew b) / d,   y = mm_per_px_y b / d,
 ///     d = 1 + perspective_u a + perspective_v b.
@@ -75,8 +75,8 @@ struct PenTip {
     double y_mm = 0;
     double z_mm = 0;
     /// Height of the tip above the paper while the pen rests on the paper, as measured by the
-    /// calibration. It is not necessarily 0: the tip is the point about which the pen pivots, for
-    /// example the centre of the ball in a ballpoint pen.
+    /// calibration. The height is not necessarily 0: the tip is the point about which the pen
+    /// pivots, for example the centre of the ball in a ballpoint pen.
     double rest_mm = 0;
 };
 
@@ -121,9 +121,9 @@ struct Camera {
     std::vector<std::vector<double>> flat_field;
 
     /// Readout time of a rolling shutter: the time from the first to the last row of an image. None
-    /// for a global shutter, or if the time is not known. If it is known, the velocity of the
-    /// camera is fitted together with the pose, and the pose refers to the time at which the middle
-    /// row is read.
+    /// for a global shutter, or if the time is not known. If the time is known, the camera velocity
+    /// is fitted together with the pose, and the pose refers to the time at which the middle row is
+    /// read.
     std::optional<double> readout_ms;
 
     /// Sensor settings, for information only. dotpose does not use them.
@@ -143,7 +143,7 @@ struct Camera {
 /// - The perspective of `paper` is so strong that the horizon is in the image or near it.
 /// - `flat_field` has rows of different lengths, fewer than two rows or columns, or more rows or
 ///   columns than the image.
-/// - Any other value is not finite or is out of range, for example a length that is not positive.
+/// - Another value is not finite or is out of range, for example a length that is not positive.
 void validate(const Camera& camera);
 
 /// Returns the undistorted pixel that corresponds to `pixel` (paper, equations 1 and 2).
@@ -191,7 +191,7 @@ PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 /// either camera is not known, returns `camera.reference_px` unchanged.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
-/// Returns the brightness of white paper at a pixel, relative to its maximum, from
+/// Returns the brightness of white paper at a pixel, relative to the maximum brightness, from
 /// `camera.flat_field`. The flat field must not be empty, and `camera` must be valid.
 double brightness_at(const Camera& camera, PixelPoint pixel);
 

@@ -1,4 +1,4 @@
-/// Print map: the measured offset of each printed dot from its nominal place, for the pages of a
+/// Print map: the measured offset of each printed dot from its nominal position, for the pages of a
 /// sheet file. `PrintMapping` (tools/print_mapping.hpp) creates a map, and `with_print_map` uses it
 /// to correct a fix.
 ///
@@ -29,8 +29,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Offset of a dot from its nominal place, along x and y of the pattern, in units of 2^-14 printed
-/// spacings. The printed spacing is the nominal spacing times the print scale of the axis.
+/// Offset of a dot from its nominal position, along x and y of the pattern, in units of 2^-14
+/// printed spacings. The printed spacing is the nominal spacing times the print scale of the axis.
 struct DotOffset {
     std::int16_t x_q14 = 0;
     std::int16_t y_q14 = 0;
@@ -68,17 +68,17 @@ struct MapPage {
     /// Standard deviation, per axis, of the measured centre of a dot in one frame, in spacings.
     double noise = 0;
     /// Standard deviation, per axis, of the difference between the offset of a dot and the mean
-    /// offset of the dots around it, in spacings.
+    /// offset of the surrounding dots, in spacings.
     double jitter = 0;
     /// Offsets of the dots, row by row. A dot that was never seen is assigned the mean offset of
-    /// the dots around it.
+    /// the surrounding dots.
     std::vector<DotOffset> offsets;
     /// Number of frames in which each dot was measured, at most 255.
     std::vector<std::uint8_t> views;
     MapErrors errors;  ///< empty in maps with file version 1
 
-    /// Returns the index of a dot in `offsets` and `views`. Returns nullopt if the place of the dot
-    /// is not on the page.
+    /// Returns the index of a dot in `offsets` and `views`. Returns nullopt if the dot is not on
+    /// the page.
     std::optional<std::size_t> index_of(const Place& place) const {
         const std::uint32_t x = place.cell.x - origin.x;
         const std::uint32_t y = place.cell.y - origin.y;

@@ -43,10 +43,9 @@ namespace dotpose {
 /// Version of the sheet file format. `read_sheets` accepts no other version.
 inline constexpr int kSheetFileVersion = 1;
 
-/// Number of free cells around every allocated region. It exceeds the diagonal of the largest
-/// frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). Even if a frame shows two
-/// sheets, the pose computed from the dots of one sheet is therefore never in the region of the
-/// other.
+/// Number of free cells around every allocated region. It exceeds the maximum diagonal of a frame,
+/// which is 966 cells (4096 x 4096 px at 6 px per spacing). Even if a frame shows two sheets, the
+/// pose computed from the dots of one sheet is therefore never in the region of the other.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Pose of a page in the world.
@@ -98,9 +97,9 @@ struct SheetEntry {
 /// - `print` has no pages, a resolution of 0 or less, or an unknown method of drawing dots.
 void validate(const SheetEntry& entry);
 
-/// Returns true if two sheets share cells. Sheets in different sections never overlap. The code
-/// variants anoto and libdots are treated as one variant, because their dots are identical on most
-/// of the plane.
+/// Returns true if two sheets have cells in common. Sheets in different sections never overlap. The
+/// code variants anoto and libdots are treated as one variant, because their dots are identical on
+/// most of the plane.
 bool overlap(const Sheet& a, const Sheet& b);
 
 /// Reads a sheet file. Throws Error, with the file name and the key in the message, in these cases:
@@ -179,7 +178,7 @@ class SheetFile {
 
     std::filesystem::path path_;
     std::unique_ptr<system::FileLock> lock_;  ///< lock on a hidden file beside the sheet file
-    /// Contents of the file as read or saved. None if the file did not exist.
+    /// Contents of the file as last read or saved. None if the file did not exist.
     std::optional<std::string> text_;
     std::vector<SheetEntry> sheets_;
     /// Maps the new name of each renamed sheet to its name in `text_`.
@@ -203,10 +202,10 @@ class SheetReservation {
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
-    /// Removes the marks. Must be called after the pages have been written. Adds the sheets again
-    /// if another program has removed them. Throws Error if the file cannot be changed, or if
-    /// another program has assigned their names or cells to other sheets. In this case, the file is
-    /// unchanged.
+    /// Removes the marks of the reserved sheets. Must be called after the pages have been written.
+    /// Adds the sheets again if another program has removed them. Throws Error if the file cannot
+    /// be changed, or if another program has assigned their names or cells to other sheets. In this
+    /// case, the file is unchanged.
     void confirm();
 
   private:

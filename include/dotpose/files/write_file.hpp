@@ -16,8 +16,8 @@ namespace dotpose {
 /// target is not a regular file or cannot be written.
 void write_file(const std::filesystem::path& target, std::string_view contents);
 
-/// Throws the same Error as `write_file` if the file cannot be created. Intended for use before a
-/// long computation whose result is written to the file.
+/// Checks that a file can be written. Throws the same Error as `write_file` otherwise. Intended for
+/// use before a long computation whose result is written to the file.
 void require_writable(const std::filesystem::path& target);
 
 /// Follows symbolic links at `path` and returns the path of the final target, which need not exist.

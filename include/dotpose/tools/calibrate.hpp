@@ -16,7 +16,7 @@
 /// Standard deviations are computed from the residuals of the fit.
 ///
 /// The functions request frames by index and do not store them. They may request a frame several
-/// times. They share no state.
+/// times. There is no shared state.
 #pragma once
 
 #include <functional>
@@ -42,7 +42,7 @@ using FrameAt = std::function<GreyImage(int index)>;
 /// Options common to all calibrations.
 struct CalibrateOptions {
     /// The printed pattern. Only its code variant and spacing are used. All measured lengths are
-    /// proportional to the spacing, so they have the relative error of the spacing.
+    /// proportional to the spacing, so they have the same relative error as the spacing.
     Pattern pattern;
     /// True to detect the code variant from the frames instead of using the code variant of
     /// `pattern`. `stitch_sheets` ignores this option, because each sheet has its own code variant.
@@ -63,7 +63,7 @@ std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 /// `too_few_frames`.
 inline constexpr int kWantedFrames = 5;
 
-/// Verdict on a lens calibration: `good`, or the reason why it is not reliable.
+/// Verdict on a lens calibration: `good`, or the reason why the calibration is not reliable.
 enum class CalibrationVerdict {
     good,
     too_few_frames,  ///< fewer than kWantedFrames distinct frames have a fix
@@ -165,7 +165,7 @@ struct SpinCalibration {
 /// degrees. A full turn in 12 frames is recommended. `camera` contains the lens and the view of the
 /// paper. Without `camera`, the lens is assumed to have no distortion. Throws Error in these cases:
 /// - Too few frames have a fix, or the turn is too small.
-/// - The size of a frame differs from the size in the camera file or from that of the first frame.
+/// - The size of a frame differs from the size in the camera file or the size of the first frame.
 /// - The spacing of the pattern contradicts the view in the camera file.
 /// - The reference point is outside the range permitted in a camera file.
 /// - The centre of rotation varies by more than one spacing (rms per axis), or its uncertainty is
@@ -188,7 +188,7 @@ struct DriveCalibration {
 /// Computes the direction of the camera from at least 2 frames, taken along a drive of more than
 /// 5 mm. Throws Error in these cases:
 /// - Too few frames have a fix, or the drive is too short.
-/// - The size of a frame differs from the size in the camera file or from that of the first frame.
+/// - The size of a frame differs from the size in the camera file or the size of the first frame.
 /// - The spacing of the pattern contradicts the view in the camera file.
 /// - The robot turned by more than 5 degrees from its mean direction, deviated from a straight line
 ///   by more than 4.4 % of the length of the drive, or drove backwards.
@@ -204,7 +204,7 @@ struct PivotCalibration {
     int located = 0;
     int used = 0;  ///< number of frames in which the tip is at the common point of rest
     /// Rms angle by which the pen rotated about the axis of least rotation. A larger angle gives a
-    /// more accurate position of the tip.
+    /// more accurate tip position.
     double pivot_rad = 0;
     double min_tilt_rad = 0;
     double max_tilt_rad = 0;
@@ -217,12 +217,12 @@ struct PivotCalibration {
 };
 
 /// Computes the position of the tip of a pen that contains the camera, from at least 6 frames. The
-/// tip must rest at one point of a sheet while the pen is tilted by 0 to 40 degrees in several
+/// tip must rest at one point on a sheet while the pen is tilted by 0 to 40 degrees in several
 /// directions. 30 frames are recommended. Frames in which the tip is elsewhere are not used.
 /// `camera` must contain the focal length. Writes the standard deviations to `Camera::sigma`.
 /// Throws Error in these cases:
 /// - Too few frames have a pose in space.
-/// - A frame differs in size from the camera file.
+/// - The size of a frame differs from the size in the camera file.
 /// - The pen does not pivot enough, or only about one axis.
 /// - The tip did not rest at one point: more than a third of the frames contradict the others, or
 ///   the tip moved by more than half a spacing (rms per axis).
@@ -243,9 +243,9 @@ struct FlatFieldCalibration {
 };
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
-/// with constant exposure and light. The dots must be at different places in different frames, so
-/// that they average out. If no camera is given, the result is a new camera with the size of the
-/// frames. The only option used is `progress`. Throws Error in these cases:
+/// with constant exposure and light. The dots must be at different pixel positions in different
+/// frames, so that they average out. If no camera is given, the result is a new camera with the
+/// size of the frames. The only option used is `progress`. Throws Error in these cases:
 /// - There are fewer than 20 frames, or frames differ in size.
 /// - The flat field is less than kMinFlatField in the darkest part of the image.
 /// - The mean frame deviates from the flat field by more than 8 % (rms).

@@ -6,7 +6,7 @@
 ///     coverage.add(view);  // for each frame taken
 ///     for (const CalibrationNeed& need : coverage.missing(camera)) say(need.advice);
 ///
-/// Functions share no state. Only `corner_sigma_px` throws an exception.
+/// There is no shared state. Only `corner_sigma_px` throws an exception.
 #pragma once
 
 #include <array>
@@ -36,8 +36,8 @@ inline constexpr int kWantedPlaces = 4;
 /// different directions are needed to distinguish lens distortion from a print that is stretched
 /// along one axis.
 inline constexpr int kWantedDirections = 3;
-/// Required accuracy of the lens: the maximum standard deviation of the undistorted position of the
-/// farthest image corner (see `corner_sigma_px`).
+/// Required accuracy of the lens calibration: the maximum standard deviation of the undistorted
+/// position of the farthest image corner (see `corner_sigma_px`).
 inline constexpr double kWantedCornerSigma_px = 0.1;
 
 /// Returns the corner of the image that is farthest from the distortion centre.
@@ -49,8 +49,8 @@ PixelPoint farthest_corner(const Camera& camera);
 /// Throws std::out_of_range if `camera.sigma` does not contain these standard deviations.
 double corner_sigma_px(const Camera& camera);
 
-/// Divides the image into kColumns x kRows equal parts, and records in which parts dots have been
-/// seen.
+/// Divides the image into kColumns x kRows equal parts, and records the parts in which dots have
+/// been seen.
 class ImageCoverage {
   public:
     static constexpr int kColumns = 12;

@@ -1,5 +1,4 @@
-/// Print check: inspects a scan or photo of a printed sheet for faults of the printer and the
-/// paper.
+/// Print check: detects faults of the printer and the paper in a scan or photo of a printed sheet.
 ///
 ///     CheckPrintOptions options;  // the pattern as it was printed
 ///     const ImageOrigin origin = read_origin("scan.png");  // image_file.hpp
@@ -10,14 +9,14 @@
 ///
 /// Calls `locate` on overlapping crops to find the pattern anywhere in the image, at any angle.
 /// Neighbouring crops with consistent positions form a field, and every dot of a field is measured
-/// in the image. The scale, rotation and skew of the print are computed from the measured and the
+/// in the image. The scale, rotation and skew of the print are computed from the measured and
 /// nominal positions of the dots.
 ///
 /// A page may contain several fields: patches of a test page (test_page.hpp), or sheets side by
-/// side. Functions throw Error or BadArgument. They share no state.
+/// side. Functions share no state, and throw Error or BadArgument.
 ///
-/// Coordinate frames (both x right, y DOWN): *pattern* (mm, as printed), *scan* (px, relative to
-/// the centre of the first pixel).
+/// Coordinate frames, both with x right and y DOWN: *pattern* (mm, as printed), *scan* (px,
+/// relative to the centre of the first pixel).
 #pragma once
 
 #include <functional>
@@ -38,54 +37,55 @@ namespace dotpose {
 /// Known properties of the print and its image.
 struct CheckPrintOptions {
     /// The pattern that was printed. The section is read from the image. Patches of a test page
-    /// encode their own settings, so only the code variant is used for them.
+    /// encode their own settings, so for a test page only the code variant of `pattern` is used.
     Pattern pattern;
     /// True to detect the code variant from the whole page instead of using the code variant of
     /// `pattern`.
     bool any_code = false;
     /// Sheets that the scan may contain, for example the sheets of a sheet file. A field within the
-    /// region of a sheet is compared with the dimensions of that sheet. Sheets are ignored if their
-    /// code variant cannot overlap with the given or detected code variant (see `overlap` in
-    /// sheet_file.hpp).
+    /// region of a sheet is compared with the dimensions of that sheet. Sheets whose code variant
+    /// differs from the given or detected code variant are ignored, except that anoto and libdots
+    /// are treated as one variant (see `overlap` in sheet_file.hpp).
     std::vector<Sheet> sheets;
-    /// Resolution of the scan. An image is treated as a photo if it has no resolution, or if it
-    /// shows the perspective or lens distortion of a camera. The check of a photo allows for
+    /// Resolution of the scan. An image is treated as a photo if no resolution is given, or if the
+    /// image shows the perspective or lens distortion of a camera. The check of a photo allows for
     /// perspective and lens distortion, and does not judge the scale. If the resolution contradicts
     /// the spacing, the check reports a fault.
     std::optional<Resolution> resolution;
     /// True if the image was taken with a camera, according to the metadata in its file. In this
     /// case, the resolution is ignored.
     bool is_photo = false;
-    /// Reflectance of solid ink relative to the paper, 0 to 0.9. It cannot be measured, because
-    /// dots are only a few pixels wide. The measured diameter of a dot is the diameter of a disc of
-    /// solid ink with the same total darkness.
+    /// Reflectance of solid ink relative to the paper, 0 to 0.9. The reflectance cannot be
+    /// measured, because dots are only a few pixels wide. The measured diameter of a dot is the
+    /// diameter of a disc of solid ink with the same total darkness.
     double ink_reflectance = 0.15;
-    /// Called after each step of the check. `total` is an estimate that may grow during the check.
-    /// Returning false aborts the check with an Error.
+    /// Called after each step of the check with the number of completed steps and an estimate of
+    /// the total number, which may grow during the check. Returning false aborts the check with an
+    /// Error.
     std::function<bool(int done, int total)> progress;
 };
 
-/// Scale and angles of a print in a flatbed scan. They include the errors of the scanner. To
-/// separate the errors of the printer from those of the scanner, scan the page a second time,
-/// turned by 90 degrees.
+/// Scale and angles of a print in a flatbed scan, including the scanner's errors. To separate
+/// printer errors from scanner errors, scan the page a second time, turned by 90 degrees.
 struct PrintScale {
     /// Ratio of the printed to the nominal length along the pattern's x axis.
     double scale_x = 1;
     /// Ratio of the printed to the nominal length along the pattern's y axis.
     double scale_y = 1;
-    double rotation_rad = 0;  ///< direction of the pattern's x axis in the scan, from +u towards +v
-    double skew_rad = 0;      ///< angle from the x axis to the y axis, minus 90 degrees
+    /// Direction of the pattern's x axis in the scan, as an angle from +u towards +v.
+    double rotation_rad = 0;
+    double skew_rad = 0;  ///< angle from the x axis to the y axis, minus 90 degrees
 };
 
-/// Ratio of the two scales of a print, measured in a photo. Perspective and the unknown focal
-/// length of the camera make the ratio uncertain. It is available only if the uncertainty is at
-/// most half a percent.
+/// Ratio of the x scale to the y scale of a print, measured in a photo. Perspective and the unknown
+/// focal length of the camera make the ratio uncertain. The ratio is available only if its
+/// uncertainty is at most half a percent.
 struct ScaleRatio {
     double x_over_y = 1;
     double uncertainty = 0;  ///< maximum error of the ratio
 };
 
-/// Side, in cells, of the bins in which the distortion of a page is reported.
+/// Side length of a DistortionBin, in cells.
 inline constexpr int kDistortionCells = 20;
 
 /// Mean deviation of the dots in one bin from their fitted positions.
@@ -111,14 +111,14 @@ struct PrintField {
     std::optional<PrintScale> scale;        ///< only for scans
     std::optional<ScaleRatio> scale_ratio;  ///< only for photos
     double spacing_px = 0;                  ///< spacing in the middle of the field
-    /// Rms deviation per axis of the dots from their fitted places, in mm on the paper.
+    /// Rms deviation of the dots from their fitted positions, per axis, in mm on the paper.
     double residual_mm = 0;
-    /// Standard deviation, per axis, of the displacement of individual dots, in mm on the paper. It
-    /// is computed from the differences between neighbouring dots, which the distortion of the page
-    /// does not affect.
+    /// Standard deviation, per axis, of the position errors of individual dots, in mm on the paper.
+    /// It is computed from differences between neighbouring dots, so the distortion of the page
+    /// hardly affects it.
     double scatter_mm = 0;
     std::vector<DistortionBin> distortion;
-    double largest_distortion_mm = 0;  ///< maximum length of a deviation in `distortion`
+    double largest_distortion_mm = 0;  ///< length of the largest deviation in `distortion`
 
     /// Number of cells covered by other print, such as text. `cells` excludes these cells.
     int covered = 0;
@@ -127,28 +127,28 @@ struct PrintField {
     int merged = 0;      ///< number of dots that touch a neighbour
     int dots = 0;        ///< number of dots found
     int bits_wrong = 0;  ///< number of wrong bits, at most two per dot found
-    /// Median dot diameter. The diameter of a dot is defined as that of an equivalent disc (see
+    /// Median dot diameter. The diameter of a dot is the diameter of an equivalent disc (see
     /// CheckPrintOptions::ink_reflectance).
     double dot_mm = 0;
-    /// Standard deviation of the diameter, from the median absolute deviation.
+    /// Standard deviation of the dot diameter, computed from the median absolute deviation.
     double dot_sigma_mm = 0;
     double paper_level = 0;  ///< median grey level of blank paper
-    double contrast = 0;     ///< darkness at the centres of the dots relative to the paper, 0 to 1
-    /// False if the sizes and the contrast cannot be measured due to the blur and tone curve of a
-    /// photo.
+    double contrast = 0;     ///< darkness of the dot centres relative to the paper, 0 to 1
+    /// False if the dot sizes and the contrast cannot be measured because of a photo's blur and
+    /// tone curve.
     bool are_sizes_measured = true;
-    /// False if missing and wrong dots cannot be detected due to the noise of a photo.
+    /// False if missing and wrong dots cannot be detected because of the noise in a photo.
     bool are_dots_checked = true;
 
     double covered_share() const { return covered > 0 ? double(covered) / (covered + cells) : 0; }
     double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }
     double merged_share() const { return dots > 0 ? double(merged) / dots : 0; }
     double wrong_share() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
-    /// Returns the relative increase in the dot diameter over its nominal value. Negative if the
-    /// dots are smaller than intended.
+    /// Returns the relative difference between the dot diameter and its nominal value. Negative if
+    /// the dots are smaller than intended.
     double gain() const { return dot_mm / pattern.dot_mm - 1; }
-    /// Returns the sum of the four fractions above, at most 1. It estimates the fraction of the
-    /// cells that are covered, have no dot, have a merged dot or have a wrong bit.
+    /// Returns an estimate of the fraction of cells that are covered, have no dot, have a merged
+    /// dot or have a wrong bit: the sum of the four fractions above, at most 1.
     double bad_share() const;
 };
 
@@ -156,21 +156,21 @@ struct PrintField {
 enum class FindingKind {
     good,          ///< no fault was found
     scaled,        ///< the page as a whole is too large or too small
-    uneven_scale,  ///< horizontal and vertical scale differ
+    uneven_scale,  ///< the horizontal and vertical scales differ
     rotated,       ///< the page is turned in the scan, which is harmless
     skewed,        ///< the axes are not perpendicular
-    distorted,     ///< dots in some regions deviate from their nominal places
+    distorted,     ///< dots in some regions deviate from their nominal positions
     swollen,       ///< dots are too large or run together
     thin,          ///< dots are too small or too pale
     missing,       ///< dots are missing
     covered,       ///< other print covers some of the dots
-    /// Many bits are wrong. Either dots are too far from their nominal places, or the page was
+    /// Many bits are wrong. Either dots are too far from their nominal positions, or the page was
     /// printed in another code variant.
     bits_wrong,
     too_coarse,     ///< the scan has too few pixels per dot
     pale,           ///< the contrast of the dots is low
-    no_resolution,  ///< the resolution is not known, so the scale could not be checked
-    contradiction,  ///< resolution and spacing contradict each other
+    no_resolution,  ///< the resolution is not known, so the scale cannot be checked
+    contradiction,  ///< the resolution and the spacing contradict each other
     repeated,       ///< the page contains the same cells more than once
     unknown_sheet,  ///< the cells are not on any of the given sheets
     unresolved,     ///< the photo is too coarse to show some of the faults above
@@ -183,9 +183,9 @@ const char* name(FindingKind kind);
 struct Finding {
     FindingKind kind = FindingKind::good;
     bool is_fault = false;  ///< true for a fault to correct, false for a remark
-    /// Index of the field concerned. None if the finding concerns the whole scan.
+    /// Index of the field to which the finding applies. None if it applies to the whole scan.
     std::optional<std::size_t> field;
-    /// One or two sentences for the user: the fault, the likely cause, the remedy.
+    /// One or two sentences for the user: the fault, the likely cause, and the remedy.
     std::string text;
 };
 
@@ -193,10 +193,10 @@ struct Finding {
 struct RepeatedCells {
     std::size_t first = 0;  ///< indices of the fields
     std::size_t second = 0;
-    int cells = 0;  ///< number of cells with a dot in both fields
+    int cells = 0;  ///< number of cells with a correct dot in both fields
 };
 
-/// Evidence that the image is a photo instead of a scan.
+/// Evidence that the image is a photo rather than a scan.
 struct CameraSigns {
     double perspective = 0;  ///< relative change in scale across the page, due to perspective
     /// Relative displacement of the outermost dots due to lens distortion.
@@ -205,7 +205,7 @@ struct CameraSigns {
 
 /// Result of a print check.
 struct PrintCheck {
-    /// All fields, the largest first. Empty if there is no pattern in the image.
+    /// All fields, largest first. Empty if there is no pattern in the image.
     std::vector<PrintField> fields;
     /// True if the pattern is found only in the flipped image. In this case, `fields` is empty.
     bool is_mirrored = false;
@@ -215,7 +215,7 @@ struct PrintCheck {
     std::optional<Resolution> resolution;  ///< resolution that was used, or none for a photo
     bool is_photo = false;                 ///< copy of CheckPrintOptions::is_photo
     /// Evidence that the image is a photo. None if there is no evidence, or if no resolution was
-    /// given. With evidence, the given resolution is ignored.
+    /// given. If there is evidence, the given resolution is ignored.
     std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
     bool is_test_page = false;
@@ -226,9 +226,9 @@ struct PrintCheck {
     /// patch is the one with the dot diameter closest to a sixth of the spacing. Patches with many
     /// faulty cells are excluded.
     std::vector<std::size_t> best_per_spacing;
-    /// Index of the best patch overall: the best patch with the finest spacing. A finer pattern is
-    /// better because more of its dots are in view. Equals `best_per_spacing.front()`. Valid only
-    /// if `best_per_spacing` is not empty.
+    /// Index of the best patch overall, which is the best patch for the finest spacing. A finer
+    /// pattern is better because more of its dots are in view. Equals `best_per_spacing.front()`.
+    /// Valid only if `best_per_spacing` is not empty.
     std::size_t best = 0;
     std::vector<Finding> findings;
 };

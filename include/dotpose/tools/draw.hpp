@@ -4,7 +4,7 @@
 ///     const dotpose::Fix fix = locator.locate(image.view());
 ///     draw_frame("frame.svg", image.view(), locator.trace());
 ///
-/// Functions throw Error if a file cannot be written. They share no state. Text must be UTF-8.
+/// Functions share no state. They throw Error if a file cannot be written. Text must be UTF-8.
 /// Invalid bytes are replaced.
 #pragma once
 
@@ -71,7 +71,7 @@ void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 
-/// One frame of a drive over a sheet, in sheet coordinates.
+/// One frame recorded during a drive over a sheet. Positions are in sheet coordinates.
 struct PathPoint {
     double true_x_mm = 0;
     double true_y_mm = 0;
@@ -90,8 +90,8 @@ void draw_path(const std::filesystem::path& file, const Sheet& sheet,
 /// Draws the residual fields before and after calibration, and the coverage of the image by dots.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
-/// Residuals of a lens calibration, summed over square parts of the image, as in the pictures of
-/// `draw_calibration`. Programs can use this struct to draw the residuals themselves.
+/// Residuals of a lens calibration, summed over square parts of the image, as in the pictures that
+/// `draw_calibration` writes. Programs can use this struct to draw the residuals themselves.
 struct ResidualField {
     struct Part {
         PixelPoint before;  ///< sum of the residuals before the calibration, in px
@@ -99,23 +99,23 @@ struct ResidualField {
         int dots = 0;
     };
 
-    double part_px = 0;  ///< side of a part
+    double part_px = 0;  ///< side length of a part
     int columns = 0;
     int rows = 0;
     std::vector<Part> parts;  ///< row by row
 };
 ResidualField residual_field(const LensCalibration& calibration);
 
-/// Draws the positions of the camera during the turn of the robot, and the centre of rotation
-/// computed from each frame.
+/// Draws the positions of the camera while the robot turns, and the centre of rotation computed
+/// from each frame.
 void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
 
-/// Draws the sheets before and after stitching. Each frame that shows two sheets gives two
-/// positions of its image centre, one from each sheet. An arrow shows the difference between them.
+/// Draws the sheets before and after stitching. Each frame that shows two sheets yields two
+/// positions of the image centre, one from each sheet. An arrow connects the two positions.
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-/// Draws the map of a page: the smooth distortion as an exaggerated, deformed grid, and the x and y
+/// Draws the map of a page: the smooth distortion as a deformed grid (exaggerated), and the x and y
 /// offsets of all dots as two images.
 void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 
@@ -124,8 +124,8 @@ void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 /// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws enlarged deviations of the dots in all fields (`PrintField::distortion`) over the outline
-/// of the scan.
+/// Draws the deviations of the dots in all fields (`PrintField::distortion`), enlarged, over the
+/// outline of the scan.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

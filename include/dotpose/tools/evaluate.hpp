@@ -9,8 +9,9 @@
 /// `frames_of_setup` simulates the frames instead. `run_protocol` (protocol.hpp) simulates the
 /// paper's experiment (section IV). `run_sweep` (sweep.hpp) degrades one condition step by step.
 ///
-/// Apart from times, results depend only on the frames, not on the number of threads. The functions
-/// share no state. They throw Error for problems with files and BadArgument for invalid arguments.
+/// Apart from the measured times, results depend only on the frames, not on the number of threads.
+/// The functions share no state. They throw Error for problems with files and BadArgument for
+/// invalid arguments.
 #pragma once
 
 #include <filesystem>
@@ -61,14 +62,14 @@ using Progress = std::function<bool(int done, int total)>;
 struct FrameRun {
     int frames = 0;
     FrameSource frame_at;
-    /// Sets of options for `locate`. Every frame is located with each of them.
+    /// Sets of options for `locate`. Every frame is located with each set.
     std::vector<DeviceOptions> options = {DeviceOptions{}};
     /// True to detect the code variant of each frame for which `KnownFrame::code` is not set. The
     /// code variant is detected independently for each frame.
     bool any_code = false;
     /// Refines a fix with the trace of the frame, for example by calling `with_camera`. If empty,
-    /// fixes are not refined. Called from several threads. The time of the refinement is not
-    /// measured.
+    /// fixes are not refined. Called from several threads. The measured times do not include the
+    /// refinement.
     std::function<Fix(const Fix&, const Trace&)> refine;
     int threads = 0;  ///< number of threads, or 0 for one per core
     Progress progress;

@@ -25,7 +25,8 @@ class FlatFieldCorrection {
     explicit FlatFieldCorrection(const Camera& camera);
 
     /// Returns the image with each grey level divided by the flat field at its pixel. Levels are
-    /// clamped to 255. Throws BadArgument if the image does not have the size in the camera file.
+    /// clamped to 255. Throws BadArgument if the image does not have the size given in the camera
+    /// file.
     GreyImage corrected(ImageView image) const;
 
   private:

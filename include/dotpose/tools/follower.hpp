@@ -8,7 +8,7 @@
 ///         if (now.located.place) use(now.located.place->x_mm, now.track.pose);
 ///     }
 ///
-/// Functions throw BadArgument if an image does not have the size in the camera file.
+/// Functions throw BadArgument if an image does not have the size given in the camera file.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ struct FollowerOptions {
     std::optional<CodeVariant> code;
     /// Spacing of the pattern, in mm, if there are no sheets.
     double spacing_mm = kDefaultSpacing_mm;
-    /// Lens, view and mount of the camera. Images must have the size in the camera file.
+    /// Lens, view and mount of the camera. Images must have the size given in the camera file.
     std::optional<Camera> camera;
     /// True to flip images left to right before they are located. Has the same effect as `flip` in
     /// a camera file. All pixel coordinates refer to the flipped images.
@@ -69,7 +69,7 @@ struct FollowerOptions {
 struct Located {
     /// The pose of the reference point, corrected with the camera file if there is one.
     Fix fix;
-    std::optional<SheetPlace> place;  ///< place of the fix, or none if it is not on any sheet
+    std::optional<SheetPlace> place;  ///< place of the fix, or none if the fix is not on any sheet
     /// Code variant of the fix and, if there is one, a place in another code variant that also
     /// explains the image. In results of `locate`, `reading.fix` is the fix before the correction
     /// with the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong`
@@ -107,8 +107,8 @@ struct Followed {
     Located located;
     Track track;
     /// Track of the camera in space. If the robot is tracked in the world, the track is in the
-    /// frame of `world_sighting` (space_track.hpp). Otherwise, it is in the pattern frame. None if
-    /// `FollowerOptions::fits_space_pose` is not set.
+    /// coordinate frame that `world_sighting` (space_track.hpp) uses. Otherwise, it is in the
+    /// pattern frame. None if `FollowerOptions::fits_space_pose` is not set.
     std::optional<SpaceTrack> space_track;
 };
 
@@ -136,8 +136,8 @@ class Follower {
     Located locate(const GreyImage& image);
 
     /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
-    /// place of the pattern. A fix that is not certain by itself is accepted only if the predicted
-    /// place makes it certain enough for the tracker.
+    /// place of the pattern. A fix that is not certain without the prediction is accepted only if
+    /// the predicted place makes it certain enough for the tracker.
     Followed follow(ImageView image, std::int64_t time_us);
 
     /// Returns true if the robot is tracked in the world frame of the sheet file (m, y up) instead
@@ -145,10 +145,10 @@ class Follower {
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
 
-    /// Replaces the sheets, for example after one of them was moved in the world. The next image
-    /// starts a new track. Invalidates `SheetPlace::entry` of earlier results. Throws BadArgument
-    /// if there are no sheets, or if the region of a sheet is not inside the code plane. Throws
-    /// Error if the print map contains a page that is not among the sheets.
+    /// Replaces the sheets, for example after a sheet was moved in the world. The next image starts
+    /// a new track. Invalidates `SheetPlace::entry` of earlier results. Throws BadArgument if there
+    /// are no sheets, or if the region of a sheet is not inside the code plane. Throws Error if the
+    /// print map contains a page that is not among the sheets.
     void set_sheets(std::vector<SheetEntry> sheets);
 
     bool fits_space_pose() const { return options_.fits_space_pose; }
@@ -179,7 +179,7 @@ class Follower {
         std::optional<SpacePose> space;
         MapUse map_use = MapUse::no_map;
     };
-    /// The result of the latest image with a fix.
+    /// The result for the latest image with a fix.
     struct Seen {
         Fix fix;
         CodeVariant code;

@@ -14,7 +14,7 @@
 /// significant bits. Transparent pixels are composited on white. If a TIFF file has several pages,
 /// the requested page is read. The default is the first page.
 ///
-/// The orientation in EXIF data and in HEIC is ignored, because the calibration and mount of a
+/// The orientation in EXIF data and HEIC files is ignored, because the calibration and mount of a
 /// camera refer to the pixels of the sensor.
 #pragma once
 
@@ -32,8 +32,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Limits for images that can be read: the maximum side, the maximum number of pixels, and the
-/// default for the parameter `max_pixels` of `read_image`.
+/// Limits for images that can be read: the maximum side length, the maximum number of pixels, and
+/// the default for the parameter `max_pixels` of `read_image`.
 inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
 inline constexpr int kDefaultImagePixels = 100'000'000;
@@ -56,8 +56,8 @@ struct ImageTooLarge : Error {
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 
-/// Variant of `read_image` that also sets `note` to a sentence about the file for the user, for
-/// example that its end marker is missing. If there is nothing to report, sets `note` to an empty
+/// Variant of `read_image` that also sets `note` to a sentence for the user about the file, for
+/// example that the end marker is missing. If there is nothing to report, sets `note` to an empty
 /// string.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
                      int page = 1);
@@ -79,8 +79,8 @@ struct ImageOrigin {
     /// exposure time, f-number, sensitivity or focal length.
     bool is_photo = false;
     /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if the image is
-    /// a photo or if the resolution is missing. Also none if it is 72 or 96 dpi, because these are
-    /// the defaults that programs write if the resolution is unknown.
+    /// a photo or if the resolution is missing. Also none if the resolution is 72 or 96 dpi,
+    /// because programs write these defaults if they do not know the resolution.
     std::optional<Resolution> resolution;
 };
 

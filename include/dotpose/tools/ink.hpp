@@ -18,11 +18,11 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Pose of the tip in one frame of a run.
+/// Pose of the pen tip in one frame.
 struct InkSample {
     double t_s = 0;
     std::string page;  ///< name of the page under the tip, or empty if there are no sheets
-    double x_mm = 0;   ///< place in the page or pattern frame: x right, y DOWN
+    double x_mm = 0;   ///< position in the page or pattern frame: x right, y DOWN
     double y_mm = 0;
     double height_mm = 0;
     double sigma_x_mm = 0;  ///< standard deviations, above 0

@@ -85,7 +85,7 @@ struct Measurement {
     std::vector<MeasuredFrame> frames;
     /// Error of each frame. None if the frame has no found place.
     std::vector<std::optional<MeasuredError>> errors;
-    /// Alignment of the found places. None if they were compared without an alignment.
+    /// Alignment of the found places. None if the places were compared without an alignment.
     std::optional<Similarity> alignment;
     bool is_in_world = false;
 
@@ -110,9 +110,10 @@ std::vector<std::pair<std::string, std::string>> described(const Measurement& me
 void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
 /// Writes positions.csv, figure-13 and figure-14. If the true angles are not all equal, also writes
-/// angles.csv and figure-15. The figures correspond to those with the same numbers in the paper.
-/// Each figure is written as .svg and .png. Frames with the same true place are treated as samples
-/// of one position. Throws Error if no frame has a true place, or if a file cannot be written.
+/// angles.csv and figure-15. The figures correspond to the figures with the same numbers in the
+/// paper. Each figure is written as .svg and .png. Frames with the same true place are treated as
+/// samples of one position. Throws Error if no frame has a true place, or if a file cannot be
+/// written.
 void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);
 
 }  // namespace dotpose

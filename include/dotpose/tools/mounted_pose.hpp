@@ -22,18 +22,19 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Refines a fix, given the camera file and the trace of the frame. The perspective and the nominal
-/// scale of a mounted camera are constant and known from the camera file. Only these parameters are
-/// fitted:
+/// scale of a mounted camera are constant and known from the camera file. Only the following
+/// parameters are fitted:
 /// - the place and the angle,
 /// - the ratio of the actual to the nominal scale, because prints differ in scale,
 /// - the displacement of the dots, because ink and blur change it,
-/// - the velocity and the turn rate, if the file contains the readout time of a rolling shutter.
+/// - the velocity and the turn rate, if the camera file contains the readout time of a rolling
+///   shutter.
 ///
 /// The result is more accurate than `fix`, especially far from the image centre. Its theta is the
 /// heading of the robot. `print` is the print scale of the sheet, if it is known. The position in
-/// the result is in nominal units of the pattern, like that in `fix`. If the camera file has no
-/// view of the paper, or if the trace has fewer than 12 dots, only theta is changed. A fix that is
-/// not ok is returned unchanged.
+/// the result is in nominal units of the pattern, like the position in `fix`. If the camera file
+/// has no view of the paper, or if the trace has fewer than 12 dots, only theta is changed. A fix
+/// that is not ok is returned unchanged.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 
@@ -65,10 +66,10 @@ struct MappedMovingFix {
     std::optional<ReadoutVelocity> velocity;
     MapUse map_use = MapUse::no_map;
 };
-/// Variant of `with_camera_and_velocity` that uses the measured places of the dots in a map of the
-/// print instead of their nominal places. If the map cannot be used, falls back to the nominal
-/// places, and sets `map_use` to the reason. If the camera file has no view of the paper, the fix
-/// is corrected as in `with_print_map`.
+/// Variant of `with_camera_and_velocity` that uses the dot positions measured in a map of the print
+/// instead of the nominal positions. If the map cannot be used, falls back to the nominal
+/// positions, and sets `map_use` to the reason. If the camera file has no view of the paper, the
+/// fix is corrected as in `with_print_map`.
 MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const Trace& trace,
                                     const AxisScale& print, const PrintMap& map);
 
@@ -77,8 +78,8 @@ MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const 
 /// fix, or if the camera file has no view.
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
-/// Maximum relative difference between the nominal and the measured spacing of a sheet. It is
-/// larger than the scale variation within the depth of field of a camera close to the paper, but
+/// Maximum relative difference between the nominal and the measured spacing of a sheet. The limit
+/// is larger than the scale variation within the depth of field of a camera close to the paper, but
 /// smaller than the 3 % by which a printer driver may shrink the page.
 inline constexpr double kMaxSpacingDifference = 0.025;
 

@@ -37,7 +37,7 @@ struct Optics {
     double largest_blur_px = 1;
 
     /// Measured size of a pixel on the paper, and measured field of view after distortion
-    /// correction. Values given here replace those of the thin-lens model.
+    /// correction. Values given here replace the values computed with the thin-lens model.
     std::optional<double> mm_per_px;
     std::optional<double> field_width_mm;
     std::optional<double> field_height_mm;
@@ -53,7 +53,7 @@ struct OpticsAdvice {
     std::string text;       ///< one sentence: the fault and the remedy
 };
 
-/// Properties of the image of the pattern.
+/// Predicted properties of the pattern's image.
 struct OpticsReport {
     double magnification = 0;
     double mm_per_px = 0;
@@ -71,8 +71,9 @@ struct OpticsReport {
     /// True if the shorter side of the field is at least `block_diagonal_mm` (paper, section
     /// III-A.3).
     bool block_fits = false;
-    /// Minimum side of a square field of view that contains 8 x 8 dots for any position and angle
-    /// of the grid. The worst case is an angle of 45 degrees: block_diagonal_mm + sqrt(2) spacing.
+    /// Minimum side length of a square field of view that contains 8 x 8 dots for any position and
+    /// angle of the grid. The worst case is an angle of 45 degrees: block_diagonal_mm + sqrt(2)
+    /// spacing.
     double block_anywhere_mm = 0;
     bool block_fits_anywhere = false;
 
@@ -80,7 +81,8 @@ struct OpticsReport {
     /// Maximum rate of rotation about the image centre at the given exposure. The blur is evaluated
     /// at the middle of the image edge that is farthest from the image centre.
     double fastest_turn_rpm = 0;
-    /// Maximum exposure at the given speed and turn rate. Infinite if both are 0.
+    /// Maximum exposure at the given speed and turn rate. Infinite if the speed and the turn rate
+    /// are 0.
     double longest_exposure_s = 0;
     double blur_px = 0;  ///< blur at the given speed, turn rate and exposure
 

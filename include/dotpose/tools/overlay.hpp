@@ -43,7 +43,7 @@ struct OverlayOptions {
     double dpi = 600;      ///< resolution of the printer (see PrintOptions)
     DotDrawing drawing = DotDrawing::automatic;
     /// Numbers of the pages to which dots are added, from 1, for example "1-3,7". "z" is the last
-    /// page. Empty for all pages.
+    /// page. If empty, dots are added to all pages.
     std::string pages;
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.
@@ -52,7 +52,7 @@ struct OverlayOptions {
     std::optional<Paper> card_paper;
     /// True to draw the dots below the content of the page instead of above it.
     bool under = false;
-    /// Password of an encrypted file. The result is also encrypted.
+    /// Password of an encrypted input file. The output file is then also encrypted.
     std::string password;
     /// True to replace black ink with cyan, magenta and yellow. Infrared cameras see black ink, but
     /// not the other inks.
@@ -60,12 +60,12 @@ struct OverlayOptions {
     double lighten = 0;  ///< fraction of the ink that is removed from the document, in [0, 1)
     /// Maximum size of the uncompressed content of one page, in megabytes. The limit for all pages
     /// together is eight times as large. Processing a page needs a few times this amount of memory.
-    /// Increase the limit for large maps.
+    /// Increase the limit for pages with very detailed drawings, such as large maps.
     int max_content_mb = 64;
     Progress progress;
-    /// Called once, before anything is written, with all pages to which dots are added. It may
-    /// change each `sheet.origin`, for example to a free region of a SheetFile. An exception
-    /// cancels the overlay.
+    /// Called once, before anything is written, with all pages to which dots are added. The
+    /// function may change each `sheet.origin`, for example to a free region of a SheetFile. An
+    /// exception cancels the overlay.
     std::function<void(std::span<OverlaidPage>)> place;
 };
 
@@ -79,9 +79,9 @@ struct OverlayReport {
 
 /// Adds dots to the document `in`, and writes the result to `out`. Writes `out` atomically.
 ///
-/// `black_to_cmy` and `lighten` change colours only on pages with dots. They change the colours of
-/// text, drawings, forms, fonts and annotation appearances, and of images if their colour space
-/// permits. The report lists content that was not changed.
+/// `black_to_cmy` and `lighten` change colours only on pages with dots. These options change the
+/// colours of text, drawings, forms, fonts and annotation appearances, and of images if their
+/// colour space permits. The report lists content that was not changed.
 ///
 /// Throws BadArgument in these cases:
 /// - The pattern, margin, page range or number of copies is invalid.

@@ -20,7 +20,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Position of the tip of a pen in the pattern or sheet frame (x right, y DOWN).
+/// Position of a pen's tip in the pattern or sheet frame (x right, y DOWN).
 struct TipPose {
     double x_mm = 0;
     double y_mm = 0;
@@ -33,12 +33,12 @@ struct TipPose {
     double sigma_mm(std::size_t axis) const;
 };
 
-/// Returns the place of the tip in the coordinate frame of `pose`. `sigma` is `Camera::sigma`. If
-/// `sigma` contains no standard deviations for the tip, `tip` is assumed to be exact.
+/// Returns the position of the tip in the coordinate frame of `pose`. `sigma` is `Camera::sigma`.
+/// If `sigma` contains no standard deviations for the tip, `tip` is assumed to be exact.
 TipPose tip_of(const SpacePose& pose, const PenTip& tip,
                const std::map<std::string, double>& sigma = {});
 
-/// Converts a tip from the pattern frame to the frame of a sheet.
+/// Converts a tip position from the pattern frame to the frame of a sheet.
 TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
 
 /// Detects with hysteresis whether a pen touches the paper. A pen on the paper is considered lifted
@@ -46,11 +46,11 @@ TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
 /// be on the paper again once its height falls below `kLift_mm`.
 class PenContact {
   public:
-    /// Assumed maximum height of paper on a table above its nominal plane. It is not 0 because
-    /// paper is not perfectly flat.
+    /// Assumed maximum height of the paper surface above its nominal plane. It is not 0 because
+    /// paper on a table is not perfectly flat.
     static constexpr double kLift_mm = 0.05;
 
-    /// `is_down` is the state before the first pose.
+    /// `is_down` is true if the pen is initially on the paper.
     explicit PenContact(bool is_down = true) : is_down_(is_down) {}
 
     /// Processes the next pose. Returns true if the pen is on the paper.

@@ -37,9 +37,9 @@ struct Paper {
     double height_mm = 297;
 };
 
-/// Returns the size of a page by its name: A0 to A6, Letter, Legal, Tabloid (portrait, in upper or
-/// lower case), or WIDTHxHEIGHT in mm, for example "100x62.5". Throws BadArgument for any other
-/// text, and for sizes outside (0, kMaxPage_mm].
+/// Returns the page size for a name (A0 to A6, Letter, Legal or Tabloid, in upper or lower case) or
+/// for a size WIDTHxHEIGHT in mm, for example "100x62.5". Named sizes are in portrait orientation.
+/// Throws BadArgument for any other text, and for sizes outside (0, kMaxPage_mm].
 Paper paper_by_name(std::string_view name);
 
 /// Returns the page in landscape orientation: its longer side is the width.
@@ -67,14 +67,14 @@ struct SheetOptions {
 Sheet make_sheet(const SheetOptions& options);
 
 /// Lays out `pages` sheets with adjacent regions that do not overlap. Each region begins to the
-/// right of the previous one. When the right edge of the plane is reached, the next region is
+/// right of the previous region. When the right edge of the plane is reached, the next region is
 /// below, at `options.origin.x`.
 ///
 /// Throws BadArgument in the cases listed for `make_sheet`, and if `pages` is outside [1,
 /// kMaxPages].
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
-/// Checks that a printer of this resolution can print the pattern. The resolution must be above 0
+/// Checks that a printer with this resolution can print the pattern. The resolution must be above 0
 /// and at most kMaxResolution_dpi. The displacement must be at least one printer pixel, and at
 /// least one white pixel must be between any two dots. Throws BadArgument otherwise.
 void validate_resolution(const Sheet& sheet, double dpi);
@@ -98,7 +98,7 @@ using Progress = std::function<bool(int rows_done, int rows)>;
 
 /// Methods of drawing dots in a PDF.
 enum class DotDrawing {
-    automatic,  ///< `glyphs` if they are exact, otherwise `strokes`
+    automatic,  ///< `glyphs` if this method is exact, otherwise `strokes`
     /// Text in a font of four glyphs: small and fast. Renderers round the position of every glyph
     /// to whole pixels. Spacing, displacement and dot diameter must therefore be integer multiples
     /// of the pixel size.
@@ -109,9 +109,8 @@ enum class DotDrawing {
 /// Options for `write_sheet`.
 struct PrintOptions {
     /// Resolution of PNG and TIFF files, in dpi. It should be the resolution of the printer. A PDF
-    /// has no pixels, but the printer must be able to print its dots at this resolution (see
-    /// `validate_resolution`), and DotDrawing::glyphs refers to these pixels. Not used for text and
-    /// SVG.
+    /// has no pixels. For a PDF, the resolution is checked with `validate_resolution`, and it
+    /// defines the pixel size for DotDrawing::glyphs. Not used for text and SVG.
     double dpi = 600;
     DotDrawing drawing = DotDrawing::automatic;  ///< PDF only: method of drawing dots
     /// PDF only: true to add labels (name, page, region and spacing) and rulers in the margins

@@ -1,4 +1,5 @@
-/// Print mapping: creates a map of a printed page from many frames, and corrects fixes with it.
+/// Print mapping: creates a map of a printed page from many frames, and uses the map to correct
+/// fixes.
 ///
 ///     PrintMapping mapping({.sheets = read_sheets("sheets.json"), .camera = camera});
 ///     for (const GreyImage& image : images) mapping.add(image.view());
@@ -80,9 +81,9 @@ class PrintMapping {
     PrintMapping(PrintMapping&&) noexcept;
     PrintMapping& operator=(PrintMapping&&) noexcept;
 
-    /// Locates a frame and stores its dots for `solve`. Returns false and ignores the frame if it
-    /// shows none of the sheets, or fewer than 20 dots of a sheet. Throws BadArgument if the image
-    /// size differs from the size given in the camera file.
+    /// Locates a frame and stores its dots for `solve`. Ignores the frame and returns false if the
+    /// frame shows none of the sheets, or fewer than 20 dots of a sheet. Throws BadArgument if the
+    /// image size differs from the size given in the camera file.
     bool add(const ImageView& image);
 
     /// Minimum number of frames required to map a page.
@@ -105,10 +106,10 @@ struct MappedFix {
 };
 
 /// Corrects a fix with a map of the print, given the trace of the frame. Fits the place, angle and
-/// scale to the dots at their mapped places. Also fits perspective and shear if they are
-/// significant. The covariance is that of the absolute position on the page. It is computed from
-/// the residuals and from the error of the map (`MapPage::error_covariance`). It does not include
-/// the errors of the print. Fixes at the same place have the same map error. To obtain the
+/// scale to the dots at their mapped positions. Also fits perspective and shear if they are
+/// significant. The covariance of the result refers to the absolute position on the page. It is
+/// computed from the residuals and the map error (`MapPage::error_covariance`), and does not
+/// include printing errors. Fixes at the same place have the same map error. To obtain the
 /// covariance of the difference between two such fixes, first subtract the covariance of the map
 /// error from the covariance of each fix.
 ///

@@ -1,4 +1,4 @@
-/// Print model: the displacement of printed ink from its intended place.
+/// Print model: the displacement of printed ink from its intended position.
 #pragma once
 
 #include "dotpose/export.hpp"

@@ -22,8 +22,8 @@ struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
     /// Conditions of the experiment. Light, blur and noise are drawn at random once and are the
     /// same for all frames. The other conditions are ignored, because the device is at rest and not
-    /// tilted, and the page has no dirt or graphics. The experiment determines the poses and the
-    /// printing errors.
+    /// tilted, and the page has no dirt or graphics. The poses and the printing errors are
+    /// prescribed by the experiment.
     Setup setup;
     DeviceOptions locate;
     int threads = 0;
@@ -53,10 +53,10 @@ struct Station {
 
 /// The results of the experiment on one page.
 struct ProtocolResult {
-    /// Results at a grid of 11 x 11 positions in the 200 x 200 mm area, in spiral order from the
+    /// Results for a grid of 11 x 11 positions in the 200 x 200 mm area, in spiral order from the
     /// middle outwards.
     std::vector<Station> positions;
-    std::vector<Station> angles;  ///< results at 36 angles at the middle position
+    std::vector<Station> angles;  ///< results at 36 angles in the middle of the area
 };
 
 /// The experiment on a perfect page and on a printed page.

@@ -54,9 +54,9 @@ class Rng {
     }
 
     /// Returns a normally distributed number with mean 0 and standard deviation 1: the number of
-    /// ones among 128 random bits, smoothed by a uniform number. The excess kurtosis is -0.016, and
-    /// the absolute value is at most 11.4. Avoids logarithms, because their last digits differ
-    /// between machines.
+    /// ones among 128 random bits plus a uniform random number, shifted and scaled. The excess
+    /// kurtosis is -0.016, and the absolute value is at most 11.4. Avoids logarithms, because their
+    /// last digits differ between machines.
     constexpr double normal() noexcept {
         constexpr double kInverseDeviation = 0.1765469659009499;  // 1 / sqrt(128 / 4 + 1 / 12)
         const int ones = ones_in(bits(), bits());

@@ -1,4 +1,4 @@
-/// Robot messages: converts the results for a frame to ROS 2 messages.
+/// Robot messages: converts the results for an image to ROS 2 messages.
 ///
 ///     Follower follower(options);
 ///     RobotMessenger messenger("anna");
@@ -56,7 +56,7 @@ struct PlanarPose {
 
 using PlanarCovariance = std::array<std::array<double, 3>, 3>;
 
-/// The pose from a single frame.
+/// The pose from a single image.
 struct PlanarFix {
     PlanarPose pose;
     std::optional<PlanarCovariance> covariance;  ///< covariance of (x, y, yaw)
@@ -72,7 +72,7 @@ struct PlanarMotion {
     std::array<std::array<double, 6>, 6> covariance{};
 };
 
-/// Results for one camera frame, in the coordinate frame `map`.
+/// Results for one image, in the coordinate frame `map`.
 struct RobotUpdate {
     std::int64_t time_ns = 0;  ///< middle of the exposure
     /// None if there is no fix, or if the place of the fix is unknown.
@@ -90,10 +90,10 @@ struct RobotUpdate {
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"
     std::string problem;          ///< reason why there is no fix, or empty
-    std::vector<KeyValue> facts;  ///< additional values for the diagnostics of the frame
+    std::vector<KeyValue> facts;  ///< additional values for the diagnostics of the image
 };
 
-/// Returns the results for a frame. `is_in_world` is Follower::is_in_world.
+/// Returns the results for an image. `is_in_world` is Follower::is_in_world.
 RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t time_ns);
 
 /// Names of the coordinate frames.
@@ -110,8 +110,8 @@ struct RobotFrames {
 /// slash, or contain spaces or control characters.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
-/// Messages for one camera frame. `pose` is none if there is no fix. `odometry` is none while the
-/// robot is lost.
+/// Messages for one image. `pose` is none if there is no fix. `odometry` is none while the robot is
+/// lost.
 struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< pose of the fix, in `map`
     std::optional<Odometry> odometry;  ///< pose of the track in `odom`, twist in `base_link`
@@ -125,7 +125,7 @@ struct RobotMessages {
     DiagnosticArray status;
 };
 
-/// Creates the messages for one robot, frame by frame.
+/// Creates the messages for one robot, image by image.
 class RobotMessenger {
   public:
     explicit RobotMessenger(std::string robot, RobotFrames frames = {});

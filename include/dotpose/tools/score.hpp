@@ -16,8 +16,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Quantiles by the nearest-rank method. The quantile for a fraction p is the smallest value such
-/// that at least a fraction p of all values is less than or equal to it. NaN if there are no
+/// Quantiles by the nearest-rank method. The quantile for a fraction p is the smallest value v for
+/// which at least a fraction p of all values are less than or equal to v. NaN if there are no
 /// values.
 struct Quantiles {
     double median = std::numeric_limits<double>::quiet_NaN();
@@ -29,8 +29,8 @@ Quantiles quantiles_of(std::vector<double> values);
 
 /// Counts and error statistics of many frames.
 struct Score {
-    /// Number of frames that could be read. `unreadable` is the number of remaining frames. Each
-    /// readable frame has a correct fix, a wrong fix, or a status other than ok.
+    /// Number of frames that could be read. `unreadable` is the number of frames that could not be
+    /// read. Each readable frame has a correct fix, a wrong fix, or a status other than ok.
     int frames = 0;
     int unreadable = 0;
     int located = 0;  ///< number of correct fixes
@@ -38,18 +38,18 @@ struct Score {
     /// Number of frames with each status. The count for `ok` includes wrong fixes.
     std::array<int, kStatusCount> by_status = {};
 
-    // The following statistics are computed over the correct fixes, except `largest_p_wrong` and
-    // `elapsed_us`.
+    // The statistics below, except `largest_p_wrong` and `elapsed_us`, are computed over the
+    // correct fixes.
     Quantiles position_um;  ///< distance between the found and the true position
     Quantiles angle_deg;
     /// Mean of error^2 / variance, for x, y and theta. The mean is 1 if the covariance is correct,
     /// and larger if the errors are larger than the covariance predicts. NaN if there are no
-    /// correct fixes, or if any of them has no covariance.
+    /// correct fixes, or if a correct fix has no covariance.
     std::array<double, 3> normalised = {};
 
     /// Maximum p_wrong over all fixes, correct or wrong. 0 if there are no fixes.
     double largest_p_wrong = 0;
-    Quantiles elapsed_us;  ///< time of `locate` for each readable frame
+    Quantiles elapsed_us;  ///< duration of `locate` for each readable frame
 
     double located_share() const { return frames > 0 ? 1.0 * located / frames : 0; }
 };

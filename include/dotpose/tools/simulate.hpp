@@ -54,7 +54,8 @@ struct CameraModel {
     /// (paper, equations 1 and 2). Negative for barrel distortion. |k| |r|^2 must be at most
     /// 0.9 in the corners of the image.
     double k = 0;
-    /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
+    /// Distance of the projection centre from the pose point. It matters only if the camera is
+    /// tilted. Above 0.
     double working_distance_mm = 16;
     /// Motion of the scene in the undistorted image while a rolling shutter reads the rows. At most
     /// 75 % of the image size along each axis. The pose refers to the time at which the middle row
@@ -97,12 +98,14 @@ struct Imperfections {
     /// displacement has its own ink. The darkest ink has `ink_reflectance`. The contrasts of the
     /// four inks are evenly spaced.
     double palest_ink = 1;
-    /// Relative loss of light in the image corners. The loss grows with r^2.
+    /// Relative loss of light in the image corners. The loss is proportional to the square of the
+    /// distance from the image centre.
     double vignetting = 0;
     /// Linear change in illumination across the image, relative to the illumination at the centre.
     /// 0 to 2.
     double fall = 0;
-    double fall_direction_rad = 0;  ///< direction in which the light decreases, from +u towards +v
+    /// Direction in which the light decreases, as an angle from +u towards +v.
+    double fall_direction_rad = 0;
     double blur_sigma_px = 0;
     /// Motion of the scene in the image during the exposure. The pose refers to the middle of the
     /// exposure.
@@ -112,7 +115,7 @@ struct Imperfections {
     /// is the same in every frame.
     double fixed_pattern = 0;
     double salt_and_pepper = 0;  ///< fraction of the pixels that are black or white
-    double jitter_mm = 0;        ///< standard deviation of a printed dot's place, per axis
+    double jitter_mm = 0;        ///< standard deviation of a printed dot's position, per axis
     double missing = 0;          ///< fraction of the dots that are not printed
     int dirt_blobs = 0;          ///< number of dark specks in the frame
     int graphics = 0;            ///< number of thick strokes or words in the frame
@@ -148,9 +151,11 @@ struct PageArea {
     double y_grid = 0;
     double half_width = 0;  ///< in grid units
     double half_height = 0;
-    double angle_rad = 0;  ///< direction of the side along `half_width`, from +x towards +y
+    /// Direction of the side along `half_width`, as an angle from +x towards +y.
+    double angle_rad = 0;
 
-    /// Returns the distance of a point from the area, in grid units. Negative inside.
+    /// Returns the distance of a point from the area, in grid units. The distance is negative
+    /// inside the area.
     double distance(double x, double y) const;
 };
 
@@ -176,7 +181,7 @@ struct Page {
     std::optional<PageArea> paper;
     /// Reflectance of the table around the paper, relative to the paper.
     double table_reflectance = 0.2;
-    /// Optional function that returns the offset in mm of a dot from its intended place, due to
+    /// Optional function that returns the offset in mm of a dot from its intended position, due to
     /// printing errors or bent paper. The argument is the intersection of the dot, in grid units.
     /// Called from several threads.
     std::function<Vec2(Vec2 place_grid)> shift_mm;
@@ -230,7 +235,7 @@ GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& 
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// A page given as an image, for example a PDF rendered at 1200 dpi. Grey levels between its pixels
+/// A page given as an image, for example a PDF rendered at 1200 dpi. Grey levels between the pixels
 /// are interpolated linearly.
 struct PageImage {
     /// Grey level 255 is bare paper, and 0 is solid ink. Unlimited paper surrounds the page.
@@ -241,9 +246,9 @@ struct PageImage {
     Vec2 centre_mm;
 };
 
-/// Renders the camera's image of a page image. Ignores the position in `pose`, because
-/// `PageImage::centre_mm` replaces it. Also ignores the imperfections of the printer (jitter,
-/// missing dots), dirt and graphics.
+/// Renders the camera's view of a page that is given as an image. Ignores the position in `pose`,
+/// because `PageImage::centre_mm` replaces it. Also ignores the imperfections of the printer
+/// (jitter, missing dots), dirt and graphics.
 GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
@@ -295,8 +300,8 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Kinds of frames without a unique valid position. A locator must reject them. In the two seam
-/// scenes, however, a fix with the position and section of either side is also correct.
+/// Kinds of frames without a unique valid position. A locator must reject these frames. In the two
+/// seam scenes, however, a fix with the position and section of either side is also correct.
 enum class Scene : std::uint8_t {
     black,
     white,
@@ -304,7 +309,7 @@ enum class Scene : std::uint8_t {
     text,            ///< a page of words
     plain_grid,      ///< dots on the intersections, not displaced
     random_symbols,  ///< a perfect grid with random symbols
-    scattered_dots,  ///< dots at random places, `density` per grid cell
+    scattered_dots,  ///< dots at random positions, `density` per grid cell
     checkerboard,    ///< squares with a side of two grid spacings
     seam_vertical,   ///< two sections side by side, with the border through the image centre
     /// Two sections, one above the other, with the border through the image centre.

@@ -1,4 +1,4 @@
-/// Simulated pen: frames of a camera in a pen, and paths of handwriting.
+/// Simulated pen: frames from a camera in a pen, and paths of handwriting.
 ///
 ///     const PenTip tip{0.5, 9, 20};
 ///     for (const PenSample& sample : simulate_handwriting({}))
@@ -22,7 +22,7 @@ namespace dotpose {
 /// is first rotated by `turn_rad` about its optical axis, and then leans by `tilt_rad` in the
 /// direction `azimuth_rad`.
 struct PenPose {
-    double x_mm = 0;  ///< place of the tip in the pattern frame
+    double x_mm = 0;  ///< position of the tip in the pattern frame
     double y_mm = 0;
     double height_mm = 0;  ///< height of the tip above the paper
     double tilt_rad = 0;
@@ -30,15 +30,15 @@ struct PenPose {
     double turn_rad = 0;
 };
 
-/// Returns `shot` with the camera placed in a pen with the given pose. Sets the pose, the working
-/// distance and the scale of the camera. The focal length in px, which is the ratio of
+/// Returns a copy of `shot` with the camera in a pen that has the given pose. Sets the pose, the
+/// working distance and the scale of the camera. The focal length in px, which is the ratio of
 /// `working_distance_mm` to `mm_per_px`, does not change. Throws BadArgument if the camera does not
 /// look down at the paper, or is not above it.
 Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose);
 
 /// Options for simulated handwriting.
 struct Handwriting {
-    double x_mm = 0;  ///< place where the writing begins, in the pattern frame
+    double x_mm = 0;  ///< position at which the writing begins, in the pattern frame
     double y_mm = 0;
     int strokes = 6;
     double rate_hz = 200;  ///< number of samples per second
@@ -52,9 +52,9 @@ struct PenSample {
 };
 
 /// Returns a path of random strokes with loops, in lines of four strokes from left to right.
-/// Between the strokes, the pen is lifted by 1 to 3 mm. After the last stroke, it remains above the
-/// paper. At both ends of a stroke, the pen moves only vertically. The tilt varies slowly between
-/// 20 and 40 degrees.
+/// Between the strokes, the pen is lifted by 1 to 3 mm. After the last stroke, the pen remains
+/// above the paper. At both ends of a stroke, the pen moves only vertically. The tilt varies slowly
+/// between 20 and 40 degrees.
 std::vector<PenSample> simulate_handwriting(const Handwriting& options);
 
 }  // namespace dotpose

@@ -58,8 +58,8 @@ struct CameraInSpace {
 struct CameraLean {
     /// Angle between the optical axis and the normal of the paper, in [0, pi].
     double tilt_rad = 0;
-    /// Direction on the paper in which the camera leans, from +x towards +y, in (-pi, pi]. Not
-    /// defined if the tilt is 0.
+    /// Direction on the paper in which the camera leans, as an angle from +x towards +y, in (-pi,
+    /// pi]. Not defined if the tilt is 0.
     double azimuth_rad = 0;
     /// Angle of the image x axis before the camera leans, from +x towards +y, in (-pi, pi]. Equals
     /// `Fix::theta_rad` if the tilt is 0.
@@ -75,8 +75,8 @@ using SpaceCovariance = std::array<std::array<double, 6>, 6>;
 struct SecondPose {
     CameraInSpace camera;
     /// log2 of a likelihood ratio: the likelihood of the dots with this pose, divided by their
-    /// likelihood with the first pose. Assumes that the errors of the dots are independent. At most
-    /// 0.
+    /// likelihood with the first pose. The value is at most 0. It is computed under the assumption
+    /// that the errors of the dots are independent.
     double odds_log2 = 0;
 };
 
@@ -104,20 +104,20 @@ struct SpacePose {
 void require_focal_length(const Camera& camera);
 
 /// Fits the position and rotation of `camera` to all dots in `image` by maximum likelihood. First,
-/// a preliminary pose is fitted to the dots in `trace`. The preliminary pose predicts the places of
-/// all dots in view, including dots at the image border and far from a tilted camera. These dots
+/// a preliminary pose is fitted to the dots in `trace`. The preliminary pose predicts the positions
+/// of all dots in view, including dots at the image border and far from a tilted camera. These dots
 /// are measured again for the final pose.
 ///
-/// The errors of the dots consist of print errors, which are foreshortened in a tilted view, and of
-/// errors of the dot centres in the image. Both variances are estimated from the residuals. Dots
+/// The errors of the dots are print errors, which are foreshortened in a tilted view, and errors in
+/// the dot centres measured in the image. Both variances are estimated from the residuals. Dots
 /// with residuals above four standard deviations are not used.
 ///
 /// `print` is the print scale of the sheet. `map` is the map of the page, or null. With a map, the
-/// mapped places of the dots replace their nominal places, and dots that were not measured for the
-/// map are ignored. Check the map with `with_print_map` first, because this function does not
-/// detect a map of a different print. Returns nullopt if there is no fix, if the spacing is unknown
-/// (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument if `camera` has
-/// neither a focal length nor a pinhole model.
+/// mapped positions of the dots replace their nominal positions, and dots that were not measured
+/// for the map are ignored. Check the map with `with_print_map` first, because this function does
+/// not detect a map of a different print. Returns nullopt if there is no fix, if the spacing is
+/// unknown (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument if
+/// `camera` has neither a focal length nor a pinhole model.
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
                                     const Trace& trace, const AxisScale& print = {},
                                     const MapPage* map = nullptr);
@@ -144,9 +144,9 @@ struct CameraInWorld {
 CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
                        const WorldPose& page);
 
-/// Returns the pose of a camera in the world frame of the sheet that contains `place`. Returns
-/// nullopt if there is no pose or no place, if the dots do not rule out the second pose, or if the
-/// sheet has no world pose.
+/// Converts the pose of a camera to the world frame, using the world pose of the sheet that
+/// contains `place`. Returns nullopt if there is no pose or no place, if the dots do not rule out
+/// the second pose, or if the sheet has no world pose.
 std::optional<CameraInWorld> certain_in_world(const std::optional<SpacePose>& pose,
                                               const std::optional<SheetPlace>& place);
 

@@ -9,11 +9,11 @@
 ///     }
 ///
 /// The motion model is that of Tracker (track.hpp): accelerations decay towards zero and are driven
-/// by white noise (Singer 1970). It applies to each axis of the position, and to each axis of the
-/// rotation in the camera frame. All poses are in one coordinate frame: the pattern, a sheet, or
-/// any other frame in mm.
+/// by white noise (Singer 1970). The model applies to each axis of the position, and to each axis
+/// of the rotation in the camera frame. All poses are in one coordinate frame: the pattern, a
+/// sheet, or any other frame in mm.
 ///
-/// Printing errors are equal in all frames that show the same dots. The tracker estimates which
+/// Printing errors are equal in all frames that show the same dots. The tracker estimates what
 /// fraction of a sighting's covariance is due to errors that are independent between sightings.
 /// Only this fraction is reduced by smoothing. The rest is added to the covariance of the track.
 #pragma once
@@ -42,9 +42,9 @@ struct SpaceSighting {
 SpaceSighting sighting_of(const SpacePose& pose, std::int64_t time_us, std::uint32_t plane = 0);
 
 /// Converts a pose to a sighting in the world, for a camera that moves over several sheets. `place`
-/// is on the sheet in view. The sighting is in the world frame rotated by 180 degrees about x, in
-/// mm, so y is down and z is into the paper, as in the pattern. Returns nullopt if the sheet has no
-/// world pose.
+/// is the place of the fix on the sheet in view. The sighting is in the world frame rotated by 180
+/// degrees about x, in mm, so y is down and z is into the paper, as in the pattern. Returns nullopt
+/// if the sheet has no world pose.
 std::optional<SpaceSighting> world_sighting(const SpacePose& pose, const SheetPlace& place,
                                             std::int64_t time_us);
 
@@ -123,16 +123,15 @@ struct Motion {
     std::array<double, 6> velocity{};      ///< mm/s, rad/s
     std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
     std::array<double, kStates * kStates> covariance{};
-    /// Process noise along each axis: the variance of the acceleration noise, divided by its
-    /// variance in the options. The first three axes are the position axes. The part of the
-    /// position that is correlated with the rotation in `noise` is subtracted. The last three axes
-    /// are the rotation axes.
+    /// Process noise along each axis: the variance of the acceleration noise, divided by the
+    /// variance in the options. The first three axes are the position, minus the part that is
+    /// correlated with the rotation according to `noise`. The last three axes are the rotation.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
     /// Innovation of the latest accepted sighting, along the axes of `agility`.
     std::array<double, 6> innovation{};
     SpaceCovariance noise{};  ///< covariance of the latest accepted sighting
     /// Fraction of `noise` that is independent of the errors of earlier sightings, and the Fisher
-    /// information about its logarithm.
+    /// information about the logarithm of this fraction.
     double independent = 1;
     double independent_information = 3;
     /// Innovation of the latest accepted sighting, multiplied by the inverse of its covariance.
@@ -155,7 +154,7 @@ class SpaceTracker {
     const SpaceTrack& update(std::int64_t time_us);
 
     /// Predicts the track at a time after the last accepted sighting. The verdict is `none`.
-    /// Returns nullopt while the camera is lost, or for an earlier time.
+    /// Returns nullopt while the camera is lost, or if the time is before that sighting.
     std::optional<SpaceTrack> predict(std::int64_t time_us) const;
 
     const SpaceTrack& track() const { return track_; }
@@ -171,7 +170,7 @@ class SpaceTracker {
     std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
     // The newest unambiguous sighting that was rejected after `accepted_us_`. `rejections_` is the
     // length of the run of rejected sightings that ends with this sighting. In a run, each sighting
-    // is consistent with the previous one.
+    // is consistent with the previous sighting.
     std::optional<SpaceSighting> rejected_;
     int rejections_ = 0;
 };

@@ -1,4 +1,5 @@
-/// Sweep: the score of `locate` for simulated frames as one condition is degraded step by step.
+/// Sweep: the score of `locate` for simulated frames in which one condition is degraded step by
+/// step.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 /// Test page: patches with different dot sizes and spacings, to find the best settings for a
 /// printer.
 ///
-/// The position of each patch encodes its settings. The cell (x, y) at its top left is
+/// The position of each patch encodes its settings. The top left cell (x, y) of a patch is
 ///
 ///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
 ///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)

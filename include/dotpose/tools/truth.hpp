@@ -16,7 +16,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// The true pose of a frame, with the conventions of `Fix`.
+/// The true pose of a frame, using the conventions of `Fix`.
 struct Truth {
     bool has_pose = true;  ///< false if the frame has no readable pattern and must be rejected
     double x_grid = 0;

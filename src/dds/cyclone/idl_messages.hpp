@@ -55,7 +55,7 @@ inline diagnostic_msgs_msg_dds__KeyValue_ idl(const ros::KeyValue& pair) {
     return {idl(pair.key), idl(pair.value)};
 }
 
-/// Converts a sequence in a message to a DDS sequence that points into `buffer`.
+/// Returns a DDS sequence that points to the elements of `buffer`.
 template <typename Sequence, typename Element>
 Sequence sequence_in(std::vector<Element>& buffer) {
     const auto size = static_cast<std::uint32_t>(buffer.size());

@@ -26,12 +26,12 @@ inline constexpr std::size_t kSecurityHeaders = 7;
 
 /// A client connected through a WebSocket.
 struct Client {
-    std::vector<Subscription> subscriptions;     ///< one per topic, in the order of the topics
+    std::vector<Subscription> subscriptions;     ///< one for each topic, in the order of the topics
     std::shared_ptr<const std::string> message;  ///< message that is being sent, or null
     std::size_t sent_bytes = 0;
     bool is_binary = false;
     std::size_t newest_topic = 0;  ///< index of the topic of the last message
-    std::string incoming;          ///< received part of a command
+    std::string incoming;          ///< part of a command received so far
     double messages_left = 0;      ///< number of messages that the client may send now
     Reports::Clock::time_point counted_at;
 };
@@ -40,7 +40,7 @@ struct Client {
 struct Transfer {
     std::string body;
     std::size_t sent_bytes = 0;
-    bool is_last = false;  ///< true to close the connection after the body
+    bool is_last = false;  ///< true to close the connection after sending the body
 };
 
 class Server::Service {
@@ -102,7 +102,7 @@ class Server::Service {
 
     // Used only by `thread_`.
     Reports reports_;
-    std::map<lws*, bool> sockets_;  ///< true after the first request was received
+    std::map<lws*, bool> sockets_;  ///< true once a request has been received
     std::map<lws*, Client> clients_;
     std::map<lws*, Transfer> transfers_;
 };

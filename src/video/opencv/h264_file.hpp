@@ -15,8 +15,8 @@ class H264File {
     /// Returns true if the installed FFmpeg can encode H.264.
     static bool is_available();
 
-    /// Creates the file in the container format of its extension. Width and height must be even.
-    /// Throws Error if the file cannot be created.
+    /// Creates the file in the container format that its extension specifies. Width and height must
+    /// be even. Throws Error if the file cannot be created.
     H264File(const std::string& path, double fps, cv::Size size);
     /// Completes the file unless `finish` was called. Errors are ignored.
     ~H264File();

@@ -1,4 +1,4 @@
-// Draws the results of `locate` over a frame, with captions and the path beside it.
+// Draws the results of `locate` over a frame, with captions and the path beside the frame.
 #pragma once
 
 #include <opencv2/core.hpp>

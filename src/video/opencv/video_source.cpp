@@ -151,8 +151,8 @@ class VideoFile : public capture::FrameSource {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // A file's duration is that of its longest stream, so it is used only if the video is the
-        // only stream.
+        // The duration of a file is that of its longest stream, so the file's duration is used only
+        // if the video is the only stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
@@ -269,7 +269,7 @@ class VideoFile : public capture::FrameSource {
     GreyConverter to_grey_;
     double rate_ = 30;
     double begin_s_ = 0;  ///< time of the first picture in the file
-    double time_s_ = 0;   ///< time of the latest picture, relative to the first one
+    double time_s_ = 0;   ///< time of the latest picture, relative to the first picture
     bool is_lossy_ = false;
     std::int64_t packet_bytes_ = 0;  ///< total size of the decoded packets
     std::int64_t packet_px_ = 0;     ///< total number of pixels of the returned frames

@@ -146,8 +146,8 @@ void make_print_map(const fs::path& folder) {
     page.errors = {2, 3, std::vector(6, MapErrors::Node{2e-8F, 1e-9F, 3e-8F, 0, -1e-10F, 1e-11F})};
     std::string bytes = print_map_bytes({{page}});
     write(folder / "page", {bytes.begin(), bytes.end() - 4});
-    // Version 1 has no error grid, so the 8 bytes of its size are removed. The checksum (4 bytes)
-    // is removed too, because the fuzz target adds it.
+    // Version 1 has no error grid, so the 8 bytes that contain the size of this grid are removed.
+    // The checksum (4 bytes) is also removed, because the fuzz target adds it.
     page.errors = {};
     bytes = print_map_bytes({{page}});
     bytes[8] = 1;

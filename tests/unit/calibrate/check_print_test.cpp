@@ -90,7 +90,7 @@ TEST(CheckPrint, says_when_a_scan_is_too_coarse) {
 TEST(CheckPrint, finds_dots_that_run_together) {
     // The dots have a diameter of 0.31 mm. If two neighbours are displaced towards each other,
     // their centres are 0.339 mm apart, which leaves a gap of 0.03 mm. The gap is smaller than a
-    // pixel of the scan (0.042 mm), so the two dots appear as one.
+    // pixel of the scan (0.042 mm), so the two dots appear as a single dot.
     ScanSettings settings;
     settings.dot_growth = 3.7;
     const PrintCheck result = check(scan_page(small_sheet(), settings), 600);
@@ -101,7 +101,8 @@ TEST(CheckPrint, finds_dots_that_run_together) {
 }
 
 TEST(CheckPrint, tells_other_print_from_faults) {
-    // Draws a grey area, and bars that are 1 mm wide, 5 mm apart and as black as the dots.
+    // Draws a grey area and a series of bars. The bars are 1 mm wide, repeat every 5 mm, and are
+    // about as black as the dots.
     const Sheet sheet = small_sheet();
     ScanSettings settings;
     GreyImage scan = scan_page(sheet, settings);
@@ -134,7 +135,7 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.covered_share(), bars + edge);
 }
 
-// Most of the area of each tile in this scan is blank paper around the card.
+// In this scan, most of the area of each tile is blank paper around the card.
 TEST(CheckPrint, dots_of_a_small_card_on_a_noisy_scan_are_not_covered) {
     SheetOptions options;
     options.paper = {20, 20};

@@ -68,7 +68,7 @@ Camera lens_known_to(double sigma_px) {
 TEST(ImageCoverage, MarksThePartThatAPixelLiesIn) {
     ImageCoverage image(kWidth_px, kHeight_px);
     EXPECT_EQ(image.share(), 0);
-    // Pixel 9 is the last pixel of the first part. Its right border is at 9.5.
+    // Pixel 9 is the last pixel of the first part. The right border of this pixel is at 9.5.
     EXPECT_TRUE(image.add({9.4, 0}));
     EXPECT_FALSE(image.add({0, 9.4}));
     EXPECT_TRUE(image.add({9.6, 0}));

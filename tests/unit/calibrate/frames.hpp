@@ -136,7 +136,7 @@ struct Lying {
 };
 using Table = std::array<Lying, 4>;
 
-/// A table with gaps of 0 to 3 mm between the sheets, and rotations of up to 1 degree.
+/// A table whose sheets are separated by gaps of 0 to 3 mm and rotated by up to 1 degree.
 inline const Table kTable = {Lying{0, 0, 0}, Lying{kPage_mm + 0.2, 0.4, 0.6 * kDegree_rad},
                              Lying{-0.3, kPage_mm + 1.4, -0.3 * kDegree_rad},
                              Lying{kPage_mm + 2.6, kPage_mm + 1.9, -1.0 * kDegree_rad}};
@@ -164,8 +164,8 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// Returns the camera's frame at a position on the table. Renders each sheet alone and takes the
-/// darkest value of each pixel.
+/// Returns the camera's frame at a position on the table. Renders each sheet separately, and takes
+/// the darkest value of each pixel.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
@@ -193,7 +193,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // All sheets have the same light and noise, so the darkest value of a pixel is that of a
+        // All sheets have the same lighting and noise, so the darkest value of a pixel is that of a
         // dot if any sheet has a dot there.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)

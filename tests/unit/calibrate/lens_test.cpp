@@ -51,7 +51,7 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_lens(result, truth);
     ASSERT_TRUE(result.is_mounted);
     const PaperScale& paper = result.camera.paper.value();
-    // The mean scale over the field of view of 188 x 120 px is determined more accurately than the
+    // The mean scale over the 188 x 120 px field of view is determined more accurately than the
     // scale at its centre.
     EXPECT_NEAR(paper.mm_per_px_x, truth.mm_per_px, 5e-4 * truth.mm_per_px);
     EXPECT_NEAR(paper.mm_per_px_y, truth.mm_per_px, 5e-4 * truth.mm_per_px);
@@ -98,7 +98,7 @@ TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
     EXPECT_LT(std::abs(normalised) / std::sqrt(kSeries), kMaxSigmas);
 }
 
-// In the farthest corner, the spacing in pixels is half of that in the middle.
+// In the farthest corner of the image, the spacing in pixels is half as large as in the middle.
 TEST(CalibrateLensAtLength, AStrongTiltIsCoveredToTheCorners) {
     CameraModel truth;
     truth.width_px = 640;
@@ -134,7 +134,8 @@ TEST(CalibrateLensAtLength, FindsTheFocalLengthOfALargeCameraHeldByHand) {
 }
 
 TEST(CalibrateLens, FindsACentreOffTheMiddle) {
-    // The frame is cut out of a larger frame, so the centre of distortion is not in its middle.
+    // The frame is cut out of a larger frame, so the centre of distortion is not in the middle of
+    // the frame.
     CameraModel larger = paper_camera();
     larger.width_px = 200;
     larger.height_px = 124;
@@ -219,7 +220,7 @@ TEST(CalibrateLens, SaysWhatIsWrongWithPoorSeries) {
                                         },
                                         {});
     EXPECT_EQ(blurred.verdict, CalibrationVerdict::out_of_focus) << blurred.dot_width;
-    EXPECT_LT(few.dot_width, 0.25);  // sharp, with a blur of only 0.4 to 0.7 px
+    EXPECT_LT(few.dot_width, 0.25);  // the frames are sharp: their blur is 0.4 to 0.7 px
 }
 
 TEST(CalibrateLens, CountsFramesThatAreGivenTwiceOnce) {

@@ -110,8 +110,8 @@ TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
 }
 
 // The reference point is outside the image, where an estimated lens is less accurate than inside.
-// However, the reference and all fixes use the same lens, so this error has no effect on positions
-// on the paper.
+// However, the reference and all fixes use the same lens, so the lens error has no effect on
+// positions on the paper.
 TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
     const CameraModel model = paper_camera();
     for (const std::uint64_t seed : {61, 62, 63}) {

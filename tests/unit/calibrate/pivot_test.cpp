@@ -83,8 +83,8 @@ TEST(CalibratePivot, FindsTheTip) {
 }
 
 TEST(CalibratePivot, HasTrueDeviationsThoughAllFramesShowTheSamePrint) {
-    // If the covariance treated the frames as independent, the mean of the normalised squares would
-    // be 3.3 instead of 1.
+    // If the covariance treated the frames as independent, the mean of the squared normalised
+    // errors would be 3.3 instead of 1.
     constexpr int kPens = 10;
     double squares = 0;
     for (std::uint64_t pen = 0; pen < kPens; ++pen) {
@@ -169,7 +169,7 @@ TEST(TipOf, IsTheTipOfTheSimulatedPen) {
     EXPECT_NEAR(tip.y_mm, kY_mm, 4 * tip.sigma_mm(1));
     EXPECT_NEAR(tip.height_mm, 1.5, 4 * tip.sigma_mm(2));
     EXPECT_LT(tip.sigma_mm(2), 0.03);
-    // The uncertainty of the tip in the camera file is added to the covariance.
+    // The tip uncertainty in the camera file is added to the covariance.
     const TipPose uncertain =
         tip_of(*space, kTip, {{"tip_x_mm", 1}, {"tip_y_mm", 1}, {"tip_z_mm", 1}});
     EXPECT_NEAR(uncertain.sigma_mm(0), 1, 0.001);

@@ -1,4 +1,4 @@
-/// Creates a small print, and returns the faults found on its scan.
+/// Creates a small print, and returns the faults found in its scan.
 #pragma once
 
 #include <numbers>

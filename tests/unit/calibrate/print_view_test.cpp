@@ -1,4 +1,4 @@
-// Tests how photos and scans are distinguished by the geometry of the page. The geometry is
+// Tests how photos are distinguished from scans by the geometry of the page. The geometry is
 // computed independently of the code under test.
 #include "calibrate/print_view.hpp"
 

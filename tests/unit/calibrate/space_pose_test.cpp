@@ -429,8 +429,8 @@ TEST(SpacePose, IsMovedToTheSheetAndTheWorld) {
     EXPECT_NEAR(on_page.y_mm, 20 + 50 * 0.508, 1e-6);
     EXPECT_EQ(on_page.z_mm, -30);
 
-    // The page is turned to the left by a quarter turn, so its x axis points up in the world. Its y
-    // axis, which is down on the page, points to the right.
+    // The page is rotated anticlockwise by a quarter turn, so its x axis points up in the world.
+    // Its y axis, which points down on the page, points to the right in the world.
     SpaceCovariance covariance{};
     covariance[0][0] = 4;
     covariance[3][3] = 1e-6;

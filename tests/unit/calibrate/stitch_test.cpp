@@ -25,7 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Returns a frame taken at the middle of one sheet.
+/// Returns a frame taken in the middle of sheet a.
 GreyImage plain_frame(const CameraModel& camera, int index) {
     return table_frame(kTable, camera, 62, index, 30, 30, 0.1 * index);
 }
@@ -72,7 +72,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     for (const Seam& seam : stitching.seams)
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
-    // World positions must be correct on different sheets, including far from the seams.
+    // World positions must be correct on different sheets, even far from the seams.
     Locator locator{DeviceOptions{}};
     Camera camera = true_camera(model);
     // The reference point is 20 mm to the right of the image centre, so that a wrong scale
@@ -115,7 +115,7 @@ TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
     EXPECT_LT(off_mm(stitching.sheets[1].world.value(), table[1]), 0.05);
 }
 
-/// Returns frames along the upper seam, which show the sheets a and b.
+/// Returns frames along the upper seam, which show sheets a and b.
 FrameAt upper_seam(const Table& table, const CameraModel& model) {
     return [&](int i) {
         return table_frame(table, model, 65, i, kPage_mm + 0.5, 8 + 2.0 * i, 0.7 * i);
@@ -133,8 +133,8 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
         EXPECT_NEAR(stitching.sheets[i].print_scale_x, x, 5 * sheet.sigma_scale_x) << i;
         EXPECT_NEAR(stitching.sheets[i].print_scale_y, y, 5 * sheet.sigma_scale_y) << i;
     };
-    // The mean scale of the first sheet in the file is 1 and is kept. The other scales are computed
-    // relative to the first sheet.
+    // The mean scale of the first sheet in the file remains 1. All scales are relative to this
+    // sheet.
     const auto relative = stitch_sheets(25, frame_at, sheets_of_table(), true_camera(model), {});
     expect_scale(relative, 0, 1.001, 0.999);
     expect_scale(relative, 1, 1.001 / 1.003, 1.003 / 1.003);
@@ -190,7 +190,7 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         return text.str();
     };
     EXPECT_THAT(picture(), HasSubstr("not all of these sheets had a world pose"));
-    // In the sheet file, the sheet is 1 mm to the right of its true position. The error is 1 mm
+    // Before the stitching, sheet b is 1 mm to the right of its true position. The error is 1 mm
     // along x and 0 along y, which is 0.71 mm rms per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
@@ -239,7 +239,7 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     const CameraModel model = wide_camera();
     std::vector<SheetEntry> entries = sheets_of_table();
     entries[1].world = WorldPose{1.25, -0.5, 0.3};
-    // The frames show only the upper seam, with the sheets a and b.
+    // The frames show only the upper seam, with sheets a and b.
     const auto frame_at = [&](int i) {
         return table_frame(kTable, model, 64, i, kPage_mm + 0.5, 10 + 2.0 * i, 0.7 * i);
     };

@@ -253,7 +253,7 @@ Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     tiff.integers(2, {kEntries});
     append_entry(tiff, {256, 1, number(raster.width_px), true});
     append_entry(tiff, {257, 1, number(raster.height_px), true});
-    // Two shorts fit into the entry itself. The first one is at the lower address.
+    // Two shorts fit into the entry itself. The first short is at the lower address.
     const std::uint64_t two_bits = big_endian ? bits << 16 | bits : bits | bits << 16;
     append_entry(tiff, {258, channels, channels == 1 ? bits : channels == 2 ? two_bits : kBitsAt});
     append_entry(tiff, {259, 1, 1});

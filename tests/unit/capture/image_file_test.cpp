@@ -337,7 +337,8 @@ TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
         EXPECT_EQ(read(encode_pnm(raster, false, 65535)).pixels, levels);
         EXPECT_EQ(read(encode_pnm(raster, true, 65535)).pixels, levels);
     }
-    // If the file contains a maximum value, the reader uses it instead.
+    // If a PNM file declares a maximum value below 65535, the reader scales by that value instead
+    // of by the bits in use.
     EXPECT_EQ(read(encode_pnm(ten, false, 1023)).pixels, of_ten);
     EXPECT_EQ(read(encode_pnm(ten, false, 40000)).pixels, (Bytes{0, 3, 4, 7}));
 }
@@ -395,8 +396,8 @@ TEST_F(ImageFileTest, survives_random_damage) {
         int refused = 0;
         for (int round = 0; round < kRounds; ++round) {
             Bytes bytes = sample.bytes;
-            // Every other round damages only the first 200 bytes, which contain the headers, where
-            // damage has the largest effect.
+            // Every other round damages only the first 200 bytes. These bytes contain the headers,
+            // where damage has the largest effect.
             const std::size_t reach = round % 2 == 0 ? bytes.size() : std::size_t{200};
             for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips) {
                 bytes[random() % reach] = static_cast<std::uint8_t>(random());

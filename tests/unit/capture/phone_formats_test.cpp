@@ -161,8 +161,8 @@ TEST_P(PhoneFormatTest, SurvivesRandomDamage) {
     const Bytes whole = bytes_of(image);
     for (int round = 0; round < 500; ++round) {
         Bytes damaged = whole;
-        // Every other round damages only the first 400 bytes, which contain the headers, where
-        // damage has the largest effect.
+        // Every other round damages only the first 400 bytes. These bytes contain the headers,
+        // where damage has the largest effect.
         const std::size_t reach = round % 2 == 0 ? whole.size() : std::size_t{400};
         for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips)
             damaged[random() % reach] = static_cast<std::uint8_t>(random());

@@ -1,4 +1,4 @@
-// Tests the detection of source kinds, and lists of sources.
+// Tests the cropping of images to a region.
 #include "capture/source_list.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests coloured reports, and durations in words.
+// Tests the colouring of reports and the text of durations.
 #include "terminal_text.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Uses enumeration to test the properties of the sequences that dotpose relies on. They are
-// documented in docs/position-code.md.
+// Enumerates the sequences, to test the properties on which dotpose relies. docs/position-code.md
+// lists these properties.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Tests the table of the minimum number of unshared lines of two places in different code variants.
-// Two places share a line at shift s if their rolls of this line differ by s. The expected numbers
-// are obtained by counting lines with different rolls in the sequences of the reference
+// Tests the table of the minimum number of lines that two places in different code variants do not
+// share. Two places share a line at shift s if their rolls in this line differ by s. The expected
+// numbers are obtained by counting lines with different rolls in the sequences of the reference
 // implementation.
 #include "code/unshared_codes.hpp"
 

@@ -1,5 +1,5 @@
-// Tests the tables of the minimum number of unshared lines of two places in a sequence. Two places
-// share a line at shift s if their rolls of this line differ by s. The expected numbers are
+// Tests the tables of the minimum number of lines that two places in a sequence do not share. Two
+// places share a line at shift s if their rolls in this line differ by s. The expected numbers are
 // obtained by counting lines.
 #include "code/unshared_lines.hpp"
 

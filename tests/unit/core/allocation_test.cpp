@@ -26,8 +26,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// The other forms of `new` call one of these two. The operators are not inlined because GCC warns
-// about `new` and `free` if it inlines only one of them.
+// The other forms of `new` call one of these two operators. No operator is inlined, because GCC
+// warns about `new` and `free` if it inlines only `new` or only `delete`.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     return counted(size, alignof(std::max_align_t));
 }
@@ -50,8 +50,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 namespace dotpose::core_test::allocation_test {
 namespace {
 
-/// Returns frames with all outcomes: located by the first attempt, located by the second attempt,
-/// and refused.
+/// Returns frames that cover all outcomes: located by the first attempt, located by the second
+/// attempt, and refused.
 std::vector<GreyImage> frames_of(int width_px, int height_px) {
     std::vector<GreyImage> frames;
     for (const Preset preset : kPresets) {

@@ -58,7 +58,7 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     }
 }
 
-/// The two thresholds at one column of the band that was measured last.
+/// The two thresholds at one column of the most recently measured band.
 struct Levels {
     int low = 0;
     int high = 0;

@@ -87,8 +87,8 @@ struct PlacedDot {
     Vec2 centre_px;
 };
 
-/// Returns the dots of all cells |i|, |j| <= `reach` inside the image, displaced by displacement(i,
-/// j), in spacings.
+/// Returns the dots of the cells with |i|, |j| <= `reach`, except dots outside the image.
+/// displacement(i, j) returns the displacement of a dot, in spacings.
 template <typename Displacement>
 std::vector<PlacedDot> placed_dots(const Mesh& mesh, int reach, Vec2 image_px,
                                    Displacement displacement) {
@@ -183,7 +183,7 @@ inline View random_view(Rng& rng) {
     return view;
 }
 
-/// A grid of the matrices P that owns its cells.
+/// A grid of matrices P, with storage for its cells.
 struct OwnedGrid {
     explicit OwnedGrid(int side)
         : cells(static_cast<std::size_t>(side) * static_cast<std::size_t>(side)) {

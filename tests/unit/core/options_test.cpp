@@ -1,5 +1,5 @@
-// Tests the ranges of options. Values in a range must not cause an overflow in any stage, and
-// values outside must be refused.
+// Tests the ranges of options. Values within the range must not cause an overflow in any stage, and
+// values outside the range must be refused.
 #include <climits>
 #include <cstdint>
 #include <functional>
@@ -22,7 +22,7 @@ GreyImage a_frame() {
     return render(draw_shot(setup, 0));
 }
 
-/// A field, and the ends of its range as documented in device_options.hpp.
+/// An option and the limits of its range, as documented in device_options.hpp.
 struct Range {
     const char* field;
     std::function<void(DeviceOptions&, int)> set;

@@ -1,12 +1,12 @@
-// Random planes, and their formula in double precision.
+// Random planes, and the plane formula in double precision.
 #pragma once
 
 #include "geometry.hpp"
 
 namespace dotpose::core_test {
 
-/// Returns the pattern point that an image point shows, computed in double precision with the
-/// formula in PlaneFromImage.
+/// Returns the pattern point seen at an image point. Evaluates the formula in PlaneFromImage in
+/// double precision.
 inline Vec2 formula(const PlaneFromImage& plane, Vec2 p) {
     const Vec2 r = p - real(plane.centre_q8, 8);
     const Vec2 perspective = real(plane.perspective_q30, 30);

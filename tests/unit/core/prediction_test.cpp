@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 73;
 
-/// Returns the pattern point that an image point shows, in spacings from the cell `from`.
+/// Returns the pattern point seen at an image point, in spacings relative to the cell `from`.
 Vec2 seen_from(const Prediction& p, Vec2 px, Cell from) {
     const Vec2 at = formula(p.pattern_from_image, px);
     return {at.x + p.place.cell.x - from.x, at.y + p.place.cell.y - from.y};

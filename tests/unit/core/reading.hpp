@@ -40,7 +40,7 @@ struct Reading {
     QuarterTurn turn;
     std::vector<DetectedDot> dots;
     OwnedGrid owned;
-    FixedVec zero;  ///< steps on the pattern from `view.place` to the grid's cell (0, 0)
+    FixedVec zero;  ///< pattern steps from `view.place` to the grid's cell (0, 0)
     PlaneFromImage plane;
     Status status;
     Decoding decoding;  ///< only the regions to decode are set

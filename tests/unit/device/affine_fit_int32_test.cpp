@@ -87,8 +87,8 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
         ASSERT_TRUE(fit.solve(0, plane));
         const Solution x = least_squares(pairs, &FixedVec::x);
         const Solution y = least_squares(pairs, &FixedVec::y);
-        // The moments have about 28 bits. Slopes are therefore accurate to 3 * 2^-24, and values at
-        // the edges of the view to 1/1000 spacing.
+        // The moments have about 28 significant bits. Slopes are therefore accurate to 3 * 2^-24,
+        // and values at the edges of the view to 1/1000 spacing.
         constexpr double kSlope = 3.0 / (1 << 24);
         EXPECT_NEAR(std::ldexp(plane.du_q24.x, -24), static_cast<double>(x.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.x, -24), static_cast<double>(x.dv), kSlope);
@@ -175,7 +175,7 @@ TEST(AffineFitInt32, AgreesWithTheFitInDoublePrecision) {
 }
 
 TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
-    // Targets are exact points of a known plane, rounded to `bits` bits.
+    // Targets are points of a known plane, rounded to `bits` fractional bits.
     Rng rng(kSeed);
     for (int i = 0; i < 100; ++i) {
         const int bits = i % 11;
@@ -189,9 +189,10 @@ TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
         }
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(bits, plane));
-        // Rounding a target to `bits` bits causes an rms error of 0.29 units in the last bit. The
-        // error of the mean of 400 targets is 1/20 of this, and the error of the plane at the image
-        // edges is up to 3/20 of this. The tolerance is five standard deviations of the mean.
+        // Rounding a target to `bits` fractional bits causes an rms error of 0.29 units in the last
+        // bit. The error of the mean of 400 targets is 1/20 of this, and the error of the plane at
+        // the image edges is up to 3/20 of this. The tolerance is five standard deviations of the
+        // mean.
         const double tolerance = std::ldexp(5 * 0.29 / 20, -bits) + 1e-4;
         const Vec2 zero = mesh.inverse({0, 0});
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, zero.x, tolerance);

@@ -53,8 +53,8 @@ TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
         const Lattice first = lattice_of(spoilt(mesh, rng));
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, plane), Status::ok);
-        // Dots more than 500 cells away are ignored. The additional dots are at 530 cells because
-        // the first estimate may be 3 % too wide.
+        // Dots more than 500 cells away are ignored. The additional dots are 530 cells away because
+        // the first estimate of the spacing may be 3 % too large.
         const Vec2 far = mesh.at(530, 0);
         dots.resize(dots.size() + 5000, dot_at(far));
         PlaneFromImage same;
@@ -71,8 +71,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
         const Mesh mesh = small_mesh(rng);
         const auto placed = displaced_dots(mesh, 20, kImage_px, rng);
-        // One dot in six is missing. For one dot in twelve, a spurious dot is added at a random
-        // position. A stroke hides a strip.
+        // One dot in six is missing, and so are all dots in a strip, as if hidden by a stroke. For
+        // one dot in twelve, a spurious dot is added at a random position.
         const double strip = rng.uniform(20, 160);
         std::vector<DetectedDot> dots;
         for (const PlacedDot& d : placed) {

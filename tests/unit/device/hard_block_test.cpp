@@ -1,4 +1,4 @@
-// Tests the lines of a block in all orientations against the code, bit by bit.
+// Compares the lines of a block with the code, bit by bit, in all orientations.
 #include "device/hard_block.hpp"
 
 #include <gtest/gtest.h>

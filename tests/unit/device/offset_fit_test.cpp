@@ -1,4 +1,4 @@
-// Tests that the fit recovers the affine map by which the dots are offset.
+// Tests that the fit recovers the affine map that displaces the dots.
 #include "device/offset_fit.hpp"
 
 #include <array>
@@ -23,8 +23,8 @@ DetectedDot dot_at(double x_px, double y_px) {
 TEST(OffsetFit, RemovesAffineOffsets) {
     Rng rng(8);
     for (int round = 0; round < 200; ++round) {
-        // Small views with 28 dots, and views of about 196 px with 400 dots. The offsets are less
-        // than an eighth of a cell.
+        // Alternates between small views with 28 dots and views of about 196 px with 400 dots. The
+        // offsets are less than an eighth of a cell.
         const double half_px = round % 2 == 0 ? 16 : 97;
         const int dots = round % 2 == 0 ? 28 : 400;
         const double slope = 0.1 / half_px / 3;

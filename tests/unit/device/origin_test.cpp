@@ -1,5 +1,5 @@
-// Tests the origin of the grid, which is computed from the phases of the dots, with displaced,
-// missing and spurious dots.
+// Tests the computation of the grid origin from the phases of the dots. Dots may be displaced,
+// missing or spurious.
 #include "device/origin.hpp"
 
 #include <numeric>
@@ -33,8 +33,7 @@ double off_intersection(const Mesh& mesh, Vec2 p) {
     return std::max(std::abs(g.x - std::round(g.x)), std::abs(g.y - std::round(g.y)));
 }
 
-/// Expects that the origin is the intersection nearest to `near_px`, within a tolerance in
-/// spacings.
+/// Expects that the origin is the intersection nearest to `near_px`, within `tolerance` spacings.
 void expect_origin(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near_px,
                    double tolerance) {
     const Vec2 origin = origin_of(dots, mesh, near_px);
@@ -62,7 +61,7 @@ TEST(Origin, IsThatOfAPlainGrid) {
     for_many_grids([](const Mesh& mesh, Rng&) {
         const auto dots =
             dots_of(placed_dots(mesh, 20, kImage_px, [](int, int) { return Vec2{}; }));
-        // The tolerance allows for the rounding of dots to 1/8 px.
+        // The tolerance allows for the rounding of dot centres to 1/8 px.
         expect_origin(dots, mesh, kCentre_px, 0.02);
     });
 }

@@ -1,5 +1,5 @@
-// Tests the upper bound on the probability that a place on known sheets is wrong, against a sum
-// over all places in double precision.
+// Compares the upper bound on the probability of a wrong place on known sheets to a sum over all
+// places in double precision.
 #include "device/sheet_odds.hpp"
 
 #include <cmath>
@@ -38,8 +38,8 @@ int wrong_bits(const core::HardBlock& block, int quarters, const Place& corner) 
     return wrong;
 }
 
-/// Returns the sum of the odds of all places except the upright place at `corner`, relative to the
-/// odds of this place.
+/// Returns the total odds of all places except the upright place at `corner`, relative to the odds
+/// of that place.
 double odds_of_others(const core::HardBlock& block, const Place& corner) {
     const int wrong = wrong_bits(block, 0, corner);
     const double per_bit =

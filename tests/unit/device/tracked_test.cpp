@@ -135,7 +135,7 @@ TEST_F(DeviceTracked, FollowsTheShearOfRollingShutters) {
     Locator desktop;
     struct Motion {
         double px;          ///< motion of the scene during the readout
-        int min_predicted;  ///< minimum number of located frames on a desktop, out of 40
+        int min_predicted;  ///< minimum number of frames, out of 40, that a desktop locates
         int min_percent;    ///< minimum percentage of these frames that a device tracks
     };
     for (const Motion& motion : {Motion{24, 40, 85}, Motion{36, 38, 65}, Motion{72, 28, 55}}) {
@@ -176,7 +176,8 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
 }
 
 /// Returns the wrong place whose first 20 columns are hardest to distinguish from those of `place`.
-/// It differs in one secondary sequence and in the section, and shares the maximum number of rolls.
+/// The wrong place differs in one secondary sequence and in the section. It has the maximum number
+/// of equal rolls.
 Place worst_alternative(Place place) {
     constexpr std::size_t kLines = 20;
     const code::Basis& basis = code::basis(CodeVariant::anoto);
@@ -233,8 +234,8 @@ TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
         std::swap(wrong[5].pattern_from_image.du_q24, wrong[5].pattern_from_image.dv_q24);
         wrong[5].pattern_from_image.du_q24.x *= -1;
         wrong[5].pattern_from_image.du_q24.y *= -1;
-        // The alternative must share the columns in view, so the prediction is relative to the
-        // first column in view.
+        // `worst_alternative` compares columns from its argument onwards. The argument is therefore
+        // the place of the first column in view, and the prediction is relative to that column.
         const Place first = moved(CodeVariant::anoto, right.place,
                                   (right.pattern_from_image.at_centre_q16.x >> 16) - 10, 0);
         wrong[6].place = worst_alternative(first);

@@ -21,7 +21,7 @@ template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
     static constexpr int kHeight_px = Height;
-    /// The number of dots used in a fix must be greater than this. The dots are 11 px apart.
+    /// A fix must use more than this number of dots. The dots are 11 px apart.
     static constexpr int kMinDots = MinDots;
     /// log2 of the maximum probability of a wrong position. It is larger for the smallest frames
     /// because they have too few dots for the default maximum.
@@ -134,7 +134,7 @@ TYPED_TEST(DeviceWorkspace, RefusesLargerFrames) {
     constexpr int kWidth_px = TypeParam::kWidth_px;
     EXPECT_EQ(this->locator_.begin(kWidth_px + 1, 120), Status::image_too_large);
     EXPECT_EQ(this->locator_.begin(kWidth_px, 4097), Status::image_too_large);
-    // If a frame is both wide and tall, it has more bands of tiles than the workspace can hold.
+    // A frame that is both wide and tall needs more bands of tiles than the workspace can hold.
     const int max_px = kWidth_px == 320 ? 240 : 4096;
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px), Status::ok);
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px + 1), Status::image_too_large);

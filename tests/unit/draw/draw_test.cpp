@@ -195,7 +195,8 @@ TEST_P(DrawTurned, letters_are_those_of_the_pattern) {
         const char expected = letter(symbol_at(pattern.code, place.cell, place.section));
         if (std::tolower(mark.letter) != expected) ++errors;
     }
-    // A misread dot has one or two wrong bits, so there are no more misread dots than bit errors.
+    // A misread dot has one or two wrong bits, so the number of misread dots is at most the number
+    // of bit errors.
     EXPECT_LE(errors, static_cast<std::size_t>(located.fix.bit_errors));
     EXPECT_LE(errors, 1U);
     EXPECT_EQ(count(symbols, "stroke=\"#d500f9\""), errors);

@@ -82,8 +82,8 @@ TEST(sheet_map, shows_every_sheet_where_it_lies_with_y_up) {
     EXPECT_THAT(svg, HasSubstr(">straight</text>"));
     EXPECT_THAT(svg, HasSubstr(">turned</text>"));
     EXPECT_THAT(svg, Not(HasSubstr("Without a pose")));
-    // The scale bar is the longest round length that is less than two fifths of the width of the
-    // box. The box is 0.25 m wide, so the bar is 0.1 m long.
+    // The scale bar is the longest round length that is less than two fifths of the box width. The
+    // box is 0.25 m wide, so the bar is 0.1 m long.
     EXPECT_THAT(svg, HasSubstr(">100 mm</text>"));
     EXPECT_THAT(svg, HasSubstr(R"(class="axis")"));
 }
@@ -107,8 +107,8 @@ TEST(sheet_map, shows_sheets_without_a_pose_beside_the_world) {
         for (std::size_t j = 1; j < i; ++j)
             EXPECT_NE(found[i][0], found[j][0]) << "one over the other";
     }
-    // The origin is two metres away. If the map contained it, the page of 0.1 m would be too small
-    // to be visible.
+    // The origin is two metres away. If the map contained the origin, the page, which is 0.1 m
+    // wide, would be too small to be visible.
     EXPECT_THAT(svg, Not(HasSubstr(R"(class="axis")")));
 }
 

@@ -195,9 +195,9 @@ Fix uncertain_fix() {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// Returns J C J^T. Column k of J is the change of the pose if the fix moves along coordinate k,
-/// per spacing or radian. J is computed from central differences, so the test does not depend on
-/// formulas for the derivatives.
+/// Returns J C J^T. Column k of J is the derivative of the pose with respect to coordinate k of the
+/// fix, in spacings or radians. J is computed from central differences, so the test does not depend
+/// on formulas for the derivatives.
 template <typename PoseOf>
 Matrix expected_covariance(const Fix& fix, const PoseOf& pose_of) {
     const auto moved_by = [&fix](std::size_t coordinate, double sign) {

@@ -1,4 +1,4 @@
-// Tests the print parameters of pages, and the renaming of sheets, in sheet files.
+// Tests the print parameters of pages in sheet files, and the renaming of sheets.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -75,7 +75,7 @@ TEST(read_sheets, reads_the_example_of_the_documentation) {
     write_file(directory / "s.json", page.substr(first, page.find("```", first) - first));
     const auto sheets = read_sheets(directory / "s.json");
     ASSERT_EQ(sheets.size(), 1U);
-    // The documented example must be the entry that the command above it writes.
+    // The documented example must match the entry that the command above the example writes.
     SheetFile file(directory / "other.json");
     const SheetEntry table = file.allocate("table", make_sheet({}))[0];
     EXPECT_EQ(sheets[0].sheet.origin, table.sheet.origin);

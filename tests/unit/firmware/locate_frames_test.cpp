@@ -1,4 +1,5 @@
-// Tests the program that all devices share. The functions of `host` read from and write to strings.
+// Tests the program that is common to all devices. The functions of `host` read from and write to
+// strings.
 #include "locate_frames.hpp"
 
 #include <cstring>

@@ -78,8 +78,8 @@ TEST(FlatField, LetsAFollowerLocateFramesWithVignetting) {
     options.sheets = {page};
     options.has_only_sheets = true;
     const int without = located_frames(options);
-    // The simulated light decreases with the square of the distance from the image centre, to 1 -
-    // vignetting = 0.5 in the corners.
+    // The simulated brightness decreases with the square of the distance from the image centre, to
+    // 1 - vignetting = 0.5 in the corners.
     std::vector<std::vector<double>> field(9, std::vector<double>(9));
     for (int row = 0; row < 9; ++row) {
         for (int column = 0; column < 9; ++column) {

@@ -30,7 +30,7 @@ Camera mounted_camera(const CameraModel& model, double theta_offset_rad) {
     return camera;
 }
 
-/// Returns a sheet whose region contains the place where the robot turns.
+/// Returns a sheet whose region contains the point about which the robot turns.
 SheetEntry sheet_around_pivot() {
     SheetEntry entry;
     entry.name = "floor";

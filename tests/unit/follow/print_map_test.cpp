@@ -234,7 +234,7 @@ TEST(PrintMapOfAPrintWithoutWave, CorrectsPosesInSpace) {
         with += error2(after);
         variance += after.space->covariance[0][0] + after.space->covariance[1][1];
     }
-    // The camera is 16 mm above the page, so an error of its tilt also displaces its position.
+    // The camera is 16 mm above the page, so a tilt error also displaces the camera position.
     EXPECT_LT(with, without / 9);
     EXPECT_LT(with, 4 * variance);
 }

@@ -39,7 +39,7 @@ Quaterniond rotation_of(const CameraInSpace& camera) {
     return {q.w, q.x, q.y, q.z};
 }
 
-/// Returns the true pose of a camera in a moving hand, with tilts up to 30 degrees.
+/// Returns the true pose of a camera in a moving hand, with tilts of up to 30 degrees.
 CameraInSpace hand_at(double t_s) {
     const Quaterniond turn(AngleAxisd(0.3 * t_s, Vector3d::UnitZ()));
     const Quaterniond roll(AngleAxisd(0.35 * std::sin(1.1 * t_s), Vector3d::UnitX()));
@@ -67,9 +67,9 @@ Matrix6 matrix_of(const SpaceCovariance& covariance) {
     return matrix;
 }
 
-/// Makes sightings with correlated errors. As in views of a plane, an error of the tilt also causes
-/// an error of the position. `correlation` is the correlation between the errors of consecutive
-/// sightings, which share most of their dots.
+/// Makes sightings with correlated errors. As in views of a plane, a tilt error also causes a
+/// position error. `correlation` is the correlation between the errors of consecutive sightings,
+/// which have most of their dots in common.
 class Eye {
   public:
     explicit Eye(double scale = 1, double correlation = 0, std::uint64_t seed = 5)
@@ -259,8 +259,8 @@ TEST(SpaceTrack, HasTheVelocityOfTheCamera) {
 CameraInSpace mirrored(const CameraInSpace& camera) {
     const Quaterniond half(0, 0, 0, 1);
     const Quaterniond q = rotation_of(camera);
-    // q is the product of a turn about the vertical and a lean. The mirrored pose leans to the
-    // opposite side.
+    // q is the product of a turn about the vertical and a tilt (`lean`). The mirrored pose is
+    // tilted in the opposite direction.
     const double turn = 2 * std::atan2(q.z(), q.w());
     const Quaterniond about_z(AngleAxisd(turn, Vector3d::UnitZ()));
     const Quaterniond lean = about_z.conjugate() * q;

@@ -58,7 +58,7 @@ Fix pushed(const GreyImage& image, AnyLocator&& locator) {
     for (int v = 0; v < image.height_px; ++v) {
         std::copy_n(image.view().row(v), image.width_px, row.begin());
         locator.push_row(row.data());
-        // The locator must not need the pixels after `push_row`.
+        // The locator must not access the pixels after `push_row` has returned.
         std::fill(row.begin(), row.end(), std::uint8_t{0});
     }
     return locator.finish();
@@ -216,7 +216,7 @@ TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
 }
 
 TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
-    // Frames of other sizes and refused frames in between must have no effect.
+    // Frames of other sizes and refused frames that come in between must have no effect.
     const auto used_memory = std::make_unique<LargeMemory>();
     Locator used(*used_memory, DeviceOptions{});
     const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));
@@ -316,8 +316,8 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
             const Fix fix = Locator(memory, options).locate(frame.view());
             ASSERT_EQ(fix.status, Status::ok);
-            // Pattern point that the pixel shows according to the camera model, in spacings from
-            // the true pose.
+            // Pattern point seen by the pixel according to the camera model, in spacings relative
+            // to the true pose.
             const Vec2 pixel = Vec2{93.5, 59.5} + offset;
             const Vec2 from_pose = 1 / kDefaultSpacing_mm *
                                    Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
@@ -328,8 +328,8 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             const double tolerance = 0.01 + length(offset) * 1e-4;
             EXPECT_NEAR(x, from_pose.x, tolerance);
             EXPECT_NEAR(y, from_pose.y, tolerance);
-            // The fit may interpret noise as a slight tilt, so the direction of the axes varies
-            // across the image, and even more outside.
+            // The fit may interpret noise as a slight tilt. The direction of the axes therefore
+            // varies across the image, and varies more outside the image.
             const double apart_rad =
                 std::remainder(fix.theta_rad() - at_centre.theta_rad(), 2 * std::numbers::pi);
             EXPECT_NEAR(apart_rad, 0, 1e-4 * std::max(1.0, length(offset) / 100));

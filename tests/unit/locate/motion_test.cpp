@@ -38,8 +38,8 @@ Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
     return next;
 }
 
-/// Returns a random motion: a displacement by half of `view_mm` in any direction, and a rotation of
-/// up to 0.5 rad.
+/// Returns a random motion: a displacement by half of `view_mm` in a random direction, and a
+/// rotation of up to 0.5 rad.
 MeasuredMotion draw_motion(double view_mm, Rng& rng) {
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     MeasuredMotion motion;
@@ -146,7 +146,7 @@ TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
 }
 
 // Only the order of magnitude of the motion is known. The exact motion can be computed from the
-// dots that two frames share.
+// dots that two frames have in common.
 TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
     const Series series =
         run_series(locator_, {.width_px = 90, .height_px = 90}, 40, 0.8F, 0.3F, false);
@@ -156,8 +156,8 @@ TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
     EXPECT_EQ(series.located[5], 40);
 }
 
-// Before each frame, the robot is put down at another place, but its odometry reports no motion. No
-// frame may be located, because a fix would combine bits of different places.
+// Before each frame, the robot is put down at another position, but its odometry reports no motion.
+// No frame may be located, because a fix would combine bits from different places.
 TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     const MeasuredMotion none{.sigma_mm = 0.05F, .sigma_rad = 0.02F};
@@ -171,8 +171,8 @@ TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     EXPECT_EQ(located, 0);
 }
 
-// Between the views of a series, there are frames without a pattern. Their motions must be
-// accumulated, but the frames must have no other effect.
+// Between the views of a series, there are frames without a pattern. The motions of these frames
+// must be accumulated, but the frames must have no other effect.
 TEST_F(FramesReadTogether, FramesWithoutAPatternAreSkipped) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     int located = 0;

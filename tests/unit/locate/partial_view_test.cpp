@@ -1,4 +1,4 @@
-// Tests views that are only partly covered by the pattern. A single attempt must locate them.
+// Tests that a single attempt locates views that are only partly covered by the pattern.
 #include <functional>
 #include <memory>
 
@@ -77,8 +77,8 @@ TEST(PartialViews, DotsAmongGraphicsAreLocatedAtOnce) {
     expect_located_at_once(shot_with_graphics);
 }
 
-/// The device attempt starts at the centroid of the dots, which noise on blank paper must not
-/// shift.
+/// The device attempt starts at the centroid of the dots. Noise on blank paper must not shift this
+/// centroid.
 TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
     const auto memory = std::make_unique<LargeMemory>();
     DeviceOptions options;

@@ -138,7 +138,7 @@ TEST(LocateTracked, FollowsTheFixOfTheFrameBefore) {
         Shot shot = shot_of({}, kSeed, i);
         Fix fix = Locator(large_memory(), DeviceOptions{}).locate(render(shot).view());
         ASSERT_EQ(fix.status, Status::ok);
-        // The light is halved, and the camera moves a little.
+        // The brightness is halved, and the camera moves a little.
         shot.imperfections.paper_level *= 0.5;
         shot.pose.fraction_x += 0.2;
         shot.pose.theta_rad += radians(1);

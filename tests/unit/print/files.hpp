@@ -17,7 +17,7 @@ class TemporaryDirectory {
     TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    /// Returns the names of all files in the directory, including hidden ones, sorted.
+    /// Returns the sorted names of all files in the directory, including hidden files.
     std::vector<std::string> names() const;
     const std::filesystem::path& path() const { return path_; }
 

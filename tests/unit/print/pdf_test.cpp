@@ -98,9 +98,9 @@ Marks marks_of(const std::string& content, double height_mm) {
 TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const Sheet sheet = make_sheet(small_page(10));
     const Marks marks = marks_of(content_of_labels(sheet, {1, 1}, named()), sheet.height_mm);
-    // The last ticks are at the last whole millimetres before the end of the dots: at 89 mm on the
-    // ruler above the dots, and at 49 mm on the ruler beside them. There are no ticks from 5 to 9
-    // mm, where the arrows are.
+    // On each ruler, the last tick is at the last whole millimetre before the end of the dots: at
+    // 89 mm above the dots, and at 49 mm beside them. There are no ticks from 5 to 9 mm, where the
+    // arrows are.
     std::vector<double> expected_x = {1, 2, 3, 4};
     std::vector<double> expected_y = expected_x;
     for (int mm = 10; mm <= 89; ++mm) {
@@ -171,7 +171,7 @@ TEST(labels, stay_clear_of_the_dots) {
 TEST(labels, are_left_out_where_there_is_no_room) {
     const Sheet sheet = make_sheet(small_page(2));
     EXPECT_THAT(content_of_labels(sheet, {1, 1}, named()), Not(HasSubstr("Tj")));
-    // This page has room for a single line of text, which omits the command.
+    // This page has room for only one line of text, so the command is omitted.
     const Sheet wider = make_sheet(small_page(5));
     const std::string content = content_of_labels(wider, {1, 1}, named());
     EXPECT_THAT(content, HasSubstr("page 1 of 1"));

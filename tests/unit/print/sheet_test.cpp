@@ -21,7 +21,7 @@ void expect_refused(const SheetOptions& options, const char* part_of_message) {
 }
 
 /// Returns the distances of the ink from two opposite edges of the page (left and right, or top and
-/// bottom), for outermost dots that are displaced towards these edges.
+/// bottom). Assumes that the outermost dots are displaced towards these edges.
 std::pair<double, double> free_mm(double first_mm, int count, double size_mm,
                                   const Pattern& pattern) {
     const double ink_mm = pattern.displacement_mm + pattern.dot_mm / 2;

@@ -51,7 +51,8 @@ struct Located {
         overlay = overlay_of(image.view(), locator.trace());
     }
 
-    /// Returns the pattern point at a point on the overlay, in spacings from the cell of the pose.
+    /// Returns the pattern point at a point on the overlay, in spacings relative to the cell of the
+    /// pose.
     Vec2 pattern_point(draw::Point point) const {
         const Vec2 offset_mm =
             Projection(shot.camera, shot.pose).offset_from_pixel({point.x - 0.5, point.y - 0.5});
@@ -117,7 +118,8 @@ TEST(OverlayOf, AxesPointAlongThePattern) {
     const FrameOverlay::Axes& axes = *located.overlay.axes;
     EXPECT_NEAR(axes.at.x, 188, 0.01);
     EXPECT_NEAR(axes.at.y, 120, 0.01);
-    // The image x axis is at +0.7 rad in the pattern, so the pattern is at -0.7 rad in the image.
+    // The image x axis is rotated by +0.7 rad in the pattern, so the pattern x axis is rotated by
+    // -0.7 rad in the image.
     EXPECT_NEAR(axes.x.x, std::cos(-0.7), 0.01);
     EXPECT_NEAR(axes.x.y, std::sin(-0.7), 0.01);
     EXPECT_NEAR(axes.y.x, -std::sin(-0.7), 0.01);

@@ -115,8 +115,8 @@ TEST(Server, DeliversValuesToClientsThatAcknowledge) {
     wait_until([&] { return topic.is_wanted(); });
     server.publish(topic, [] { return "value-2."; });
     EXPECT_THAT(client.receive("."), HasSubstr("value-2"));
-    // The client has not acknowledged a value, so it receives no third value. The server does not
-    // even produce one.
+    // The client has not acknowledged any value, so it receives no third value. The server does not
+    // even produce a third value.
     server.publish(topic, [] { return "value-3."; });
     server.publish(topic, [] { return "value-4."; });
     EXPECT_FALSE(topic.is_wanted());

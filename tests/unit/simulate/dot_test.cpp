@@ -144,7 +144,7 @@ TEST(Dot, ManyTakeAwayTheSumOfEach) {
     std::vector<double> sum(paper.begin(), paper.end());
     simulate::Ink all;
     for (int i = 0; i < 40; ++i) {
-        // Columns are 3 px apart and rows are random, so that dots do not overlap.
+        // The columns are 3 px apart, so the dots do not overlap. The rows are random.
         const double u = 3 * (i % 23) - 2.5;
         const double v = i < 23 ? rng.uniform(-2, 20) : rng.uniform(23, 45);
         simulate::Ink one;

@@ -118,7 +118,8 @@ TEST(Frame, PaperTextureHasItsDeviation) {
     EXPECT_NEAR(std::sqrt(square / count - mean * mean) / mean, 0.05, 0.002);
 }
 
-// A grain in the paper must have the same level in a large frame and in a frame of one pixel.
+// The texture at a point on the paper must be the same in a large frame and in a frame of one
+// pixel.
 TEST(Frame, PaperTextureBelongsToThePage) {
     Imperfections seen;
     seen.texture = 0.05;

@@ -45,8 +45,9 @@ TEST(Random, BelowTakesEachValueEquallyOften) {
     EXPECT_EQ(rng.below(1), 0u);
 }
 
-// random.hpp defines a normally distributed number as the number of ones among 128 bits, smoothed
-// by a uniformly distributed number. This test recomputes it from that definition.
+// random.hpp defines a normally distributed number as the number of ones among 128 random bits plus
+// a uniformly distributed number, shifted and scaled. This test recomputes the number from that
+// definition.
 TEST(Random, NormalCountsOnes) {
     Rng rng(4);
     Rng same(4);

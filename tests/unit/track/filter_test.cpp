@@ -1,4 +1,4 @@
-// Tests the errors of the filter, and whether its covariance agrees with them.
+// Tests the errors of the filter, and whether the reported covariance agrees with these errors.
 #include "track/filter.hpp"
 
 #include <algorithm>
@@ -267,7 +267,7 @@ TEST(Filter, IsNotThrownByASightingThatIsOff) {
         const double x_mm = frame == 200 ? 0.1 : 0;
         const Sighting sighting =
             at(frame, disturbed({x_mm, 0, 0}, 0.001, rng), round_covariance(0.001));
-        // A motion of 0.1 mm in one frame would be a speed of 20 mm/s.
+        // A motion of 0.1 mm in one frame would correspond to a speed of 20 mm/s.
         EXPECT_NEAR(tracker.update(sighting.time_us, &sighting).pose.vx_mm_s, 0, 3) << frame;
     }
 }

@@ -199,7 +199,7 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     expect_as_seen(robot.predict(305'000), robot.fix);
 }
 
-/// Returns the pose of a robot that moves as in `driving`, but at another place.
+/// Returns the pose of a robot that moves as in `driving`, but in another part of the pattern.
 Pose driving_elsewhere(std::int64_t time_us) {
     const Pose pose = driving(time_us);
     return {pose.x + 9000, pose.y - 3000, pose.theta_rad};
@@ -262,7 +262,7 @@ TEST(TrackerPredict, SurvivesAnyInput) {
     Followed other = driven;
     other.sighting.spacing_nm = 0;
     expect_as_seen(other.predict(205'000), other.fix);
-    other.sighting.spacing_nm = 1;  // the predicted motion would be too many spacings
+    other.sighting.spacing_nm = 1;  // the predicted motion would be too large in spacings
     expect_as_seen(other.predict(205'000), other.fix);
     other.sighting = driven.sighting;
     other.sighting.x_nm += 1'000'000'000'000;

@@ -234,8 +234,8 @@ TEST(Tracker, TellsRestFromMovement) {
     ASSERT_EQ(events.size(), 3U);
     EXPECT_EQ(events[0].second, "fix ");
     EXPECT_EQ(events[1].second, "stationary ");
-    // The robot counts as being at rest once it is within 0.1 mm of its resting place. After the
-    // sudden stop, the filter needs a few frames to settle.
+    // The robot is considered to be at rest once it is within 0.1 mm of its final position. After
+    // the sudden stop, the filter needs a few frames to settle.
     EXPECT_NEAR(static_cast<double>(events[1].first), 1.5e6, 30e3);
     EXPECT_EQ(events[2].second, "moving ");
     EXPECT_NEAR(static_cast<double>(events[2].first), 2.0e6, 10e3);  // moving by 0.1 mm takes 2 ms

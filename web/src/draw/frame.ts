@@ -35,7 +35,7 @@ export interface FrameOverlay {
     spacing_px: number;
     /** Symbols of the code in view, with the predicted centres of their dots. */
     symbols: readonly { at: Pixel; symbol: number }[];
-    /** Null if there is no pose. */
+    /** Axes of the paper. Null if there is no pose. */
     axes: Axes | null;
 }
 

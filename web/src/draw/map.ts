@@ -7,17 +7,17 @@ import { arrow, surfaceOf, themed } from "./surface.js";
 export interface Paper {
     name: string;
     corners: readonly Point_mm[];
-    /** Layout of the dots. Without it, no dots are drawn. */
+    /** Layout of the dots. If it is undefined, no dots are drawn. */
     layout?: SheetLayout;
 }
 
-/** Contents of the map. Coordinates are in mm, on a page, in the pattern or in the world. */
+/** Contents of the map. Coordinates are in mm, relative to a page, the pattern or the world. */
 export interface MapContent {
     papers: readonly Paper[];
     /** Parts of the path, separated by gaps. */
     strokes: readonly (readonly Point_mm[])[];
     now: Point_mm | null;
-    /** Direction of the camera's x axis, from +x towards +y. Null if it is not drawn. */
+    /** Direction of the camera's x axis, from +x towards +y. Null if the direction is not drawn. */
     heading_rad: number | null;
     /** Corners of the camera's field of view. */
     view: readonly Point_mm[];
@@ -25,7 +25,9 @@ export interface MapContent {
     y_up: boolean;
 }
 
-/** Maps points to the canvas: scale in px per mm, and the point at the upper left corner. */
+/**
+ * Mapping from the plane to the canvas: scale in px per mm, and the plane point at the upper left corner of the canvas.
+ */
 export interface MapFrame {
     scale: number;
     left_mm: number;

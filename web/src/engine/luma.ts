@@ -9,7 +9,7 @@ const kLumaFirst = new Set(["I420", "I420A", "I422", "I444", "NV12"]);
 let canvas: OffscreenCanvas | undefined;
 let plane = new Uint8Array(0);
 
-/** Draws a picture and returns its luma, with the BT.601 weights that cameras use. */
+/** Draws a picture and returns its luma, computed with the BT.601 weights that cameras use. */
 export function lumaByCanvas(picture: CanvasImageSource, width: number, height: number): Image {
     canvas ??= new OffscreenCanvas(width, height);
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });

@@ -45,7 +45,7 @@ export interface SheetLayout extends Sheet {
     first_y_mm: number;
 }
 
-/** View of the simulated camera: its pose over the sheet, its optics, and the conditions. */
+/** View of the simulated camera: its pose over the sheet, its optics, and the imaging conditions. */
 export interface SimulatedView {
     width_px: number;
     height_px: number;

@@ -25,7 +25,9 @@ const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_
 const table = new RobotTable(connection, (id) => panel.choose(id, true));
 const fleet_map = new FleetMap(connection, (id) => panel.choose(id));
 const history = new HistoryPanel(connection, (tracks) => fleet_map.takeTracks(tracks));
-/** True while the page waits for the only robot of `dotpose listen`. The page chooses it as soon as it appears. */
+/**
+ * True while the page waits for the only robot of `dotpose listen`. The page chooses this robot as soon as it appears.
+ */
 let awaits_device = false;
 const summary = new SummaryView(announce, (state) => {
     table.showOnly(state);

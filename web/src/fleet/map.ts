@@ -12,7 +12,7 @@ import { boundsOf, touches, union, Viewport, type Bounds_mm } from "./viewport.j
 
 const kAskPeriod_ms = 150;
 const kRateSpan_ms = 2000;
-/** Time between two updates of the numbers. Each update makes the browser lay out part of the page. */
+/** Time between two updates of the displayed counts. Each update makes the browser lay out part of the page. */
 const kCountPeriod_ms = 500;
 /** Minimum number of robots in view at which their marks are copied as pixels. */
 const kMinCopied = 500;
@@ -92,7 +92,7 @@ export class FleetMap {
         this.#requestFrame();
     }
 
-    /** Shows the stored tracks of the chosen robot, and fits the view to the longest one. */
+    /** Shows the stored tracks of the chosen robot, and fits the view to the longest track. */
     takeTracks(tracks: readonly Track[]): void {
         this.#tracks = tracks;
         this.#is_ground_old = true;
@@ -248,7 +248,7 @@ export class FleetMap {
             if (this.#copies() !== copied) this.#is_ground_old = true;
             this.#requestFrame();
         }
-        // Waits until these positions are on the screen before requesting the next ones.
+        // Waits until these positions are on the screen before requesting the next positions.
         await new Promise(requestAnimationFrame);
     }
 

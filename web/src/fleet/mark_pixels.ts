@@ -23,7 +23,7 @@ function blend(over: number, under: number): number {
     return 0xff000000 | red_blue | green;
 }
 
-/** Visible pixels of a mark, with their positions relative to its centre. */
+/** Visible pixels of a mark, with their positions relative to the centre of the mark. */
 interface Mark {
     x: Int8Array;
     y: Int8Array;
@@ -63,7 +63,7 @@ export class MarkPixels {
         this.#look = look;
     }
 
-    /** Draws the ground and the robots. */
+    /** Draws the background and the robots. */
     draw(context: CanvasRenderingContext2D, positions: Positions, view: Viewport, scale: number): void {
         if (this.#image === null) return;
         this.#pixels.set(this.#ground);

@@ -12,7 +12,7 @@ const kInk: Record<Condition, string> = {
     silent: "--silent",
     gone: "--soft",
 };
-/** Symbols that represent the conditions in texts. */
+/** Symbols that represent the conditions in text. */
 export const kSymbols: Record<Condition, string> = { moving: "▲", still: "●", lost: "○", silent: "✕", gone: "·" };
 
 /** Order in which the conditions are drawn. Robots that need attention are drawn last, on top of the others. */

@@ -7,7 +7,7 @@ export const kConditions = ["moving", "still", "lost", "silent", "gone"] as cons
 export type Condition = (typeof kConditions)[number];
 
 export interface Setup {
-    /** Name of the only robot if the page is served by `dotpose listen`. Empty if it shows a fleet. */
+    /** Name of the only robot if the page is served by `dotpose listen`. Empty if the page shows a fleet. */
     device: string;
     /** True if the page can read stored states. */
     has_history: boolean;
@@ -44,17 +44,20 @@ export interface Summary {
     unknown: number;
     states_per_s: number;
     messages: number;
-    /** Missing if several instances of `dotpose fleet` divide the states among themselves (`--share`). */
+    /**
+     * Number of missed states. Undefined if several instances of `dotpose fleet` divide the states among themselves
+     * (`--share`).
+     */
     missed?: number;
     late: number;
     repeated: number;
     bad: number;
-    /** Median and 99 % quantile. */
+    /** Median and 99 % quantile of the latency. */
     latency_ms: Pair;
     is_broker_connected: boolean;
     store: { is_away: boolean; waiting: number; stored: number; dropped: number } | null;
     maps: KnownMap[];
-    /** Newest first. */
+    /** Alerts of all robots, newest first. */
     alerts: Alert[];
 }
 
@@ -71,7 +74,7 @@ export interface Row {
     /** Newest known map and sheet of the robot. Missing if none is known. */
     map?: string;
     sheet?: string;
-    /** Missing while the robot is lost. */
+    /** Position of the robot. Missing while the robot is lost. */
     x_mm?: number;
     y_mm?: number;
     theta_deg?: number;
@@ -81,7 +84,7 @@ export interface Row {
 export interface Table {
     robots: number;
     matching: number;
-    /** Index of the first row. */
+    /** Index, among the matching robots, of the first robot in `rows`. */
     first: number;
     rows: Row[];
 }
@@ -93,9 +96,9 @@ export interface Robot extends Row {
     camera?: { rate_hz: number; frames: number; refused: Record<string, number> };
     /** Pose of the camera in space. Missing while the robot is lost, or if its program does not compute this pose. */
     space?: { height_mm: number; tilt_deg: number };
-    /** Alternating x and y. */
+    /** Recent path of the robot, as alternating x and y. */
     path_mm: number[];
-    /** Newest first. */
+    /** Events of the robot, newest first. */
     events: Alert[];
 }
 
@@ -119,11 +122,11 @@ export interface StoredHistory {
     /** First position in the span. Null if the robot was lost. */
     x_mm: (number | null)[];
     y_mm: (number | null)[];
-    /** Index in `maps`. */
+    /** Index in `maps` of the robot's map. */
     map_of: (number | null)[];
     /** Maximum speed in the span. */
     speeds_mm_s: number[];
-    /** 2 if the robot was lost in the span. Otherwise, 0 if it moved and 1 if it was still. */
+    /** Motion in the span: 2 if the robot was lost. Otherwise, 0 if it moved and 1 if it was still. */
     motions: number[];
 }
 
@@ -199,7 +202,7 @@ export class Positions {
 
 export interface Trails {
     map: string;
-    /** Alternating x and y of each trail, by robot number. */
+    /** Points of each trail, as alternating x and y, by robot number. */
     trails_mm: Map<number, Float64Array>;
 }
 

@@ -1,4 +1,4 @@
-// Texts that describe robots and their alerts.
+// Text that describes robots and their alerts.
 import { kSymbols } from "./marks.js";
 import type { Alert, Condition } from "./messages.js";
 
@@ -28,7 +28,7 @@ export function time(time_us: number): string {
     return new Date(time_us / 1000).toLocaleTimeString("en-GB");
 }
 
-/** Describes the change that an alert reports, without its time and robot. */
+/** Describes the change that an alert reports. Omits the time and the robot. */
 export function change(alert: Alert): string {
     const states = alert.previous ? `${alert.previous} → ${alert.state}` : alert.state;
     const details = [alert.reason, alert.map === undefined ? "" : place(alert)].filter((text) => text !== "");

@@ -1,5 +1,5 @@
 // Extends the trails of the robots to their newest positions. Trails arrive once per second. The end of a trail
-// contains the positions that have arrived since.
+// contains the positions that arrived after the trail itself.
 import type { Positions, Trails } from "./messages.js";
 
 /**
@@ -13,7 +13,7 @@ const kMaxPoints = 100;
 
 export class TrailEnds {
     #trails: Trails | null = null;
-    /** Alternating x and y from the end of the trail to the newest position, by robot number. */
+    /** Points from the end of each trail to the newest position, as alternating x and y, by robot number. */
     readonly #ends_mm = new Map<number, number[]>();
 
     get trails(): Trails | null {

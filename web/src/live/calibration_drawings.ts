@@ -1,4 +1,4 @@
-// Draws the state of a calibration: missing parts of the image, directions, tilts, residuals, and turns of a robot.
+// Draws the state of a calibration: uncovered parts of the image, directions, tilts, residuals, and turns of a robot.
 import { arrow, surfaceOf, themed } from "../draw/surface.js";
 import type { LensCoverage, Residuals, Station } from "./calibration_state.js";
 
@@ -93,7 +93,7 @@ export function drawResiduals(canvas: HTMLCanvasElement, { columns, rows }: Resi
     }
 }
 
-/** Draws the camera in each frame of a turn, around the centre of rotation. */
+/** Draws the camera's pose in each frame of a turn, around the centre of rotation. */
 export function drawSpin(canvas: HTMLCanvasElement, stations: readonly Station[]): void {
     const { context, width, height } = surfaceOf(canvas);
     const [x, y] = [width / 2, height / 2];

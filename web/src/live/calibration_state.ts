@@ -18,7 +18,7 @@ export interface LensCoverage {
     /** A digit for each part of the image, row by row: 1 if dots have been seen in this part. */
     covered: string;
     directions: boolean[];
-    /** Direction of the newest frame. Null if it was not located. */
+    /** Direction of the newest frame. Null if the frame was not located. */
     theta_rad: number | null;
     /** For each frame, the change of the scale from the middle of the image to a corner, along u and v. */
     tilts: [number, number][];
@@ -52,7 +52,9 @@ export interface Result {
 }
 
 export interface CalibrationState {
-    /** Name of the camera file. If the program may not calibrate, `CalibrationValue` contains null instead. */
+    /**
+     * Name of the camera file. If the program is not permitted to calibrate, `CalibrationValue` contains null instead.
+     */
     file: string;
     step: StepName;
     phase: Phase;
@@ -60,7 +62,7 @@ export interface CalibrationState {
     gauges: Gauge[];
     advice: string;
     lens: LensCoverage | null;
-    /** True for each direction, of a turn or of a pen's tilts, that has been seen. */
+    /** For each direction of a turn, or of a pen's tilts, true if the direction has been seen. */
     directions: boolean[];
     /** Tilts of a pen. The components are tangents, to the right and down on the sheet. */
     leans: [number, number][];

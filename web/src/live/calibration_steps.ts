@@ -76,7 +76,7 @@ export class StepList {
             value.textContent = text === "" ? "not calibrated" : typeset(text);
             value.classList.toggle("known", text !== "");
             const is_running = state?.phase === "collecting" || state?.phase === "solving";
-            // An unsaved result must be saved or discarded before another step.
+            // An unsaved result must be saved or discarded before another step begins.
             button.disabled = state === null || is_running || state.phase === "solved";
             item.classList.toggle("current", is_running && state?.step === name);
         }

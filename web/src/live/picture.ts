@@ -103,7 +103,7 @@ export class Picture {
         this.#meter.show(this.#meter.measure(frame), frame.overlay.dots.length / 2);
         this.redraw();
         this.#countRate();
-        // The next frame is requested after this one is on the screen.
+        // The next frame is requested after this frame is on the screen.
         await new Promise(requestAnimationFrame);
     }
 

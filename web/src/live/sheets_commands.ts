@@ -49,7 +49,7 @@ export class SheetCommands {
 
 let hiding: ReturnType<typeof setTimeout> | undefined;
 
-/** Shows the result of a command. The reason for a refusal stays until the next result. */
+/** Shows the result of a command. The reason for a refusal remains visible until the next result. */
 export function showAnswer({ is_ok, message }: Pick<Answer, "is_ok" | "message">): void {
     const shown = element("sheets-message", HTMLElement);
     shown.hidden = message === "";

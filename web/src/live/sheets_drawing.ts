@@ -8,7 +8,10 @@ export const kHandle_px = 9;
 /** Distance from the upper edge of a sheet to the handle that turns it. */
 export const kHandleReach_px = 26;
 
-/** The part of the world that the canvas shows: the world point in the middle, px per mm, and the size in px. */
+/**
+ * The part of the world that the canvas shows: the world point in the middle, the scale in px per mm, and the canvas
+ * size in px.
+ */
 export interface Frame {
     x_mm: number;
     y_mm: number;
@@ -48,7 +51,10 @@ export function handleOf(frame: Frame, { sheet, pose }: Placed): Pixel {
     return [u - kHandleReach_px * Math.sin(yaw), v - kHandleReach_px * Math.cos(yaw)];
 }
 
-/** Returns the grid step: 1, 2 or 5 times a power of ten, whichever is the smallest step of at least 48 px. */
+/**
+ * Returns the grid step: the smallest number of the form 1, 2 or 5 times a power of ten that is at least 48 px on the
+ * canvas.
+ */
 function gridStep(scale: number): number {
     const kMin_px = 48;
     const power = 10 ** Math.floor(Math.log10(kMin_px / scale));

@@ -14,7 +14,7 @@ class NumberField {
         this.#input = element(id, HTMLInputElement);
     }
 
-    /** Shows a value from the file, unless the user has typed another one. */
+    /** Shows a value from the file, unless the user has typed another number. */
     show(value: number | null): void {
         const is_typed = this.is_typed;
         this.#saved = value ?? NaN;
@@ -80,7 +80,7 @@ export class SheetForms {
         });
     }
 
-    /** Shows a sheet, or none. */
+    /** Shows a sheet. If `sheet` is undefined, shows that no sheet is selected. */
     show(sheet: Sheet | undefined, may_edit: boolean): void {
         const is_other = sheet?.name !== this.#sheet?.name;
         this.#sheet = sheet;

@@ -7,7 +7,7 @@ export function radians(deg: number): number {
     return (deg * Math.PI) / 180;
 }
 
-/** Returns the angle in (-180, 180]. */
+/** Returns the equivalent angle in (-180, 180]. */
 export function wrapped_deg(deg: number): number {
     const turn = ((deg % 360) + 360) % 360;
     return turn > 180 ? turn - 360 : turn;
@@ -89,7 +89,10 @@ export interface Placed {
     is_known: boolean;
 }
 
-/** Returns all sheets with a pose. Sheets without a pose in the world are arranged in rows below the others. */
+/**
+ * Returns all sheets, each with the pose at which it is drawn. Sheets without a pose in the world are arranged in rows
+ * below the other sheets.
+ */
 export function layOut(sheets: readonly Sheet[]): Placed[] {
     const known: Placed[] = sheets.filter(({ world }) => world).map((sheet) => ({ sheet, pose: sheet.world!, is_known: true }));
     const unknown = sheets.filter(({ world }) => !world);

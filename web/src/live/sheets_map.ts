@@ -8,12 +8,12 @@ import type { Pose, Sheet } from "./sheets_messages.js";
 
 const kMargin_px = 24;
 const kZoom = 1.25;
-/** Pause after which moves with the keyboard are saved. */
+/** Time after the last key press at which a pose changed with the keyboard is saved. */
 const kKeyPause_ms = 700;
 
 export interface MapEvents {
     select(name: string): void;
-    /** Called when the user has moved or turned a sheet. The result is true if the pose was saved. */
+    /** Called when the user has moved or turned a sheet. The promise resolves to true if the pose was saved. */
     place(sheet: Sheet, pose: Pose): Promise<boolean>;
 }
 
@@ -144,7 +144,7 @@ export class SheetsMap {
         const drag = this.#drag;
         if (!drag) return;
         const [x_mm, y_mm] = [to.x_mm - drag.from.x_mm, to.y_mm - drag.from.y_mm];
-        // A press without a movement only selects a sheet.
+        // A press without movement only selects a sheet.
         if (!drag.has_moved && Math.hypot(x_mm, y_mm) * this.#frame.scale < 4) return;
         drag.has_moved = true;
         if (drag.kind === "pan") {

@@ -4,10 +4,7 @@ import type { ReadOptions } from "../engine/messages.js";
 
 type Processor = new (init: { track: MediaStreamTrack }) => { readable: ReadableStream<VideoFrame> };
 
-/**
- * Method of reading frames. `?luma=canvas` in the address forces the canvas, which every browser
- * supports.
- */
+/** Method for reading frames. `?luma=canvas` in the address forces the canvas, which every browser supports. */
 const kForced = new URLSearchParams(location.search).get("luma");
 
 /**

@@ -1,6 +1,6 @@
 // The log of readings, with a subset of the CSV columns of `dotpose watch --log` (docs/output.md). `dotpose replay` can
 // read the log. The page has no tracker. The track columns therefore contain the fix, and the velocity is computed from
-// the fix and the previous one.
+// this fix and the previous fix.
 import type { Reading } from "../engine/messages.js";
 import { pageFromPattern } from "../page/sheet_frame.js";
 import type { KnownSheet } from "../print/known_sheets.js";
@@ -16,7 +16,7 @@ interface Frame {
     before: Reading | undefined;
 }
 
-/** Replaces commas, quotation marks and white space, to make a text a valid CSV field. */
+/** Replaces commas, quotation marks and white space, to make a string a valid CSV field. */
 const withoutCommas = (text: string) => text.replaceAll(/[,"\s]+/g, (match) => (match.includes(",") ? "; " : " "));
 
 type Column = readonly [name: string, value: (frame: Frame) => string | number, always?: true];
@@ -50,7 +50,7 @@ const theta_deg = ({ fix }: Reading) => fix.theta_rad * kDegrees;
 
 const inDegrees = (rad: number | undefined) => (rad === undefined ? "" : (rad * kDegrees).toFixed(6));
 
-/** Columns of the log. For frames without a fix, only the columns with `always` have values. */
+/** Columns of the log. For frames without a fix, only the columns marked `always` have values. */
 const kColumns: readonly Column[] = [
     ["schema", () => 1, true],
     ["frame", ({ number }) => number, true],

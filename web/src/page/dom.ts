@@ -7,7 +7,7 @@ export function element<T extends Element>(id: string, type: new () => T): T {
     return found;
 }
 
-/** Sets the texts of elements, given by id. */
+/** Sets the text of elements. `texts` maps the id of each element to its new text. */
 export function show(texts: Record<string, string>): void {
     for (const [id, text] of Object.entries(texts)) {
         const target = document.getElementById(id)!;

@@ -45,7 +45,7 @@ export function milliseconds(value_ms: number): string {
     return `${value_ms.toFixed(value_ms < 10 ? 2 : 0)} ms`;
 }
 
-/** Returns the angle in (-pi, pi]. */
+/** Returns the equivalent angle in (-pi, pi]. */
 export function wrapped(rad: number): number {
     return Math.atan2(Math.sin(rad), Math.cos(rad));
 }

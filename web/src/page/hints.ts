@@ -29,7 +29,7 @@ const kBlurred = 0.12;
  */
 const kManyDots = 1500;
 const kFewDots = 60;
-/** Pictures with fewer dots may not show a sheet. */
+/** Pictures with fewer dots than this might not show a sheet at all. */
 const kMinDots = 5;
 
 const kBlurredHint = "Sharper: hold still, let the camera focus, or move a little away.";

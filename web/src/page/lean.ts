@@ -36,7 +36,7 @@ function matrixOf([x, y, z, w]: Quaternion): [number, number, number][] {
     ];
 }
 
-/** Returns the standard deviation of `gradient` times the rotation vector. */
+/** Returns the standard deviation of the scalar product of `gradient` and the rotation vector. */
 function deviation(gradient: number[], covariance: ArrayLike<number>): number {
     let variance = 0;
     gradient.forEach((a, i) => gradient.forEach((b, j) => (variance += a * b * covariance[6 * (3 + i) + 3 + j]!)));

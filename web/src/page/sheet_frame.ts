@@ -2,7 +2,7 @@
 // pattern.
 import type { SheetLayout } from "../engine/messages.js";
 
-/** Number of columns in each section of the code, and number of rows. */
+/** Number of columns in each section of the code. The number of rows is the same. */
 export const kPositions = 410_815_348;
 
 /** Spacing of the sheets that this web page prints and simulates. */

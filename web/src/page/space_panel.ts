@@ -71,7 +71,7 @@ export class SpacePanel {
     readonly #figure: HTMLElement;
     readonly #id: string;
 
-    /** Fills the figure `ID-space`. It is hidden until the first known pose. */
+    /** Fills the figure `ID-space`. The figure is hidden until a pose is known. */
     constructor(id: string) {
         this.#id = id;
         this.#figure = element(`${id}-space`, HTMLElement);
@@ -105,8 +105,8 @@ export class SpacePanel {
 
     /**
      * Draws the camera. SVG angles are clockwise on the screen, like the azimuth and the turn on the paper. The view
-     * from above has the axes of the paper or of the world. The view from the side is in the plane in which the camera
-     * leans.
+     * from above shows the axes of the paper or of the world. The view from the side is in the plane in which the
+     * camera leans.
      */
     #draw(tilt_deg: number, azimuth_deg: number, turn_deg: number, is_in_world: boolean): void {
         const part = (name: string) => element(`${this.#id}-space-${name}`, SVGElement);

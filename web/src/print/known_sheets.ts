@@ -10,7 +10,7 @@ export interface KnownSheet {
 }
 
 const kKey = "dotpose-sheets";
-/** The list of sheets, kept in memory if the browser does not allow storage. Otherwise null. */
+/** The list of sheets, kept in memory if the browser does not allow storage. Null otherwise. */
 let unstored: KnownSheet[] | null = null;
 
 /** Returns true for an integer from `min` to `max`. */

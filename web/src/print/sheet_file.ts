@@ -9,7 +9,7 @@ const kMinCells = 8;
 
 type Entry = Record<string, unknown>;
 
-/** The members of one sheet in the file. `path` locates the sheet in the file, for messages. */
+/** The members of one sheet in the file. `path` locates the sheet in the file, for error messages. */
 class Members {
     constructor(
         private readonly entry: Entry,
@@ -65,8 +65,8 @@ function sheetOf(entry: unknown, i: number): KnownSheet {
 }
 
 /**
- * Returns the sheets in a sheet file. If a key is not valid, throws an Error that names it. The print scales of the
- * pages and their poses in the world are not read.
+ * Returns the sheets in a sheet file. If a key is not valid, throws an Error that names the key. The print scales of
+ * the pages and their poses in the world are not read.
  */
 export function sheetsOfFile(text: string): KnownSheet[] {
     let document: unknown;

@@ -1,14 +1,14 @@
-// The simulated camera: its pose, its motion, and the conditions of its frames.
+// The simulated camera: its pose, its motion, and the imaging conditions.
 import type { SheetLayout, SimulatedView } from "../engine/messages.js";
 
-/** A slider, and the condition that it controls. */
+/** A slider and the condition that it controls. */
 export interface Slider {
     name: "mm_per_px" | "tilt_deg" | "turn_deg" | "blur_px" | "noise" | "paper_level" | "vignetting";
     label: string;
     min: number;
     max: number;
     step: number;
-    /** Returns the text for a value. `px` is the size of an image pixel, in the pixel unit of the sliders. */
+    /** Returns the text to display for a value. `px` is `SimulatedCamera.px`. */
     shown(value: number, px: number): string;
 }
 
@@ -32,13 +32,13 @@ export const kPresets: Record<string, Partial<Conditions>> = {
     hard: { tilt_deg: 4, blur_px: 1, noise: 9, paper_level: 90, vignetting: 0.5 },
 };
 
-/** An image size of the camera. */
+/** Image size and field of view of the simulated camera. */
 export interface ImageSize {
     width_px: number;
     height_px: number;
     /**
-     * Width of the field of view, in the pixel unit of the sliders. Images with more pixels show the same field in more
-     * detail.
+     * Width of the field of view, in pixels of the default image size. Images with more pixels than `field_px` show the
+     * field in more detail.
      */
     field_px: number;
 }
@@ -53,7 +53,7 @@ export class SimulatedCamera {
     };
     #seed = 1;
 
-    /** Size of an image pixel, in the pixel unit of the sliders. */
+    /** Size of an image pixel, in pixels of the default image size. The sliders also use this unit. */
     get px(): number {
         return this.size.field_px / this.size.width_px;
     }
@@ -64,13 +64,13 @@ export class SimulatedCamera {
         return (this.conditions.turn_deg * Math.PI) / 180;
     }
 
-    /** Moves the camera to a point on the page. The position is limited to the page. */
+    /** Moves the camera to a point on the page. Points outside the page are clamped to its edge. */
     moveTo(x_mm: number, y_mm: number, sheet: SheetLayout): void {
         this.x_mm = Math.min(Math.max(x_mm, 0), sheet.width_mm);
         this.y_mm = Math.min(Math.max(y_mm, 0), sheet.height_mm);
     }
 
-    /** Moves the camera by a number of image pixels, so the image follows the finger. */
+    /** Moves the camera so that the image contents move by (du_px, dv_px), following the pointer. */
     dragBy(du_px: number, dv_px: number, sheet: SheetLayout): void {
         const [cos, sin] = [Math.cos(this.theta_rad), Math.sin(this.theta_rad)];
         const scale = this.mm_per_px;
@@ -91,7 +91,7 @@ export class SimulatedCamera {
         this.conditions.mm_per_px = Math.min(Math.max(this.conditions.mm_per_px * factor, min), max);
     }
 
-    /** Returns the next view to simulate. The noise of every frame is different. */
+    /** Returns the next view to simulate. Every frame has different noise. */
     view(): SimulatedView {
         const { tilt_deg, blur_px, noise, paper_level, vignetting } = this.conditions;
         const { x_mm, y_mm, mm_per_px, theta_rad } = this;

@@ -5,7 +5,7 @@ import type { SimulatedCamera } from "./camera.js";
 
 const kSpeed_mm_s = 9;
 
-/** Drives over the page in wide curves. */
+/** Drives the camera over the page in wide curves. */
 export class Drive {
     sheet: SheetLayout | undefined;
     readonly #button = element("try-drive", HTMLButtonElement);
@@ -19,7 +19,7 @@ export class Drive {
         private readonly moved: () => void,
     ) {
         this.#button.addEventListener("click", () => (this.#is_on ? this.stop() : this.#start()));
-        // If the user prefers reduced motion, only the button starts the drive.
+        // If the user prefers reduced motion, the drive starts only when the button is clicked.
         if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.#set(true);
     }
 

@@ -22,7 +22,7 @@ const kSheet: SheetChoice = {
 };
 const kMaxPathPoints = 600;
 
-/** Image sizes, keyed by option value. Small images show a smaller field of view. */
+/** Image sizes, keyed by the values of the <select> options. The two smallest images show a smaller field of view. */
 const kSizes: Record<string, ImageSize> = {
     "188x120": { width_px: 188, height_px: 120, field_px: 188 },
     "376x240": { width_px: 376, height_px: 240, field_px: 188 },
@@ -30,9 +30,9 @@ const kSizes: Record<string, ImageSize> = {
     "66x66": { width_px: 66, height_px: 66, field_px: 66 },
     "36x36": { width_px: 36, height_px: 36, field_px: 66 },
 };
-/** Distance of another known sheet from the simulated sheet, in columns of the code. */
+/** Distance from the simulated sheet to the other known sheet, in code columns. */
 const kOtherColumns = 100_000;
-/** Elements that are empty if a frame has no fix. */
+/** Names of the page elements that are empty if a frame has no fix. */
 const kFixNames = ["x", "y", "angle", "error", "angle-error", "sheet", "prior", "wrong"];
 
 export class TryView implements View {
@@ -115,7 +115,7 @@ export class TryView implements View {
         this.#map.addEventListener("pointermove", move);
     }
 
-    /** Simulates the next frame. Further changes wait until the frame is drawn. */
+    /** Simulates the next frame. Changes made in the meantime take effect after that frame has been drawn. */
     #changed(): void {
         this.#is_stale = true;
         // The tests use this flag to wait until the last change has been drawn.

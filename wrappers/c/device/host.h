@@ -1,4 +1,5 @@
-/* Host functions required by the program. */
+/* Interface between locate_frames.c and the start-up code: functions that the host provides, and
+ * the main function of the program. */
 #ifndef HOST_H
 #define HOST_H
 

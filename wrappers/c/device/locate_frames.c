@@ -1,7 +1,7 @@
 /* Locates frames as a microcontroller does: the memory has a fixed size, and each row is pushed as
  * soon as it has been read. The input is a file of golden frames (wrappers/golden/README.md).
  * Locates the first frame of each pair, and prints its golden line for `device`, which must equal
- * the line written by C++. */
+ * the line written by the C++ library. */
 #include <dotpose.h>
 #include <stdint.h>
 #include <string.h>

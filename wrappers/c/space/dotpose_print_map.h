@@ -1,5 +1,5 @@
-/* Print maps for C99 and C++: correct fixes and poses in space for the measured errors of a print
- * (docs/print-map.md). `dotpose calibrate --print-map` creates a map.
+/* Print maps for C99 and C++. A print map corrects fixes and poses in space for the measured errors
+ * of a print (docs/print-map.md). `dotpose calibrate --print-map` creates a map.
  *
  *     dotpose_print_map* map;
  *     if (dotpose_print_map_create(bytes, byte_count, &map) != DOTPOSE_OK) ...
@@ -29,8 +29,8 @@ extern "C" {
 typedef struct dotpose_print_map dotpose_print_map;
 
 /* Reads a map from the contents of a map file, and allocates memory for the map. Returns BAD_VALUE
- * if the bytes are not a map, are damaged or have a newer version. May also return OUT_OF_MEMORY or
- * NULL_POINTER. On failure, sets `map` to null. */
+ * if the bytes are not a map, or if the map is damaged or has a newer format version. May also
+ * return OUT_OF_MEMORY or NULL_POINTER. On failure, sets `map` to null. */
 dotpose_status dotpose_print_map_create(const void* bytes, size_t byte_count,
                                         dotpose_print_map** map);
 
@@ -48,16 +48,16 @@ enum {
 
 /* Corrects the fix of the image that the locator located most recently, and writes the result to
  * `fix`, which must have been set up by dotpose_fix_init. If `use` is DOTPOSE_MAP_USED, the
- * covariance is that of the absolute position on the page, and includes the error of the map.
- * Otherwise, the result is the uncorrected fix. Returns OK, NO_FIX if the image was not
- * located, WRONG_KIND for device locators and for locators without `show_stages`, OUT_OF_MEMORY, or
- * another misuse status. */
+ * covariance refers to the absolute position on the page and includes the error of the map.
+ * Otherwise, the result is the uncorrected fix. Returns OK, NO_FIX if the image was not located,
+ * WRONG_KIND for device locators and for locators without `show_stages`, OUT_OF_MEMORY, or another
+ * misuse status. */
 dotpose_status dotpose_print_map_correct(const dotpose_print_map* map,
                                          const dotpose_locator* locator, dotpose_fix* fix,
                                          dotpose_map_use* use);
 
-/* Fits the pose of the camera as dotpose_space_fit does, but with the dot positions of the map. If
- * `use` is not DOTPOSE_MAP_USED, the result is the pose that dotpose_space_fit would return.
+/* Fits the pose of the camera as dotpose_space_fit does, but with the dot positions from the map.
+ * If `use` is not DOTPOSE_MAP_USED, the result is the pose that dotpose_space_fit would return.
  * Returns the same statuses as dotpose_space_fit. */
 dotpose_status dotpose_print_map_fit_space(const dotpose_print_map* map,
                                            const dotpose_locator* locator,

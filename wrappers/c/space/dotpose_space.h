@@ -33,7 +33,7 @@
 extern "C" {
 #endif
 
-/* A camera: 80 bytes. */
+/* A camera (80 bytes). */
 typedef struct dotpose_space_camera {
     uint32_t size;           /*  0: set by dotpose_space_camera_init */
     int32_t width_px;        /*  4 */
@@ -58,11 +58,11 @@ dotpose_status dotpose_space_camera_init(dotpose_space_camera* camera, size_t by
 dotpose_status dotpose_space_use_camera(const dotpose_space_camera* camera,
                                         dotpose_options* options);
 
-/* A pose in space: 488 bytes. */
+/* A pose in space (488 bytes). */
 typedef struct dotpose_space_pose {
     uint32_t size; /*  0: set by dotpose_space_pose_init */
     int32_t dots;  /*  4: number of dots used */
-    /* 1 if there is a second pose and its second_odds exceed 2^-30, so either pose may be true.
+    /* 1 if there is a second pose and `second_odds` exceeds 2^-30, so either pose may be correct.
      * Otherwise 0. */
     int32_t is_ambiguous; /* 8 */
     int32_t has_second;   /* 12: 1 if the members `second_` are valid, else 0 */
@@ -77,8 +77,8 @@ typedef struct dotpose_space_pose {
     double azimuth_rad; /* 80 */
     /* Angle of the image x axis on the paper after removal of the tilt, clockwise from +x. */
     double turn_rad; /* 88 */
-    /* Covariance of the position, in mm, and of a small rotation, in rad, about the axes of the
-     * CAMERA frame. Stored row by row. */
+    /* Covariance of the position (mm) and of a small rotation (rad) about the axes of the CAMERA
+     * frame, row by row. */
     double covariance_mm_rad[36]; /* 96 */
     double residual_px;           /* 384: rms residual of the dots, per axis */
     /* Likelihood of the second pose divided by the likelihood of the first pose. 0 if there is no
@@ -93,7 +93,7 @@ typedef struct dotpose_space_pose {
 dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes);
 
 /* Fits the pose of the camera to all dots of the image that the locator located most recently. The
- * arguments must be this image, and the camera that was passed to dotpose_space_use_camera. Returns
+ * arguments must be that image and the camera that was passed to dotpose_space_use_camera. Returns
  * - OK,
  * - NO_FIX if the last image was not located or if the spacing of the sheet is not known,
  * - TOO_FEW_DOTS if the dots do not determine a pose,
@@ -104,16 +104,16 @@ dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_s
                                  const uint8_t* pixels, int32_t width_px, int32_t height_px,
                                  ptrdiff_t stride_bytes, dotpose_space_pose* pose);
 
-/* A pen that contains the camera: 64 bytes. */
+/* A pen that contains the camera (64 bytes). */
 typedef struct dotpose_space_pen {
     uint32_t size;    /*  0: set by dotpose_space_pen_init */
     int32_t reserved; /*  4: zero */
-    /* Position of the tip in the camera frame: tip_mm in the camera file. */
+    /* Position of the tip in the camera frame (tip_mm in the camera file). */
     double x_mm; /*  8 */
     double y_mm; /* 16 */
     double z_mm; /* 24 */
-    /* Measured height of the tip while the pen rests on the paper: tip_rest_mm in the camera
-     * file. */
+    /* Measured height of the tip while the pen rests on the paper (tip_rest_mm in the camera
+     * file). */
     double rest_mm;     /* 32 */
     double sigma_mm[3]; /* 40: standard deviations of x_mm, y_mm and z_mm */
 } dotpose_space_pen;
@@ -121,7 +121,7 @@ typedef struct dotpose_space_pen {
 /* Sets all members to 0. `bytes` is the caller's sizeof(dotpose_space_pen). */
 dotpose_status dotpose_space_pen_init(dotpose_space_pen* pen, size_t bytes);
 
-/* Position of the tip of a pen in the pattern: 104 bytes. */
+/* Position of a pen tip in the pattern (104 bytes). */
 typedef struct dotpose_space_tip {
     uint32_t size;            /*  0: set by dotpose_space_tip_init */
     int32_t reserved;         /*  4: zero */
@@ -140,11 +140,11 @@ dotpose_status dotpose_space_tip_init(dotpose_space_tip* tip, size_t bytes);
 dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpose_space_pen* pen,
                                     dotpose_space_tip* tip);
 
-/* Detects with hysteresis whether the pen touches the paper. `is_down` must contain the result for
- * the previous pose, or 1 before the first pose. It receives the new result: 1 if the pen is on the
- * paper, and otherwise 0. A pen on the paper is reported as lifted when its height reaches 0.05 mm
- * plus three standard deviations. A lifted pen is reported as touching the paper when its height
- * falls below 0.05 mm. */
+/* Detects with hysteresis whether the pen touches the paper. On entry, `is_down` must contain the
+ * result for the previous pose, or 1 before the first pose. On return, `is_down` is 1 if the pen is
+ * on the paper, and otherwise 0. A pen on the paper is reported as lifted when its height reaches
+ * 0.05 mm plus three standard deviations. A lifted pen is reported as touching the paper when its
+ * height falls below 0.05 mm. */
 dotpose_status dotpose_space_update_contact(const dotpose_space_tip* tip, int32_t* is_down);
 
 #ifdef __cplusplus

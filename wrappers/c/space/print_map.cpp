@@ -19,7 +19,8 @@ static_assert(DOTPOSE_MAP_USED == static_cast<int>(MapUse::used) &&
               DOTPOSE_MAP_NOT_COVERED == static_cast<int>(MapUse::not_covered) &&
               DOTPOSE_MAP_CONTRADICTED == static_cast<int>(MapUse::contradicted));
 
-/// Returns the fix of the newest image, corrected by the map. The locator must store its dots.
+/// Returns the fix of the newest image, corrected by the map. The locator must store the dots
+/// (`show_stages`).
 MappedFix mapped_fix(const dotpose_print_map& map, const dotpose_locator& locator) {
     const Trace trace = locator.locator->trace();
     return with_print_map(trace.fix, map.map, trace);

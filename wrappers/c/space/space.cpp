@@ -1,4 +1,4 @@
-// Poses in space for C. Exceptions thrown by the C++ library become statuses.
+// Poses in space for C. Exceptions thrown by the C++ library are converted to statuses.
 #include <algorithm>
 #include <array>
 #include <cmath>

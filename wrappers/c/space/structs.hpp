@@ -1,4 +1,5 @@
-// Argument checks shared by the functions of dotpose_c_space.
+// Helpers shared by the functions of dotpose_c_space: argument checks, and conversion of
+// exceptions.
 #pragma once
 
 #include <cstddef>
@@ -51,7 +52,7 @@ dotpose_status without_exceptions(Function function) {
     }
 }
 
-/// Implements dotpose_space_fit. `map` is null or the map of the page in view.
+/// Implements dotpose_space_fit. `map` is the map of the page in view, or null.
 dotpose_status fit_space(const dotpose_locator* locator, const dotpose_space_camera* camera,
                          const ImageView& image, const MapPage* map, dotpose_space_pose* pose);
 

@@ -31,7 +31,8 @@ static int read_image(FILE* file, image* result) {
     return 1;
 }
 
-/* Prints the number at an address. Floating-point numbers are printed as their bits. */
+/* Prints the number at an address. Floating-point numbers are printed as hexadecimal bit
+ * patterns. */
 static void print_number(char kind, const unsigned char* at) {
     int32_t integer = 0;
     uint32_t bits = 0;

@@ -1,5 +1,4 @@
-/* Checks that a misused function returns a status that identifies the error, and has no other
- * effect. */
+/* Checks that every misuse of a function returns the matching status and has no other effect. */
 #include <dotpose.h>
 #include <float.h>
 #include <math.h>
@@ -224,14 +223,14 @@ static void pushing(dotpose_locator* locator) {
     EXPECT(NULL_POINTER, dotpose_finish(locator, NULL));
     EXPECT(NO_CONTRAST, dotpose_finish(locator, &fix));
     EXPECT(NO_FRAME, dotpose_finish(locator, &fix));
-    /* All other calls discard an unfinished frame. */
+    /* dotpose_set_options and dotpose_locate discard an unfinished frame. */
     EXPECT(OK, dotpose_begin(locator, WIDTH_PX, HEIGHT_PX, NULL));
     EXPECT(OK, dotpose_set_options(locator, NULL));
     EXPECT(NO_FRAME, dotpose_push_row(locator, pixels));
     EXPECT(OK, dotpose_begin(locator, WIDTH_PX, HEIGHT_PX, NULL));
     EXPECT(NO_CONTRAST, dotpose_locate(locator, pixels, WIDTH_PX, HEIGHT_PX, WIDTH_PX, NULL, &fix));
     EXPECT(NO_FRAME, dotpose_finish(locator, &fix));
-    /* A frame may be finished early. */
+    /* A frame may be finished before all its rows have been pushed. */
     EXPECT(OK, dotpose_begin(locator, WIDTH_PX, HEIGHT_PX, NULL));
     EXPECT(NO_CONTRAST, dotpose_finish(locator, &fix));
     EXPECT(NULL_POINTER, dotpose_begin(NULL, WIDTH_PX, HEIGHT_PX, NULL));

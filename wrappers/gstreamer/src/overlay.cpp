@@ -74,7 +74,7 @@ void draw_arrow(const Canvas& canvas, Point from, Point direction, double length
 void draw_overlay(const Luma& luma, const Trace& trace) {
     const int side_px = std::max(luma.width_px, luma.height_px);
     const ImageView image = {luma.pixels, luma.width_px, luma.height_px, luma.stride_bytes};
-    // One unit of the drawing is one pixel.
+    // Scales the drawing so that one unit is one pixel.
     const draw::FrameView view(image, trace, side_px);
     const Canvas canvas(luma);
     const double radius = std::max(2.0, 0.3 * view.spacing());

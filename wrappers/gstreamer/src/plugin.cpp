@@ -10,7 +10,8 @@
 namespace {
 
 gboolean register_all(GstPlugin* plugin) {
-    // Because the meta has no tags, it is kept when another element scales or converts the frame.
+    // The meta has no tags, so GStreamer keeps it when another element scales or converts the
+    // frame.
     std::array<const char*, 1> no_tags = {nullptr};
     if (gst_meta_register_custom(dotpose::gstreamer::kPoseName, no_tags.data(), nullptr, nullptr,
                                  nullptr) == nullptr) {

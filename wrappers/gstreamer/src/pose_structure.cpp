@@ -39,13 +39,13 @@ class Fields {
     void evidence(const char* key, Enum value) const {
         text(key, name(value));
     }
-    /// Sets an angle, which is converted to degrees in (-180, 180].
+    /// Sets an angle. Converts it from rad to degrees in (-180, 180].
     void angle(const char* name, double value_rad) const {
         const double value_deg = value_rad * kDegrees;
         number(name, value_deg <= -180 ? value_deg + 360 : value_deg);
     }
     /// Sets the nine elements of a covariance, row by row. Each element is multiplied by the
-    /// factors of its row and its column. If the covariance is unknown, sets nothing.
+    /// factors of its row and its column. Sets nothing if the covariance is unknown.
     template <typename Matrix>
     void covariance(const char* name, const Matrix& matrix,
                     const std::array<double, 3>& factors) const {

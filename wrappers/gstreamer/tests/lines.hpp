@@ -13,7 +13,7 @@
 
 namespace dotpose::test {
 
-/// Returns the maximum rounding error of the value of field `key` in a line of `dotpose watch`.
+/// Returns the maximum rounding error of the field `key` in a line that `dotpose watch` writes.
 inline double rounding_of(std::string_view key, double value) {
     constexpr double kHalf = 0.501;
     if (key.starts_with("covariance") || key.starts_with("track_covariance")) {

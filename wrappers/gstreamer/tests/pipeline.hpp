@@ -100,7 +100,7 @@ inline bool take(GstMessage* message, Outcome& outcome) {
 }  // namespace pipeline_detail
 
 /// Runs a pipeline to its end. `description` must not contain a sink, because this function appends
-/// one.
+/// a sink.
 inline Outcome run_pipeline(const std::string& description) {
     Outcome outcome;
     GError* error = nullptr;

@@ -1,5 +1,5 @@
-/// Declarations shared by the binding files: the namespace `py`, functions that each define the
-/// classes and functions for one subject, and conversions of option values.
+/// Declarations shared by the binding files: the namespace `py`, the functions that define the
+/// Python API, and conversions of option values.
 #pragma once
 
 #include <optional>

@@ -22,8 +22,8 @@ CalibrateOptions options_of(const std::string& name, double spacing_mm) {
     return options;
 }
 
-/// Calls `work` with the GIL released, passing the number of images and a function that returns an
-/// image.
+/// Calls `work` with the GIL released, passing the number of images and a function that returns the
+/// image with a given index.
 template <typename Work>
 auto over(const py::iterable& images, const Work& work) {
     const std::vector<Frame> frames = frames_of(images);

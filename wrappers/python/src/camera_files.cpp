@@ -1,4 +1,4 @@
-// Camera files and the pose of a mounted camera, for Camera.read, Camera.write and Locator.
+// Camera files and the pose of a mounted camera. Used by Camera.read, Camera.write and Locator.
 #include "camera_files.hpp"
 
 #include "dotpose/files/camera_file.hpp"

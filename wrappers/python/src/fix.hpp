@@ -28,7 +28,7 @@ struct SeenFix {
     std::optional<OtherPlace> other;
     /// Reference point of the pose, relative to the image centre, in units of 2^-8 px.
     FixedVec reference_q8;
-    std::shared_ptr<StageSource> source;  ///< locator of the frame
+    std::shared_ptr<StageSource> source;  ///< locator that located the frame
     std::uint64_t number = 0;             ///< number of the frame, counted by `source`
     /// Error message if an option is out of range, otherwise empty.
     std::string fault;

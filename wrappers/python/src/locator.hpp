@@ -1,4 +1,5 @@
-/// LocatorOfPython: a Locator with the data that Python may request after a frame.
+/// LocatorOfPython: a Locator that keeps the data of the newest frame for later requests from
+/// Python.
 #pragma once
 
 #include <cstdint>

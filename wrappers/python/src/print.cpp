@@ -15,8 +15,8 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// Adds sheets to a sheet file under a name, before their pages are written. Does nothing if there
-/// is no sheet file.
+/// Reserves regions for sheets in a sheet file before the pages are written. Does nothing if no
+/// sheet file is given.
 class Entering {
   public:
     Entering(const std::optional<Path>& file, const std::optional<std::string>& name)

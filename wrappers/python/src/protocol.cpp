@@ -1,4 +1,4 @@
-// Bindings for the simulation of the experiment in section IV of the paper.
+// Bindings for the simulated experiment (paper, section IV).
 #include "dotpose/tools/protocol.hpp"
 
 #include "binding.hpp"

@@ -8,7 +8,7 @@ namespace {
 template <typename T>
 std::vector<T> kept(std::span<const T>& shown) {
     std::vector<T> copy(shown.begin(), shown.end());
-    // `shown` remains valid after `copy` is moved, because moving a vector does not move its
+    // `shown` remains valid after `copy` is moved, because moving a vector does not relocate its
     // elements.
     shown = copy;
     return copy;

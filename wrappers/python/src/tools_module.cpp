@@ -1,5 +1,5 @@
 // The module dotpose._tools: files, printing, checking, calibration and drawing. The module is
-// optional, because it needs the libraries of the tool.
+// optional, because it needs the libraries that the command-line tool uses.
 #include "binding.hpp"
 
 PYBIND11_MODULE(_tools, module) {

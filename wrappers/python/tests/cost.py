@@ -2,8 +2,8 @@
 
     python3 cost.py
 
-Python and C++ locate the same image with the same options, in short alternating batches. The
-result is the fastest batch of each, because slower batches were disturbed by other programs.
+Python and C++ locate the same image with the same options, in short alternating batches. For each
+language, the result is the fastest batch, because other programs disturbed the slower batches.
 """
 
 import time

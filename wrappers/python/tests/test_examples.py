@@ -60,7 +60,7 @@ def test_figure_13(tmp_path):
     pytest.importorskip("matplotlib")
     out = run("figure_13.py", tmp_path / "figure.png", 2)
     assert "2 samples at each of 121 positions" in out
-    # The simulated printer has the errors of Table III of the paper: at most 0.15 mm.
+    # The simulated printer has errors of up to 0.15 mm (paper, Table III).
     assert 50 < float(out.split()[-2]) < 200
     assert dotpose.read_image(tmp_path / "figure.png").shape == (450, 1100)
 
@@ -74,7 +74,8 @@ def test_the_notebook_has_no_outputs_and_runs(tmp_path):
     pytest.importorskip("ipykernel")
     pytest.importorskip("matplotlib")
     notebook = nbformat.read(path, as_version=4)
-    # Uses this Python as the kernel, regardless of the kernel that is installed as "python3".
+    # Uses the current Python interpreter as the kernel, even if another kernel is installed as
+    # "python3".
     kernels = tmp_path / "kernels" / "python3"
     kernels.mkdir(parents=True)
     command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]

@@ -7,7 +7,8 @@ import dotpose
 
 def test_a_sheet_fills_its_page():
     sheet = dotpose.make_sheet()
-    # The sheet that `dotpose print -o sheet.png --paper A4` prints (README.md).
+    # These are the properties of the sheet that `dotpose print -o sheet.png --paper A4` prints
+    # (README.md).
     assert (sheet.width_mm, sheet.height_mm, sheet.columns, sheet.rows) == (210, 297, 394, 565)
     assert sheet.spacing_mm == 0.508 and sheet.dot_mm == sheet.displacement_mm == 0.508 / 6
     assert sheet.code == "anoto" and sheet.section == (0, 0) and sheet.origin == (0, 0)
@@ -133,7 +134,7 @@ def test_a_print_is_checked(tmp_path):
     assert field.dots == field.cells == field.columns * field.rows
     check.draw(tmp_path / "scan.svg")
     assert "<svg" in (tmp_path / "scan.svg").read_text()
-    # At a lower resolution, the same pixels show a page that was printed too large.
+    # If the scan is declared as 580 dpi, the page appears to be printed too large.
     scaled = dotpose.check_print(dotpose.read_image(path), dpi=580)
     assert not scaled.is_good
     assert scaled.fields[0].scale.scale_x == pytest.approx(600 / 580, abs=1e-4)

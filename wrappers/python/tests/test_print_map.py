@@ -18,7 +18,8 @@ def entry():
 
 
 def shots_of(entry, count, seed, print_seed=5):
-    """Yields shots of one print of the page. The dots of the print have errors of 10 um."""
+    """Yields shots of one print of the page. The printed dots have position errors with
+    a standard deviation of 10 um."""
     rng = random.Random(seed)
     first = dotpose.draw_shots(1, seed=print_seed, width_px=320, height_px=240, section=(0, 0))[0]
     first.tilt_x_rad = first.tilt_y_rad = 0.0

@@ -15,7 +15,8 @@
 
 #include <dotpose/tools/ros_messages.hpp>
 
-// These messages have the same members as in ROS. robots.Cdr.TypesAreDefinedAsInRos checks this.
+// The messages below have the same members as the ROS messages, as
+// robots.Cdr.TypesAreDefinedAsInRos checks.
 namespace std_msgs::msg {
 using dotpose::ros::Header;
 }

@@ -49,7 +49,9 @@ function keepLeast(least, times_us) {
     return times_us.map((us, i) => Math.min(us, least?.[i] ?? Infinity));
 }
 
-/** Returns the mean time of the frames without (0) or with (1) a prediction. */
+/**
+ * Returns the mean time of the frames without (`way` 0) or with (`way` 1) a prediction.
+ */
 function mean(times_us, way) {
     const chosen = times_us.filter((_, i) => i % 2 === way);
     return chosen.reduce((sum, us) => sum + us) / chosen.length;

@@ -179,7 +179,7 @@ const std::uint8_t* dotpose_tools_svg() {
     return bytes.data();
 }
 
-/// Draws the sheet and returns its rows, with 8 pixels per byte. 1 is ink.
+/// Draws the sheet and returns its rows, with 8 pixels per byte. A 1 bit is ink.
 const std::uint8_t* dotpose_tools_raster(double dpi) {
     const Sheet sheet = sheet_of(request.sheet);
     validate_resolution(sheet, dpi);

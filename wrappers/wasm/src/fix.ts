@@ -13,8 +13,8 @@ import type { SpacePose } from "./space.js";
  */
 export interface Fix extends FixFields {
     /**
-     * True if there is a pose. A frame without a pose is not an error. In this case, `message`
-     * contains the reason.
+     * True if there is a pose. Otherwise, `message` contains the reason. A frame without a pose is
+     * not an error.
      */
     ok: boolean;
     /** Identifier of the status, for example "ok" or "too_few_dots". */
@@ -83,7 +83,7 @@ export function fixOf(bytes: Uint8Array<ArrayBuffer>, context: Context): Fix {
     };
 }
 
-/** Map from the image to the paper, like dotpose_plane, but in px and spacings. */
+/** Map from the image to the paper: a dotpose_plane converted to floating-point px and spacings. */
 interface Plane {
     place: Cell;
     centre: [number, number];

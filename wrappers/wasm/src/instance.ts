@@ -23,7 +23,7 @@ export function hasSimd(): boolean {
 /** Compiled modules by URL. Each module is compiled only once. */
 const compiled = new Map<string, Promise<WebAssembly.Module>>();
 
-/** Returns the compiled module of a source. */
+/** Returns the compiled module for a source. */
 export function compile(source: WasmSource): Promise<WebAssembly.Module> {
     if (source instanceof WebAssembly.Module) return Promise.resolve(source);
     if (typeof source !== "string" && !(source instanceof URL)) return WebAssembly.compile(source);

@@ -60,16 +60,16 @@ export interface LocatorOptions {
     dots?: boolean;
     /**
      * Intrinsic parameters of the camera. If given, the camera's pose in space is computed for
-     * every fix (`Fix.space`). The locator then uses a larger module, `dotpose-space.wasm`, which
-     * takes more time. The options `lens_k_per_px2` and `lens_centre_offset_px` specify the lens
-     * distortion. Default: none.
+     * every fix (`Fix.space`). Locating then takes more time and uses a larger module,
+     * `dotpose-space.wasm`. The options `lens_k_per_px2` and `lens_centre_offset_px` specify the
+     * lens distortion. Default: none.
      */
     space?: SpaceCamera;
     /**
      * Contents of a print map file written by `dotpose calibrate --print-map`. Fixes and poses in
-     * space on its pages are corrected (`Fix.map_use`). For the highest accuracy, locate without
-     * predictions, because tracking measures the dots in windows at their nominal positions. Like
-     * `space`, this option makes the locator use the larger module. Default: none.
+     * space on the pages of the map are corrected (`Fix.map_use`). For the highest accuracy, locate
+     * without predictions, because tracking measures the dots in windows at their nominal
+     * positions. Like `space`, this option makes the locator use the larger module. Default: none.
      */
     print_map?: Uint8Array;
     /** The core module, as a URL, bytes or a compiled module. Default: the file next to this
@@ -81,9 +81,8 @@ export interface LocatorOptions {
 export interface FrameOptions {
     /**
      * Fix of the previous frame, or the prediction of a tracker. Locating then starts at the
-     * expected position of the pattern, and takes only a fraction of the time. If the frame does
-     * not confirm the prediction, or if the fix is not ok, the frame is located without a
-     * prediction.
+     * expected position of the pattern, and is much faster. If the frame does not confirm the
+     * prediction, or if the fix is not ok, the frame is located without a prediction.
      */
     prediction?: Fix | Prediction | null | undefined;
     /**

@@ -38,7 +38,7 @@ export type MapUse = (typeof kMapUses)[number];
 
 /** All values of `Verdict`, indexed by their numbers in C. */
 export const kVerdicts = ["none", "accepted", "with_prior", "gated", "too_weak"] as const;
-/** Verdict of a tracker on the fix of a frame. `none` means that there was no fix. */
+/** A tracker's verdict on the fix of a frame. `none` means that there was no fix. */
 export type Verdict = (typeof kVerdicts)[number];
 
 /** All values of `TrackEvent`, in the order of their bits in C. */

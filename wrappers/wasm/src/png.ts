@@ -3,7 +3,7 @@ import type { Raster } from "./tools.js";
 
 const kSignature = [137, 80, 78, 71, 13, 10, 26, 10];
 
-/** Table of the PNG checksum, indexed by byte. */
+/** Lookup table for the PNG checksum, indexed by byte. */
 const kCrcTable = Uint32Array.from({ length: 256 }, (_, byte) => {
     let crc = byte;
     for (let bit = 0; bit < 8; ++bit) crc = crc & 1 ? 0xedb88320 ^ (crc >>> 1) : crc >>> 1;

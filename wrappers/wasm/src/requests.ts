@@ -38,8 +38,8 @@ export interface Camera {
     /** Radial distortion per px^2, negative for barrel distortion. */
     k?: number;
     /**
-     * Distance of the projection centre from the paper. It has an effect only if the camera is
-     * tilted. Default: 16.
+     * Distance of the projection centre from the paper. This option has an effect only if the
+     * camera is tilted. Default: 16.
      */
     working_distance_mm?: number;
 }
@@ -58,8 +58,8 @@ export interface CameraPose {
      */
     tilt_x_rad?: number;
     /**
-     * Tilt about the image y axis. If positive, the paper is closer to the camera at the right of
-     * the image.
+     * Tilt about the image y axis. If positive, the paper is closer to the camera on the right side
+     * of the image.
      */
     tilt_y_rad?: number;
 }
@@ -70,11 +70,11 @@ export interface Imperfections {
     paper_level?: number;
     /** Reflectance of ink, relative to paper. Default: 0.15. */
     ink_reflectance?: number;
-    /** Standard deviation of the reflectance among dots. */
+    /** Standard deviation of the ink reflectance from dot to dot. */
     ink_variation?: number;
     /** Contrast of the palest ink relative to the darkest ink. Default: 1. */
     palest_ink?: number;
-    /** Loss of light in the corners, 0 to 1. */
+    /** Fraction of the light that is lost in the corners, 0 to 1. */
     vignetting?: number;
     /** Change in brightness from one side of the image to the other, 0 to 2. */
     fall?: number;
@@ -106,7 +106,7 @@ export interface Imperfections {
     texture?: number;
 }
 
-/** All inputs of a simulated frame. */
+/** All inputs for a simulated frame. */
 export interface Scene {
     /** The page, which is on a table. */
     sheet?: SheetOptions;

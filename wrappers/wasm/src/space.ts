@@ -42,8 +42,8 @@ export interface SpacePose extends PoseInSpace {
     /** Angle of the image x axis on the paper after the tilt is removed, clockwise from +x. */
     turn_rad: number;
     /**
-     * Covariance of the position, in mm, and of a small rotation vector in the camera frame, in
-     * rad: 36 numbers, row by row.
+     * Covariance of the position (mm) and of a small rotation vector in the camera frame (rad): 36
+     * numbers, row by row.
      */
     covariance: Float64Array;
     /** Number of dots used. */
@@ -58,7 +58,7 @@ export interface SpacePose extends PoseInSpace {
 
 /** The second pose that explains the view of a plane. */
 export interface SecondPose extends PoseInSpace {
-    /** Odds of this pose relative to the first one. */
+    /** Odds of this pose relative to the first pose. */
     odds: number;
 }
 

@@ -22,8 +22,8 @@ export interface SheetLayout {
 }
 
 /**
- * A page as pixels, 8 per byte. The leftmost pixel is in the most significant bit. 1 is ink. Each
- * row begins at a byte boundary.
+ * A page as pixels, 8 per byte. The leftmost pixel is in the most significant bit. A 1 bit is ink.
+ * Each row begins at a byte boundary.
  */
 export interface Raster {
     /** Width of the page. */
@@ -101,7 +101,10 @@ export class Tools {
         return { width_px: px(sheet.width_mm ?? 210), height_px: px(sheet.height_mm ?? 297), dpi, bits };
     }
 
-    /** Returns the sheet as a PNG file with 1 bit per pixel. The file prints at its true size. */
+    /**
+     * Returns the sheet as a PNG file with 1 bit per pixel. The file contains the resolution, so it
+     * prints at true size.
+     */
     png(sheet: SheetOptions = {}, dpi = 600): Promise<Uint8Array<ArrayBuffer>> {
         return pngOf(this.raster(sheet, dpi));
     }

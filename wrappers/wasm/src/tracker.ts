@@ -8,7 +8,10 @@ import { kTrackEvents, kVerdicts, type Code, type TrackEvent, type Verdict } fro
 import { newLocator } from "./new_locator.js";
 import { kPredictionBytes, type Prediction } from "./prediction.js";
 
-/** Motion of the robot, and limits for accepting fixes. docs/tracking.md explains the options. */
+/**
+ * Options of a tracker: limits on the robot's motion, and criteria for accepting fixes.
+ * docs/tracking.md explains the options.
+ */
 export interface TrackOptions {
     /** Standard deviation of the acceleration while the robot manoeuvres. Default: 600. */
     acceleration_mm_s2?: number;
@@ -40,7 +43,7 @@ export interface TrackOptions {
     /** Log2 of the maximum probability that an accepted fix is wrong. Default: -30. */
     max_p_wrong_log2?: number;
     /**
-     * Log2 of the maximum `p_wrong`, computed without the prior, for a weak fix to be accepted.
+     * Maximum log2 of `p_wrong`, computed without the prior, at which a weak fix can be accepted.
      * Must be at most -1. Default: -10.
      */
     max_weak_p_wrong_log2?: number;
@@ -169,9 +172,10 @@ export class Tracker {
     }
 
     /**
-     * Updates the tracker with a frame. `time_us` is its time on any clock, as a whole number. The
-     * fix need not be ok. `motion` is the motion since the previous update. Without a fix, the pose
-     * is updated with the motion. A frame that is not newer than the previous frame is ignored.
+     * Updates the tracker with a frame. `time_us` is the frame's time on any clock, as a whole
+     * number. The fix need not be ok. `motion` is the motion since the previous update. Without a
+     * fix, the pose is updated with the motion. A frame that is not newer than the previous frame
+     * is ignored.
      */
     update(time_us: number, fix?: Fix | null, motion?: MeasuredMotion | null): Track {
         const time = timeOf(time_us);

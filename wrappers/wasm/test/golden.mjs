@@ -46,7 +46,7 @@ const kColumns = [
     ["float", 1, 248], // readout_turn_rad
 ];
 
-/** Returns the numbers in a fix, in the format of a golden file line. */
+/** Returns the numbers in a fix, in the format of the lines in a golden file. */
 function lineOf(fix) {
     const view = new DataView(fix.bytes.buffer);
     const hex = (value, digits) => value.toString(16).padStart(digits, "0");

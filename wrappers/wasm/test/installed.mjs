@@ -1,5 +1,5 @@
-// The packed and installed package. The environment variable DOTPOSE_PACKAGE is the folder in which
-// the package is installed. DOTPOSE_TOOL is the path of the command-line tool.
+// Access to the packed and installed package. The environment variable DOTPOSE_PACKAGE is the
+// folder in which the package is installed. DOTPOSE_TOOL is the path of the command-line tool.
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";

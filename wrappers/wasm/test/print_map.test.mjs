@@ -58,7 +58,10 @@ describe("print map", () => {
     let options;
     let locator;
 
-    /** Returns a frame of a print whose dots have random position errors of 20 um. */
+    /**
+     * Returns a frame of a print whose dots have random position errors with a standard deviation
+     * of 20 um.
+     */
     const render = (pose, seed, page_seed = 5) =>
         tools.render({
             ...{ sheet: kSheet, page_seed, camera: kCamera, seed },

@@ -12,7 +12,7 @@ constexpr int kWidth_px = board::kMaxWidth_px;
 constexpr int kHeight_px = board::kMaxHeight_px;
 std::uint8_t row[kWidth_px];
 
-// Returns the time on a 64-bit clock in µs, because micros() wraps around after 71 minutes.
+// Returns the time in µs on a 64-bit clock, because micros() wraps around after 71 minutes.
 std::int64_t now_us() {
     static std::uint32_t last = 0;
     static std::int64_t total_us = 0;

@@ -1,5 +1,4 @@
-// Tests the orientation and position decoded from ideal views of the pattern, for all orientations
-// of the grid.
+// Tests the orientation and position decoded from simulated dots, for all orientations of the grid.
 #include "core/decode/position.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests the search for the position on an axis, in lines with wrong bits.
+// Tests the search for the position along an axis. Some of the bits in the lines are wrong.
 #include "core/decode/search.hpp"
 
 #include <algorithm>

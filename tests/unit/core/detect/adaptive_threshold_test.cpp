@@ -12,7 +12,7 @@ namespace {
 using namespace core;
 
 /// Returns an image of uniform paper with dark squares of 2 x 2 px every 8 px. Only some rows of a
-/// tile are measured, and each square covers one of them.
+/// tile are measured, and each square intersects one of these rows.
 GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     GreyImage image = blank(width_px, height_px, paper);
     for (int v = 2; v + 2 <= height_px; v += 8) {
@@ -92,7 +92,7 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
 TEST(AdaptiveThreshold, LevelsAreTheSameInAllColumnsOfATile) {
     LargeWorkspace w;
     // The images have tiles of different heights, and tiles that extend beyond the border. The
-    // light changes from tile to tile.
+    // brightness changes from tile to tile.
     for (const auto& [width, height] :
          {std::pair{120, 80}, std::pair{101, 64}, std::pair{400, 256}, std::pair{397, 250}}) {
         SCOPED_TRACE(testing::Message() << width << " x " << height);
@@ -211,7 +211,7 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
 }
 
 TEST(AdaptiveThreshold, ThresholdsFollowAShadow) {
-    // The light in the right half of the image is a third of the light in the left half.
+    // The right half of the image is a third as bright as the left half.
     SmallWorkspace w;
     GreyImage image = dotted(160, 80, 210, 30);
     for (int v = 0; v < 80; ++v) {

@@ -21,8 +21,8 @@ constexpr std::uint64_t kSeed = 22;
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;
 
-/// Returns an image with ink that is drawn from text. Each letter other than '.' is a square of 2 x
-/// 2 px of ink. The first letter is at (u0, 30).
+/// Returns an image that is drawn from text. Each letter other than '.' is a square of 2 x 2 px of
+/// ink. The first letter is at (u0, 30).
 GreyImage drawn(std::initializer_list<std::string_view> picture, int u0 = 30) {
     GreyImage image = blank(96, 80);
     int v = 30;
@@ -135,8 +135,8 @@ TEST(Blobs, WhatTouchesTheBorderIsNoDot) {
 }
 
 TEST(Blobs, FoundInUnevenLight) {
-    // The dots are 9.3 px apart. From one corner to the opposite corner, the light decreases to a
-    // third.
+    // The dots are 9.3 px apart. The brightness decreases to a third from one corner to the
+    // opposite corner.
     GreyImage image = blank(190, 120);
     std::vector<Vec2> centres;
     for (double y = 7.2; y < 113; y += 9.3) {
@@ -277,7 +277,7 @@ Flood flood(GreyImage& image, int u, int v) {
 }
 
 bool is_at(const DetectedDot& dot, const Flood& blob) {
-    // The weights of pixels depend on the threshold of their tile. The differences between tiles
+    // The weight of a pixel depends on the threshold of its tile. The differences between tiles
     // move the centroid by at most a tenth of the size of the blob.
     const double size = std::max(blob.right - blob.left, blob.bottom - blob.top) + 1;
     return dot.area_px == blob.area && length(real(dot.centre_q8, 8) - blob.centre) <= 0.1 * size;
@@ -333,7 +333,7 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     }
 }
 
-/// Dots after the size filter. The filter keeps the first `count` dots.
+/// Result of the size filter. The first `count` dots are kept, and the other dots are rejected.
 struct Sifted {
     std::vector<DetectedDot> dots;
     int count = 0;

@@ -1,4 +1,4 @@
-// Tests the positions of patches, and their thresholds.
+// Tests the positions and thresholds of patches.
 #include "core/detect/patch.hpp"
 
 #include <algorithm>

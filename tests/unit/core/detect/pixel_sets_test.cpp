@@ -112,8 +112,8 @@ void expect_sets(const GreyImage& image) {
 }
 
 TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
-    // The grey levels are random, and include levels just above and below the thresholds. The light
-    // is uneven.
+    // The grey levels are random, and include levels just above and below the thresholds. The
+    // lighting is uneven.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         const int width = 64 + static_cast<int>(rng.below(260));

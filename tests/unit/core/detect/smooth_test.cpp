@@ -64,9 +64,9 @@ TEST(Smooth, SinglePixelsVanish) {
 }
 
 TEST(Smooth, DotsAreWeightedWithTheBinomial) {
-    // A square of 3 x 3 pixels is wider than an impulse, so it remains. The filter (1 4 6 4 1) / 16
-    // along each axis gives it the weight (14 / 16)^2 at its middle. The square is an eighth darker
-    // than the paper.
+    // A square of 3 x 3 pixels is wider than an impulse, so it remains. The square is an eighth
+    // darker than the paper. At its middle pixel, the filter (1 4 6 4 1) / 16 along each axis
+    // multiplies this difference by (14 / 16)^2.
     GreyImage image = blank(400, 400);
     fill(image, 199, 199, 202, 202, pixel(image, 0, 0) * 7 / 8);
     const GreyImage found = smoothed(image);

@@ -127,7 +127,8 @@ TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
         value = -value;
     const FloatPlane plain = scaled(plane).changed(off);
     EXPECT_NEAR(plain.bend, 0, 1e-11);
-    // The tilt is not exactly 0, because removing the shear of about 1 % slightly rotates it.
+    // The tilt is not exactly 0, because removing the shear of about 1 % also rotates the tilt
+    // slightly.
     EXPECT_NEAR(plain.tilt_x, 0, 2e-5);
     EXPECT_NEAR(plain.tilt_y, 0, 2e-5);
     EXPECT_NEAR(plain.du_x, plain.dv_y, 2e-5);

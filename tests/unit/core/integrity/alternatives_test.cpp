@@ -19,7 +19,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 42;
 
-/// Returns log2 of the sum of the odds of all alternatives for an error-free window of 12 rows.
+/// Returns log2 of the total odds of all alternatives for an error-free window of 12 rows.
 int alternatives_of_window(CodeVariant code, const Place& place, int columns, int odds_q8) {
     constexpr int kRows = 12;
     OwnedGrid owned(std::max(columns, kRows));
@@ -60,8 +60,8 @@ TEST(Alternatives, AreNotMoreWithMoreColumns) {
         }
         // A position that shares only five of 17 lines with the reading differs in twelve lines, by
         // at least two bits each. With odds of 2^-5 per bit, its odds are at most 2^-120, and there
-        // are 2^29 such positions. The limit is much larger than their sum because small odds are
-        // counted as 2^-56.
+        // are 2^29 such positions. The limit is much larger than the sum of these odds because
+        // small odds are counted as 2^-56.
         EXPECT_LE(before, -40);
         // If a bit is more reliable, the alternatives must not become more probable.
         EXPECT_LE(alternatives_of_window(code, place, 8, 2 * kOdds_q8),
@@ -100,8 +100,8 @@ double two_lines(std::uint32_t position, const Odds& first, const Odds& second, 
         if (sequences < 2) continue;
         int cases = 0;
         double sum = 0;
-        // `alternative` encodes one digit of each sequence as a number in the mixed radix 3 x 3 x 2
-        // x 3.
+        // `alternative` encodes one digit of each sequence, as a mixed-radix number with the
+        // radices 3, 3, 2 and 3.
         for (int alternative = 0; alternative < 54; ++alternative) {
             int difference = 0;
             bool counts = true;

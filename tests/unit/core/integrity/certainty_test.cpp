@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Judges the claim that the bits of a block are at the place `claimed`. Returns the verdict.
+/// Returns the verdict on the claim that the bits of a block are at the place `claimed`.
 Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& options = {}) {
     core::BitBlock words;
     core::Evidence evidence;
@@ -77,9 +77,8 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns a block that agrees equally well with its own place and with an alternative. Half of the
-/// bits in which the two places differ agree with one place, and the other half with the other
-/// place.
+/// Returns a block that agrees equally well with its own place and with an alternative. Of the bits
+/// in which the two places differ, half agree with one place and half with the other.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;

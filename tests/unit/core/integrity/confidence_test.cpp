@@ -143,7 +143,8 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
 
 TEST(Chance, EachBitThatAgreesHasItsFactor) {
     // The result for 2^20 equal bits is divided by 2^20. This gives log2 of the factor of one bit,
-    // (1 + 2^-y) / 2, with an accuracy of 2^-20.
+    // with an accuracy of 2^-20. The factor is (1 + 2^-y) / 2, where y is log2 of the odds of the
+    // bit.
     constexpr int kDoublings = 20;
     for (const int weight : {4, 12, 60, 124}) {
         Confidence bits = confidence(1, weight, 0);
@@ -162,7 +163,8 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
 }
 
 TEST(Chance, EachBitThatContradictsHasItsFactor) {
-    // The factor of a bit that disagrees is 2^y times the factor of a bit that agrees.
+    // The factor of a bit that disagrees is 2^y times the factor of a bit that agrees, where y is
+    // log2 of the odds of the bit.
     constexpr int kBits = 1 << 12;
     for (const int weight : {12, 60, 124}) {
         const Confidence agree = confidence(kBits, weight, 0);

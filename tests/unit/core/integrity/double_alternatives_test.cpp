@@ -111,7 +111,8 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
         const auto sum =
             static_cast<double>(sum_of_double_alternatives(kernels(), lines, 1, 0, 64 * rest));
         const double ratio = (sum - kFloor - 31 * static_cast<double>(rest)) / exact;
-        // Exponentials are accurate to 2 %, and their exponents are rounded to multiples of 2^-8.
+        // The computed powers of two are accurate to 2 %, and their exponents are rounded to
+        // multiples of 2^-8.
         EXPECT_GE(ratio, 0.96) << "least " << least << ", seed " << kSeed;
         // Pairs of places that share at most one line with the position contribute their expected
         // odds, so the sum may exceed the exact sum.

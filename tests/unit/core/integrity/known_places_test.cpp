@@ -80,7 +80,8 @@ std::array<int, 2> wrong_bits(const core::BitBlock& block, CodeVariant code, con
     return wrong;
 }
 
-/// Returns the probability that at most `wrong` of `bits` random bits differ from given bits.
+/// Returns the probability that at most `wrong` of `bits` random bits differ from a given bit
+/// string.
 double random_agreement(int bits, int wrong) {
     double term = std::exp2(-bits);
     double sum = 0;
@@ -181,7 +182,7 @@ TEST(KnownPlaces, UnknownSheetsMayHaveTheSameRows) {
 
 TEST(KnownPlaces, PlacesOnOtherSheetsAreAlternatives) {
     Rng rng(kSeed, 3);
-    // The sheets are displaced by a multiple of 63 columns, so their rows have the same rolls. Only
+    // The two sheets are a multiple of 63 columns apart, so their rows have the same rolls. Only
     // the x bits distinguish the sheets.
     KnownRegion other = kSheet;
     other.first.x += 630;

@@ -185,8 +185,8 @@ double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     return sum * power(set.alternatives_q8);
 }
 
-/// The estimate must be an upper bound for any certainty of the reading and any limit. With so few
-/// lines, all sets have about equal odds, so a missing set would be noticed.
+/// The estimate must be an upper bound, however certain the reading is and whatever the limit is.
+/// With 6 to 9 lines, all sets have about equal odds, so a missing set would be noticed.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     Rng rng(11);
     int doubtful = 0;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Judges the claim that the bits of a block are at the place `claimed`. Returns the verdict.
+/// Returns the verdict on the claim that the bits of a block are at the place `claimed`.
 Verdict judge_plainly(const Block& block, const Place& claimed,
                       const IntegrityOptions& options = {}) {
     Block there = block;

@@ -70,7 +70,7 @@ inline RatiosCase read_at_random(Rng& rng, int lines) {
     return c;
 }
 
-/// Places in the four sequences that belong to one position.
+/// The four places, one in each sequence, that correspond to one position.
 using PlacesOfAlternative = std::array<std::uint32_t, 4>;
 
 inline PlacesOfAlternative own_places(const RatiosCase& c) {

@@ -88,7 +88,7 @@ TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
         Verdict verdict = judge(reading, options, how);
         EXPECT_EQ(verdict.status, Status::ok);
         EXPECT_EQ(verdict.fix.p_wrong_log2, usual.fix.p_wrong_log2);
-        // Repeatedly lowers the limit below the last result. The exact sums may then still confirm
+        // Repeatedly sets the limit just below the last result. The exact sums may still confirm
         // the position.
         int looks = 0;
         for (; verdict.status == Status::ok; ++looks) {
@@ -199,8 +199,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns log2 of a sum over both axes. The terms of an axis are the probability of a match by
-/// chance and the exact sum of the odds of all alternatives.
+/// Returns log2 of a sum over both axes. Each axis contributes the probability of a match by chance
+/// and the exact sum of the odds of all alternatives.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;
@@ -292,7 +292,7 @@ TEST(Verify, ACloserLookCertifiesWhatAQuickOneCannot) {
         EXPECT_LE(close.fix.p_wrong_log2, quick.fix.p_wrong_log2);
         more += quick.status != Status::ok && close.status == Status::ok;
         if (close.status != Status::ok) continue;
-        // `verify` reports the smaller of two upper bounds: the exact sums, and the quick estimate.
+        // `verify` reports the smaller of two upper bounds: the exact sum and the quick estimate.
         const double exact = exact_p_wrong(reading);
         EXPECT_GE(close.fix.p_wrong_log2, std::min<double>(exact, quick.fix.p_wrong_log2) - 0.1);
     }

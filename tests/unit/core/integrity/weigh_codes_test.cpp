@@ -1,5 +1,5 @@
-// Tests the odds of places in other code variants against sums over all places that differ in a4,
-// and against the window decoder.
+// Compares the odds of places in other code variants to sums over all places that differ from the
+// reading in a4, and to the window decoder.
 #include "core/integrity/weigh_codes.hpp"
 
 #include <gtest/gtest.h>
@@ -32,8 +32,8 @@ std::vector<int> rolls_here(const RatiosCase& c, CodeVariant other) {
     return rolls;
 }
 
-/// Returns the sum, in double precision, of the odds of all places in the other code that differ
-/// from the reading only in a4, at all shifts. Excludes the place of the reading.
+/// Returns the total odds, in double precision, of all places in the other code that differ from
+/// the reading only in a4. Includes all shifts, but not the place of the reading itself.
 double exact_elsewhere(const RatiosCase& c, CodeVariant other) {
     const RatiosCase theirs = as_in(other, c);
     const std::vector<int> same = rolls_here(c, other);
@@ -95,8 +95,8 @@ TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
             const OtherCode& there = others.of[static_cast<std::size_t>(other)];
             EXPECT_NEAR(static_cast<double>(there.here()) / (x_here * y_here), 1, 0.06);
             EXPECT_GE(static_cast<double>(there.elsewhere()), 0.94 * exact);
-            // The odds of unlikely places are not computed one by one. Each contributes an upper
-            // bound, so the sum may exceed the exact sum.
+            // The odds of unlikely places are not computed individually. Each unlikely place
+            // contributes an upper bound, so the sum may exceed the exact sum.
             const double most = x_here + x_elsewhere + y_here + y_elsewhere;
             EXPECT_LE(static_cast<double>(there.elsewhere()), 1.06 * exact + 2e-12 * most + 4e-13);
             close += exact > 1e-9 ? 1 : 0;

@@ -49,8 +49,8 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                     ASSERT_FALSE(is_similar);
                     continue;
                 }
-                // Computes the maximum sum of the losses of steps with different digits, no two of
-                // which are adjacent.
+                // Computes the maximum total loss over all sets of steps with different digits in
+                // which no two steps are adjacent.
                 int most = 0;
                 int max_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
@@ -109,8 +109,8 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
                     const std::array<int, 3> alternative{static_cast<int>(k),
                                                          static_cast<int>(place), shift};
                     // The kernel adds up only the losses of lines after the shared line. The list
-                    // may therefore also contain places whose total loss exceeds the limit, which
-                    // this test allows.
+                    // may therefore also contain places whose total loss exceeds the limit. The
+                    // test allows such places.
                     if (lost >= enough) continue;
                     ASSERT_TRUE(found.count(alternative) > 0) << k << ' ' << place << ' ' << shift;
                     ++listed;
@@ -196,7 +196,7 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 
 /// Expected odds in double precision, indexed by the roll offset and by the length of the current
 /// run. The current run consists of adjacent lines in which the alternative has the roll offset 0
-/// and the digits of the reading. It ends with the newest line.
+/// and the digits of the reading. The run ends with the newest line.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
 /// Calls `use` for every choice of digits at one step. Digits are chosen only in sequences with
@@ -219,7 +219,7 @@ void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line,
 double expected_in_double(const OwnPlaces& places, unsigned different,
                           const std::vector<OddsByOffset>& lines, int max_shared) {
     double alternatives = 1;
-    double equal = 1.03;  // the safety factor per step
+    double equal = 1.03;  // safety factor for each step
     for (std::size_t k = 0; k < 4; ++k) {
         if ((different >> k & 1) == 0) continue;
         alternatives *= places.basis[k].length;

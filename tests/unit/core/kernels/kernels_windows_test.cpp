@@ -84,8 +84,8 @@ struct OneDot {
     CellsInView cells;
     DotTable table{8};
 
-    /// Draws a Gaussian dot at (u, v) with a prediction that is `off_px` too far to the right and
-    /// down.
+    /// Draws a Gaussian dot at (u, v). Its predicted position is `off_px` too far to the right and
+    /// `off_px` too far down.
     OneDot(double u, double v, double sigma_px, double off_px) {
         for (int y = 0; y < kSide_px; ++y) {
             for (int x = 0; x < kSide_px; ++x) {
@@ -277,8 +277,8 @@ TEST(KernelsWindows, AShadowThatEndsMovesNoCentresBesideItsEdge) {
 
 TEST(KernelsWindows, PredictedDotsAreReadByTheDarkestPlace) {
     repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
-        // The dot is displaced downwards from the intersection at (40, 40), which is symbol 3. The
-        // grid is upright.
+        // The grid is upright, and the dot is below the intersection at (40, 40). This displacement
+        // is symbol 3.
         const OneDot dot(40, 41.8, 1, 0);
         CellsInView view = dot.cells;
         view.plane = {0, 0, 1 / 11.0F, 0, 0, 1 / 11.0F, 0, 0, 0};

@@ -1,4 +1,4 @@
-// Random inputs for kernels, and records of their outputs for bitwise comparison.
+// Random inputs for kernels, and records of kernel outputs for bitwise comparison.
 #pragma once
 
 #include <algorithm>
@@ -87,7 +87,7 @@ inline float number(Rng& rng, double least, double most) {
     return static_cast<float>(rng.uniform(least, most));
 }
 
-/// An image with its pixels. The bytes beyond the end of a row are random.
+/// An image and its pixel buffer. The padding bytes between rows are random.
 struct Picture {
     std::vector<std::uint8_t> pixels;
     ImageView view;

@@ -103,7 +103,7 @@ TEST(Axes, NeedEdgesInTwoDirections) {
               Status::no_grid);  // too few edges
     EXPECT_EQ(axes_of(edges({{2816, 0}}, 80), lattice), Status::no_grid);
     EXPECT_EQ(axes_of(edges({{2816, 0}, {0, 900}}, 40), lattice),
-              Status::no_grid);  // the axes have a ratio of 3:1
+              Status::no_grid);  // the axes have a length ratio of 3:1
     EXPECT_EQ(axes_of(edges({{2816, 0}, {1900, 2078}}, 40), lattice), Status::no_grid);
     EXPECT_EQ(axes_of(edges({{0, 0}}, 80), lattice), Status::no_grid);
 }

@@ -23,8 +23,8 @@ inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     return result;
 }
 
-/// Expects that the plane maps the intersection of each dot to the dot's cell, within a tolerance
-/// in spacings. The plane and the mesh may have their origins at different intersections.
+/// Expects that the plane maps the intersection of each dot to the dot's cell, within `tolerance`
+/// spacings. The plane and the mesh may have their origins at different intersections.
 inline void expect_grid(const PlaneFromImage& plane, const std::vector<PlacedDot>& dots,
                         const std::vector<Vec2>& intersections_px, double tolerance) {
     const auto at = [&](Vec2 p) { return real(core::plane_point_q16(plane, fixed(p, 8)), 16); };

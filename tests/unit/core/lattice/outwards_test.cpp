@@ -18,7 +18,7 @@ constexpr std::uint64_t kSeed = 75;
 
 struct Trouble {
     double missing = 0;
-    double extra = 0;      ///< number of false dots at random positions per true dot
+    double extra = 0;      ///< number of false dots per true dot, at random positions
     double jitter_px = 0;  ///< standard deviation of the dot positions, per axis
     double displacement = 1 / 6.0;
 };
@@ -64,9 +64,9 @@ std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble,
     return patch;
 }
 
-/// Returns the maximum distance between the pattern points that two planes assign to an image
-/// point, over image points up to `half_px` from the centre. Offsets of whole cells and rotations
-/// by quarter turns are ignored.
+/// Returns the maximum distance between the pattern points that two planes assign to the same image
+/// point. Considers image points up to `half_px` from the centre. Ignores offsets of whole cells
+/// and rotations by quarter turns.
 double difference(const FloatPlane& found, const FloatPlane& truth, Vec2 half_px) {
     double least = 1e9;
     for (int quarters = 0; quarters < 4; ++quarters) {
@@ -107,9 +107,9 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_LT(difference(grid.grid_from_image, truth, {20, 20}), 0.1);
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
-        // The plane must be so accurate that the windows around the intersections contain the dots.
-        // One grid may be less accurate because its growth ended early. Such a grid is refused
-        // later, when its dots are measured.
+        // The plane must be accurate enough for the windows around the intersections to contain the
+        // dots. At most one grid may be less accurate because its growth ended early. Such a grid
+        // is refused later, when its dots are measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
                  difference(grid.grid_from_image, truth, {112, 80}) < 0.45;
     }

@@ -45,7 +45,7 @@ TEST(Fixed, QuotientsAreRoundedToNearestHalvesAwayFromZero) {
     for (int i = 0; i < 100000; ++i) {
         const auto n = static_cast<std::int64_t>(rng.bits()) >> (24 + rng.below(40));
         const std::int64_t d = 1 + rng.below(1U << (1 + rng.below(20)));
-        // In long double, the quotient is exact enough to be rounded correctly.
+        // In long double, the quotient is precise enough to be rounded correctly.
         const auto expected =
             std::llround(static_cast<long double>(n) / static_cast<long double>(d));
         ASSERT_EQ(divide_rounded(n, d), expected) << n << " / " << d << ", seed " << kSeed;
@@ -94,7 +94,7 @@ TEST(Fixed, SquareRootIsTheLargestWhoseSquareFits) {
     for (const std::uint64_t n : numbers) {
         const std::uint64_t root = square_root(n);
         ASSERT_LE(root * root, n);
-        // Expects that (root + 1)^2 > n, without overflow.
+        // This condition is equivalent to (root + 1)^2 > n, but does not overflow.
         ASSERT_GE(root * root + 2 * root, n) << "seed " << kSeed;
         const auto narrow = static_cast<std::uint32_t>(n);
         ASSERT_EQ(square_root(narrow), square_root(std::uint64_t{narrow})) << "seed " << kSeed;

@@ -1,4 +1,4 @@
-// Tests planes in single precision against their formula in double precision.
+// Compares planes in single precision to the plane formula in double precision.
 #include "core/math/float_plane.hpp"
 
 #include <limits>
@@ -39,7 +39,7 @@ TEST(FloatPlane, FarAwayItDoesNotFold) {
     plane.du_x = plane.dv_y = 0.1F;
     plane.tilt_x = -0.01F;
     EXPECT_FLOAT_EQ(core::plane_point(plane, {75, 10}).x, 30);
-    // At larger distances, the divisor is limited to a quarter.
+    // Beyond this point, the divisor does not decrease below 1/4.
     EXPECT_FLOAT_EQ(core::plane_point(plane, {100, 10}).x, 40);
     EXPECT_FLOAT_EQ(core::plane_point(plane, {200, 10}).y, 4);
 }

@@ -99,7 +99,7 @@ TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
         const auto any = [&] { return static_cast<std::int32_t>(rng.bits()) >> rng.below(13); };
         plane.lens_q40 = any();
         if (i % 2 == 1) {
-            // The fit to false dots may yield arbitrary values.
+            // A fit to false dots may yield arbitrary values.
             plane.du_q24 = {any(), any()};
             plane.dv_q24 = {any(), any()};
             plane.perspective_q30 = {any(), any()};

@@ -52,7 +52,7 @@ TEST(DotModel, HasAnObliqueBlur) {
     const Vec2 motion{1, 0.6};
     constexpr double kBlur_px = 0.7;
     const DrawnDot expected = moving_dot(disc(1), centre, kBlur_px, motion);
-    // A uniform motion has the variance motion^2 / 12.
+    // A uniform motion during the exposure adds motion^2 / 12 to the variance of the blur.
     const auto plus_motion = [](double blur_2, double by) {
         return static_cast<float>(blur_2 + by / 12);
     };

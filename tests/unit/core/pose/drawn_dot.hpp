@@ -24,7 +24,7 @@ inline InkAt square(double side_px) {
     return [=](Vec2 p) { return std::max(std::abs(p.x), std::abs(p.y)) <= side_px / 2; };
 }
 
-/// The darkness of pixels around a dot, row by row.
+/// The darkness of the pixels around a dot, row by row.
 struct DrawnDot {
     static constexpr int kHalf_px = 6;
     static constexpr int kSide = 2 * kHalf_px + 1;

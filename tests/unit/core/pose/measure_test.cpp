@@ -1,4 +1,4 @@
-// Tests the centres of dots measured in drawn frames with known dots.
+// Tests the measured dot centres in drawn frames whose dot positions are known.
 #include "core/pose/measure.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 45;
 
-/// Draws paper with dots. The light decreases from one side of the image to the other.
+/// Draws paper with dots. The brightness decreases from one side of the image to the other.
 GreyImage drawn(const View& view, const std::vector<PlacedDot>& dots, double angle) {
     GreyImage image = blank(static_cast<int>(view.image_px.x), static_cast<int>(view.image_px.y));
     const Vec2 way{std::cos(angle), std::sin(angle)};
@@ -88,9 +88,9 @@ TEST(MeasureDots, FindsTheirCentresInUnevenLight) {
 }
 
 TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
-    // If a printer has a scatter of 25 µm, one dot in a hundred is displaced by 75 µm, which is
-    // 0.15 spacings. If such dots were lost, or measured with displacements that are too small, the
-    // residuals would be smaller than the errors of the print.
+    // If printed dots scatter by 25 µm per axis, one dot in a hundred is displaced by at least 75
+    // µm, which is 0.15 spacings. If such dots were lost, or were measured too close to their
+    // nominal positions, the residuals would be smaller than the printing errors.
     Rng rng(kSeed);
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);

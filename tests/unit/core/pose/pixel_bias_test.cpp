@@ -1,5 +1,5 @@
-// Tests the correction of the pixel bias. All dots in a frame have equal sub-pixel phases. They are
-// drawn with the shape of the dot model, and with other shapes.
+// Tests the correction of the pixel bias in frames whose dots all have the same sub-pixel phase.
+// The dots are drawn with the shape of the dot model, and with other shapes.
 #include "core/pose/pixel_bias.hpp"
 
 #include <functional>
@@ -111,7 +111,7 @@ class AlikeFrame {
     }
 
     GreyImage image_;
-    std::vector<double> light_;  ///< light without noise
+    std::vector<double> light_;  ///< brightness without noise
     OwnedDots owned_;
     std::vector<Vec2> truth_;
 };

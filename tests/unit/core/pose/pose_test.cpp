@@ -1,4 +1,4 @@
-// Tests the pose computed from the place in the code against a camera of known geometry.
+// Compares the pose computed from the place in the code to a camera of known geometry.
 #include <cmath>
 
 #include <gtest/gtest.h>

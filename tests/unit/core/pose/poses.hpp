@@ -25,7 +25,7 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     const Vec2 error = error_at(reading, found, pixel);
     EXPECT_NEAR(error.x, 0, tolerance);
     EXPECT_NEAR(error.y, 0, tolerance);
-    // The error of the slope may add up to `tolerance` over half the height of the image.
+    // Over half the image height, the slope error may add up to an error of `tolerance`.
     const View& view = reading.view;
     const double slope = 2 * tolerance / view.image_px.y;
     const PlaneFromImage flat = core::tangent(found, fixed(pixel, 8));
@@ -59,7 +59,7 @@ inline std::vector<DetectedDot> dots_with_outliers(const View& view, double min_
     return dots;
 }
 
-/// Returns the dots of a view, displaced by `displacement` spacings instead of a sixth of the
+/// Returns the dots of a view, displaced by `displacement` spacings instead of the nominal 1/6
 /// spacing.
 inline std::vector<DetectedDot> dots_displaced_by(double displacement, const View& view) {
     std::vector<DetectedDot> dots;

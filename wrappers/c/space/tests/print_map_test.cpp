@@ -32,7 +32,8 @@ class PrintMapInC : public SpaceInC {
     }
 
     /// Returns the contents of a map of the page in view, with all dots displaced along x. The
-    /// noise is high, so the map is accepted although the print does not have these displacements.
+    /// map's noise is set high, so the map is accepted although the print does not have these
+    /// displacements.
     std::string displaced_map() const {
         PrintMap map;
         MapPage& page = map.pages.emplace_back();

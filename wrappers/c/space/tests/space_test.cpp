@@ -149,7 +149,7 @@ TEST_F(SpaceInC, RefusesMisuseOfPens) {
     EXPECT_EQ(dotpose_space_tip_init(nullptr, sizeof tip), DOTPOSE_NULL_POINTER);
     dotpose_space_pen_init(&pen, sizeof pen);
     dotpose_space_tip_init(&tip, sizeof tip);
-    EXPECT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_NO_FIX);  // nothing was fitted
+    EXPECT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_NO_FIX);  // no pose was fitted
     ASSERT_EQ(locate(locator_.get(), image_), DOTPOSE_OK);
     ASSERT_EQ(fit(locator_.get()), DOTPOSE_OK);
     EXPECT_EQ(dotpose_space_tip_of(nullptr, &pen, &tip), DOTPOSE_NULL_POINTER);

@@ -141,7 +141,7 @@ class Levels {
 
     /// Returns the index of the neighbour of `place` in the direction `step`, which is -1 or 1. If
     /// the image ends at `place`, returns the other neighbour, which has the same mosaic colour as
-    /// the missing one.
+    /// the missing neighbour.
     static std::size_t beside(std::size_t place, std::size_t size, int step) {
         if (size < 2) return place;
         const bool is_beyond = step < 0 ? place == 0 : place + 1 == size;

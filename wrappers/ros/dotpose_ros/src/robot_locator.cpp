@@ -14,10 +14,11 @@ namespace ros = dotpose::ros;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// Number of consecutive images without increasing stamps after which an error is reported.
+/// Number of consecutive skipped images after which an error is reported. Images are skipped if
+/// their stamps do not increase.
 constexpr int kStandstill = 3;
 
-/// Formats a lens as the text of a camera_info file, because the parser of this text checks all
+/// Formats a lens as the text of a camera_info file, because the parser for such files checks all
 /// values.
 std::string camera_info_text(const Lens& lens) {
     std::ostringstream text;

@@ -39,8 +39,8 @@ struct Lens {
 class RobotLocator {
   public:
     struct Answer {
-        /// Messages to publish. The status is included only if it has changed, or if no status was
-        /// published for at least a second.
+        /// Messages to publish. The status is included only if it has changed, or if no status has
+        /// been published for at least a second.
         dotpose::ros::RobotMessages messages;
         /// New warning about the images, to be logged. Empty if there is none.
         std::string warning;
