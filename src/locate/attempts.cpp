@@ -48,9 +48,11 @@ bool Attempts::track(const Prediction& prediction) {
 }
 
 bool Attempts::make(Step step, CodeVariant code) {
-    const Frame frame = frame_in(code);
+    Frame frame = frame_in(code);
+    frame.defers_if_rough = step == Step::first && may_try_twice();
     switch (step) {
         case Step::first:
+        case Step::complete_first:
             return locate_first(frame, w_);
         case Step::turning:
             return locate_turning(frame, w_);

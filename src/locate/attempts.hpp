@@ -16,9 +16,11 @@
 
 namespace dotpose::core {
 
-/// Attempts without a prediction. `resampled` is a second attempt that samples the bits again if
-/// the position is doubtful. It takes three times as long as `second`.
-enum class Step : std::uint8_t { first, turning, second, resampled, device };
+/// Attempts without a prediction. `first` ends without a fix if the fix would be rough and a second
+/// attempt is possible (see `Attempts::is_rough`). `complete_first` does not end early. `resampled`
+/// is a second attempt that samples the bits again if the position is doubtful. It takes three
+/// times as long as `second`.
+enum class Step : std::uint8_t { first, complete_first, turning, second, resampled, device };
 
 /// Returns true if the status means that the image shows a grid of dots whose bits do not determine
 /// a reliable position in this code. An attempt in another code may succeed.
@@ -49,6 +51,8 @@ class Attempts {
     /// Returns true if a rotation of the scene during the readout may explain the residuals of the
     /// fix. A search for this rotation (`Step::turning`) may then give a better fix.
     bool shows_turn();
+    /// Returns true if the last `Step::first` attempt ended early because its fix would be rough.
+    bool is_rough() const { return w_.measurement.is_rough; }
     /// Returns true if the last attempt found that the image shows too few cells for a reliable fix
     /// in any code.
     bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }

@@ -82,6 +82,23 @@ bool is_too_small_for_second(const Frame& frame, const Hypothesis& hypothesis) {
     return !frame.known.any() && has_fewer_cells(frame, hypothesis, tuned::kMinCellsForSecond);
 }
 
+/// Returns true if all dots seen were read without a wrong bit. In small views, `is_clean` is
+/// sufficient, because a few unread or misread dots make little difference and further attempts
+/// take a long time. In small views with too few cells for a second attempt, any bits are accepted
+/// as clear.
+bool are_clear(const Frame& frame, const Hypothesis& hypothesis, const BitsRead& bits) {
+    if (hypothesis.is_small_view)
+        return is_clean(bits) || is_too_small_for_second(frame, hypothesis);
+    return bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
+}
+
+/// Returns true if the test of a hypothesis may end before its place is confirmed. Returns false in
+/// small views, where a second attempt often fails, and in a series of frames, where the bits of
+/// unconfirmed places are evidence for later frames.
+bool may_defer(const Frame& frame, const Hypothesis& hypothesis, const PlaceEvidence& evidence) {
+    return frame.defers_if_rough && !hypothesis.is_small_view && !evidence.earlier.is_in_series();
+}
+
 /// Fits the plane and the displacement to the measured dots. Returns false if the dots do not
 /// determine the plane.
 bool fit_to_dots(const Frame& frame, const MeasuredDots& dots, const BitsRead& bits,
@@ -279,17 +296,17 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         }
         if (decides && !hypothesis.is_certain) {
             measurement.bits = 2 * bits.read;
-            // If the bits are clear but do not make the position certain, the frame has too few
-            // bits. Bits are clear if all dots seen were read without a wrong bit. In small views,
-            // `is_clean` is sufficient, because a few unread or misread dots make little difference
-            // and further attempts take a long time. In small views with too few cells for a second
-            // attempt, any bits are accepted as clear.
-            const bool are_clear =
-                hypothesis.is_small_view
-                    ? is_clean(bits) || is_too_small_for_second(frame, hypothesis)
-                    : bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
+            // A second attempt usually replaces a rough fix, so its place need not be confirmed.
+            if (may_defer(frame, hypothesis, evidence) &&
+                is_rough(std::sqrt(pose.variance) * spacing, spacing)) {
+                const Confirmation finished =
+                    finish(frame, reader, view, bits, hypothesis, pose, measurement, fix);
+                return finished == Confirmation::ok ? Confirmation::rough : finished;
+            }
             if (!confirm_place(evidence, hypothesis, view, block, bits, fix)) {
-                if (!is_last || !are_clear) return Confirmation::uncertain;
+                // If the bits are clear but do not make the position certain, the frame has too few
+                // bits.
+                if (!is_last || !are_clear(frame, hypothesis, bits)) return Confirmation::uncertain;
                 measurement.shows_too_few_cells = hypothesis.reads_cut_dots ||
                                                   hypothesis.is_small_view ||
                                                   shows_too_few_cells(frame, view, dots);
@@ -308,8 +325,11 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
 }  // namespace
 
 bool is_rough(const Fix& fix) {
-    const float spacing_px = static_cast<float>(fix.spacing_px_q16) / 65536.0F;
-    return fix.residual_px >= std::max(tuned::kRough_px, tuned::kRough * spacing_px);
+    return is_rough(fix.residual_px, static_cast<float>(fix.spacing_px_q16) / 65536.0F);
+}
+
+bool is_rough(float residual_px, float spacing_px) {
+    return residual_px >= std::max(tuned::kRough_px, tuned::kRough * spacing_px);
 }
 
 bool is_plausible(const ImageView& image, const FloatPlane& plane) {
@@ -344,14 +364,14 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
     const auto measure = [&] {
         return measure_and_compare(frame, hypothesis, evidence, measurement, fix);
     };
-    // Sets a flag in the hypothesis, and measures its dots. If the result is neither ok nor
-    // too_few_bits, resets the flag and returns nullopt.
+    // Sets a flag in the hypothesis, and measures its dots. If the result is implausible or
+    // uncertain, resets the flag and returns nullopt.
     const auto measure_with = [&](bool Hypothesis::*property) -> std::optional<Confirmation> {
         std::optional<OtherCodes> before;
         if (evidence.others != nullptr) before = *evidence.others;
         hypothesis.*property = true;
         const Confirmation result = measure();
-        if (result == Confirmation::ok || result == Confirmation::too_few_bits) return result;
+        if (result != Confirmation::implausible && result != Confirmation::uncertain) return result;
         hypothesis.*property = false;
         // Restores the odds of the other codes, because a rejected result is no evidence for or
         // against them.

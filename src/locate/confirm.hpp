@@ -44,6 +44,9 @@ enum class Confirmation : std::uint8_t {
     /// Same as `uncertain`, but all bits in view (in small views, nearly all bits) are clear and
     /// agree with the code, or a small view shows too few cells for a further attempt.
     too_few_bits,
+    /// The fix is rough (see `is_rough`), and `Frame::defers_if_rough` is true. The place may be
+    /// wrong, because it was not confirmed.
+    rough,
 };
 
 /// Memory and results of `confirm`.
@@ -67,11 +70,14 @@ struct Measurement {
     /// readout, because a rotation would have moved some dots away from their predicted positions,
     /// and their bits would not be clear.
     bool has_clear_bits = false;
+    /// True if the result of the first attempt is `rough`.
+    bool is_rough = false;
 };
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. If
 /// the hypothesis is predicted, and its dots can be sampled directly (see `can_sample_directly`),
-/// tries direct sampling first. If the result is ok, sets the fix and the results in `measurement`.
+/// tries direct sampling first. If the result is ok or rough, sets the fix and the results in
+/// `measurement`.
 /// Otherwise, only `p_wrong_log2`, `prior`, `frames` and `bit_errors` of the fix may have changed.
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix);
@@ -84,5 +90,6 @@ bool are_too_few_cells(const Frame& frame, int count);
 /// Returns true if the residual of a fix is at least kRough_px and at least kRough spacings. A
 /// second attempt may then give a better fix.
 bool is_rough(const Fix& fix);
+bool is_rough(float residual_px, float spacing_px);
 
 }  // namespace dotpose::core

@@ -57,7 +57,7 @@ class PatchSearch {
         for (const int scale : {1, 2, 4}) {
             if (!place_patch_in_middle(frame_.image, scale, patch_)) break;
             const Confirmation confirmation = search_middle();
-            if (confirmation == Confirmation::ok) return confirmation;
+            if (ends(confirmation)) return confirmation;
             // If the patch covers the whole image, ends the search, because other patches contain
             // no additional dots.
             if (confirmation == Confirmation::too_few_bits && is_whole_image(patch_, frame_.image))
@@ -70,6 +70,11 @@ class PatchSearch {
             if (confirmation != Confirmation::implausible) break;
         }
         return search_everywhere();
+    }
+
+    /// Returns true if a hypothesis with this result ends the search.
+    static bool ends(Confirmation result) {
+        return result == Confirmation::ok || result == Confirmation::rough;
     }
 
   private:
@@ -170,25 +175,28 @@ class PatchSearch {
         const int tries = tries_left_;
         for (const DotTiles tiles : {DotTiles::median, DotTiles::pale}) {
             dot_tiles_ = tiles;
-            if (search_patches()) return Confirmation::ok;
+            const Confirmation confirmation = search_patches();
+            if (ends(confirmation)) return confirmation;
         }
         return tries_left_ < tries ? Confirmation::uncertain : Confirmation::implausible;
     }
 
     /// Searches adjacent patches that cover the image. The patch size doubles from round to round.
-    /// Returns true if a hypothesis is confirmed.
-    bool search_patches() {
+    /// Returns the result of the last hypothesis, or implausible if there was none.
+    Confirmation search_patches() {
         const ImageView& image = frame_.image;
+        Confirmation last = Confirmation::implausible;
         for (const int scale : {1, 2, 4}) {
             const int width = kPatchWidth_px * scale;
             const int height = kPatchHeight_px * scale;
             for (int v = height / 2; v < image.height_px + height / 2; v += height) {
                 for (int u = width / 2; u < image.width_px + width / 2; u += width) {
-                    if (search_around({u, v}, scale) == Confirmation::ok) return true;
+                    last = search_around({u, v}, scale);
+                    if (ends(last)) return last;
                 }
             }
         }
-        return false;
+        return last;
     }
 
     /// Searches a patch around an image point. If there is no hypothesis and the dots are densest
@@ -264,7 +272,7 @@ bool locate_first(const Frame& frame, DesktopWorkspace& w) {
     const PlaceEvidence evidence = w.evidence(frame);
     PatchSearch patches(frame, evidence, *w.patch, w.measurement, w.fix);
     Confirmation confirmation = patches.search(w.is_mirrored);
-    if (confirmation != Confirmation::ok && w.earlier.has_earlier()) {
+    if (!PatchSearch::ends(confirmation) && w.earlier.has_earlier()) {
         w.earlier.is_joining = true;
         const Confirmation together = patches.search(w.is_mirrored);
         w.earlier.is_joining = false;
@@ -272,11 +280,13 @@ bool locate_first(const Frame& frame, DesktopWorkspace& w) {
     }
     w.fix.attempt = Attempt::first;
     w.measurement.has_clear_bits = confirmation == Confirmation::too_few_bits;
-    if (confirmation == Confirmation::uncertain || confirmation == Confirmation::too_few_bits)
-        w.fix.status = Status::not_certain;
-    if (confirmation != Confirmation::ok) return false;
-    store_for_trace(w.measurement, frame.options.show_stages, w);
-    return true;
+    w.measurement.is_rough = confirmation == Confirmation::rough;
+    if (confirmation == Confirmation::ok) {
+        store_for_trace(w.measurement, frame.options.show_stages, w);
+        return true;
+    }
+    if (confirmation != Confirmation::implausible) w.fix.status = Status::not_certain;
+    return false;
 }
 
 }  // namespace dotpose::core

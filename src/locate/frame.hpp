@@ -20,6 +20,9 @@ struct Frame {
     /// Rotation during the readout that was removed from `image`. Null if `image` is the original
     /// image.
     const ReadoutTurn* removed_turn = nullptr;
+    /// True if the attempt ends with Confirmation::rough before it computes the exact probability
+    /// that a rough fix is wrong.
+    bool defers_if_rough = false;
 };
 
 /// Returns the image centre, in px relative to the first pixel.

@@ -95,7 +95,12 @@ class Cascade {
         for (const Step step : steps) {
             for (const CodeVariant code : attempts_.codes_for(step)) {
                 if (step == Step::turning && attempts_.has_clear_bits() && codes_.is_known()) break;
-                if (attempts_.make(step, code)) {
+                bool is_made = attempts_.make(step, code);
+                if (step == Step::first && !is_made && attempts_.is_rough()) {
+                    if (const auto better = better_than_rough(code)) return *better;
+                    is_made = attempts_.make(Step::complete_first, code);
+                }
+                if (is_made) {
                     const Judgement judgement = attempts_.judge(code);
                     if (judgement.is_certain) return best_of(step, code, judgement);
                     if (!doubtful) doubtful = in_doubt(code, judgement);
@@ -115,6 +120,18 @@ class Cascade {
         return *doubtful;
     }
 
+    /// Reads the frame again after a rough fix: searches for a rotation if the residuals indicate
+    /// one, and then makes a second attempt. Returns the first certain fix.
+    std::optional<CodeReading> better_than_rough(CodeVariant code) {
+        const bool needs_turn = attempts_.shows_turn();
+        for (const Step step : {Step::turning, Step::resampled}) {
+            if ((step == Step::turning && !needs_turn) || !attempts_.make(step, code)) continue;
+            const Judgement judgement = attempts_.judge(code);
+            if (judgement.is_certain) return best_of(step, code, judgement);
+        }
+        return {};
+    }
+
     /// Tries to improve the certain fix that `step` has found, and returns the best fix. If another
     /// code is more likely, reads the frame again in that code. After a first attempt, searches for
     /// a rotation if the residuals indicate one. If this gives no better fix and the residuals are
@@ -128,15 +145,16 @@ class Cascade {
             return judgement.is_certain;
         };
         const CodeVariant read = code;
-        if (judgement.other_odds > tuned::kBetterOdds && !remake(step, judgement.other))
-            remake(step, read);
+        const Step again = step == Step::first ? Step::complete_first : step;
+        if (judgement.other_odds > tuned::kBetterOdds && !remake(again, judgement.other))
+            remake(again, read);
         if (step == Step::first) {
             const CodeVariant best = code;
             const bool may_be_better = is_rough(w_.fix) && attempts_.may_try_twice();
             const bool needs_turn = attempts_.shows_turn();
             const bool is_better = (needs_turn && remake(Step::turning, best)) ||
                                    (may_be_better && remake(Step::resampled, best));
-            if ((needs_turn || may_be_better) && !is_better) remake(step, best);
+            if ((needs_turn || may_be_better) && !is_better) remake(again, best);
         }
         return accept(code, judgement);
     }
@@ -166,7 +184,7 @@ class Cascade {
         const PossibleCodes all{CodeEvidence{}};
         Attempts attempts(image_, options_, all, w_);
         for (const CodeVariant code : all.in_order()) {
-            if (code == codes_.likeliest() || !attempts.make(Step::first, code) ||
+            if (code == codes_.likeliest() || !attempts.make(Step::complete_first, code) ||
                 !attempts.judge(code).is_certain)
                 continue;
             reading.evidence.add(w_.fix.cell, likelihoods(code, w_.other_codes));
