@@ -110,8 +110,9 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
 
   private:
-    // Maximum height of a threshold tile in this workspace. Only images whose shorter side exceeds
-    // kMaxSideWithLowTiles_px have high tiles, which need more memory. See `begin_threshold`.
+    // Maximum height of a threshold tile in this workspace. Tall tiles, which need more memory, are
+    // used only for images whose shorter side exceeds kMaxSideWithLowTiles_px. See
+    // `begin_threshold`.
     static constexpr int kBand_px =
         MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;

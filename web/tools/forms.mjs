@@ -20,8 +20,9 @@ function reduce(from, to) {
 }
 
 /**
- * Takes a picture of a page on a desktop and on a phone, in both colour schemes: NAME-light.png, NAME-dark.png,
- * NAME-phone.png and NAME-phone-dark.png. Before each picture, `ready` is called to prepare the page.
+ * Takes four screenshots of a page, at desktop and phone size in the light and dark colour schemes. Writes
+ * NAME-light.png, NAME-dark.png, NAME-phone.png and NAME-phone-dark.png. Calls `ready` before each screenshot to
+ * prepare the page.
  */
 export async function takeForms(page, folder, name, { ready = () => undefined, fullPhone = true } = {}) {
     const before = page.viewportSize();

@@ -80,7 +80,7 @@ enum {
     DOTPOSE_NOT_TRACKED = 15,
     /* Places of two codes explain the dots about equally well; name the code, or show more dots. */
     DOTPOSE_AMBIGUOUS_CODE = 16,
-    /* A newer version of dotpose has added this status. */
+    /* An unknown status, which a newer version of dotpose has added. */
     DOTPOSE_OTHER = 255,
     /* Misuse of this header's functions. */
     DOTPOSE_NULL_POINTER = 1000,
@@ -263,7 +263,7 @@ typedef struct dotpose_fix {
     int32_t spacing_px_q16; /* 132 */
     /* Spacing of the printed grid in nm, from the options; 0 if unknown. */
     int32_t spacing_nm; /* 136 */
-    /* Place in the code of the origin of pattern_from_image. */
+    /* Place of the origin of pattern_from_image in the code. */
     dotpose_place place; /* 140 */
     /* Map from the image to the pattern, in spacings relative to place. */
     dotpose_plane pattern_from_image; /* 156 */

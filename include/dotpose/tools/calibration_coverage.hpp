@@ -1,6 +1,6 @@
-/// Coverage of a lens calibration: the image parts, places and directions that the frames cover so
-/// far, and the requirements that are not met yet. Intended for programs that capture frames while
-/// the camera moves, such as `dotpose calibrate --live`.
+/// Coverage of a lens calibration: the parts of the image, places and directions that the frames
+/// have covered so far, and the requirements that have not been met yet. Intended for programs that
+/// capture frames while the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken

@@ -238,7 +238,8 @@ GreyImage render(const Pattern& pattern, const CameraModel& camera, const Camera
 /// A page given as an image, for example a PDF rendered at 1200 dpi. Grey levels between the pixels
 /// are interpolated linearly.
 struct PageImage {
-    /// Grey level 255 is bare paper, and 0 is solid ink. Unlimited paper surrounds the page.
+    /// Grey level 255 is bare paper, and 0 is solid ink. Outside the image, the paper is bare and
+    /// extends indefinitely.
     ImageView image;
     double mm_per_px = 25.4 / 1200;
     /// Point under the image centre, relative to the upper left corner of the image: x right, y

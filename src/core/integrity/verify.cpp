@@ -289,8 +289,8 @@ Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const 
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
-    // Even if the caller's limit is larger than the default limit, the result is as precise as the
-    // default limit requires.
+    // If the caller's limit is above the default limit, the odds are still computed with the
+    // precision that the default limit requires.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(

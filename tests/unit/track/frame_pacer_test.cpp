@@ -9,7 +9,7 @@ namespace dotpose {
 namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
-constexpr std::int64_t kFrame_us = 20'000;  // period of a camera with 50 frames per second
+constexpr std::int64_t kFrame_us = 20'000;  // frame period at 50 frames per second
 
 Fix at(double x_grid, double y_grid = 50, double theta_deg = 0) {
     const auto q16 = [](double grid) { return static_cast<std::int64_t>(grid * 65536); };

@@ -46,7 +46,7 @@ export class MarkPixels {
     #ground = new Uint32Array(0);
     #image: ImageData | null = null;
     #pixels = new Uint32Array(0);
-    /** The marks for each condition and each heading, and the square for unknown robots. */
+    /** A mark for each condition, a mark for each heading of a moving robot, and the square for unknown robots. */
     #marks: Mark[] = [];
     /** Scale, radius and colour for which `#marks` were drawn. */
     #look = "";

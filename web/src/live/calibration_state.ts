@@ -62,7 +62,7 @@ export interface CalibrationState {
     gauges: Gauge[];
     advice: string;
     lens: LensCoverage | null;
-    /** For each direction of a turn, or of a pen's tilts, true if the direction has been seen. */
+    /** True for each direction seen so far: headings of a robot during a turn, or directions of the tilts of a pen. */
     directions: boolean[];
     /** Tilts of a pen. The components are tangents, to the right and down on the sheet. */
     leans: [number, number][];

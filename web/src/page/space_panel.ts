@@ -105,8 +105,8 @@ export class SpacePanel {
 
     /**
      * Draws the camera. SVG angles are clockwise on the screen, like the azimuth and the turn on the paper. The view
-     * from above shows the axes of the paper or of the world. The view from the side is in the plane in which the
-     * camera leans.
+     * from above shows the axes of the paper or of the world. The view from the side shows the vertical plane
+     * in which the camera is tilted.
      */
     #draw(tilt_deg: number, azimuth_deg: number, turn_deg: number, is_in_world: boolean): void {
         const part = (name: string) => element(`${this.#id}-space-${name}`, SVGElement);

@@ -27,7 +27,7 @@ export interface SheetOptions {
     margin_mm?: number;
 }
 
-/** Size and optics of the simulated camera. The defaults describe the device in the paper. */
+/** Size and optics of the simulated camera. The defaults describe the device in the published paper. */
 export interface Camera {
     /** Width of the image, 1 to 16384. Default: 188. */
     width_px?: number;
@@ -116,7 +116,7 @@ export interface Scene {
     page_seed?: number;
     /** Reflectance of the table, relative to paper. Default: 0.2. */
     table_reflectance?: number;
-    /** Size and optics of the camera. Default: the device in the paper. */
+    /** Size and optics of the camera. Default: the device described in the published paper. */
     camera?: Camera;
     /** Pose of the camera on the page. */
     pose: CameraPose;
