@@ -88,10 +88,10 @@ ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
 
 /// Column names of a camera pose in space, without their prefix.
 struct SpaceColumns {
-    std::string_view unit;  ///< suffix of the column names of x, y and z
+    std::string_view unit;  ///< unit of x, y and z, which is the suffix of their column names
     std::string_view rotation;
     std::string_view covariance;
-    double angle_rad;  ///< angle unit of the covariance, in radians
+    double angle_rad;  ///< size of the angle unit of the covariance, in radians
 };
 
 constexpr SpaceColumns kSpaceInWorld = {"m", "quaternion_world_xyzw", "covariance_m_rad", 1};

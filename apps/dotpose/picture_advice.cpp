@@ -68,8 +68,8 @@ GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     });
 }
 
-/// Returns the spacing of the dots in px if the pattern can only be read after enlarging the image,
-/// and none otherwise.
+/// Returns the spacing of the dots in px if the pattern can be read only in an enlarged image, and
+/// none otherwise.
 std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
@@ -114,8 +114,8 @@ GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& s
     });
 }
 
-/// Returns the tilt of the sheet in degrees if the pattern can only be read after stretching the
-/// image, and none otherwise.
+/// Returns the tilt of the sheet in degrees if the pattern can be read only in a stretched image,
+/// and none otherwise.
 std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& options,
                                          LargeMemory& scratch) {
     constexpr int kMiddle_px = 480;
@@ -157,8 +157,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
 }
 
 /// Returns the mean squared second difference of the grey levels. The second difference at a pixel
-/// is the difference between the pixel and the mean of its two neighbours at distance `step_px` on
-/// opposite sides. Noise contributes equally at all distances, and linear brightness gradients
+/// is its grey level minus the mean grey level of two pixels on opposite sides, at a distance of
+/// `step_px`. Noise contributes the same amount at any distance, and linear brightness gradients
 /// contribute nothing.
 double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
@@ -248,9 +248,9 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Returns the advice to specify the code if the position is certain in one of the codes.
-/// Otherwise, returns an empty string. If the code is not given, the only reason for the
-/// uncertainty may be that positions in other codes are also possible.
+/// If the position is certain in one code alone, returns the advice to specify this code.
+/// Otherwise, returns an empty string. If the code is not given, a position may be uncertain only
+/// because positions in other codes are also possible.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {

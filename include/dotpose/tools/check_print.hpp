@@ -98,7 +98,7 @@ struct DistortionBin {
     int dots = 0;
 };
 
-/// One contiguous region of the code.
+/// One contiguous region of the code plane that was found in the image.
 struct PrintField {
     Pattern pattern;        ///< nominal pattern, with the section that was read
     Cell origin;            ///< first cell of the region
@@ -120,7 +120,8 @@ struct PrintField {
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< length of the largest deviation in `distortion`
 
-    /// Number of cells covered by other print, such as text. `cells` excludes these cells.
+    /// Number of cells covered by other print, such as text. These cells are not counted in
+    /// `cells`.
     int covered = 0;
     int cells = 0;       ///< number of cells in the region that are in view and not covered
     int missing = 0;     ///< number of cells without a dot
@@ -193,13 +194,14 @@ struct Finding {
 struct RepeatedCells {
     std::size_t first = 0;  ///< indices of the fields
     std::size_t second = 0;
-    int cells = 0;  ///< number of cells with a correct dot in both fields
+    int cells = 0;  ///< number of cells whose dot is correct in both fields
 };
 
 /// Evidence that the image is a photo rather than a scan.
 struct CameraSigns {
     double perspective = 0;  ///< relative change in scale across the page, due to perspective
-    /// Relative displacement of the outermost dots due to lens distortion.
+    /// Displacement of the outermost dot due to lens distortion, relative to its distance from the
+    /// image centre.
     double lens = 0;
 };
 

@@ -1,5 +1,5 @@
-/// Drawing: writes self-contained SVG pictures that show the stages of `locate` for a frame, paths
-/// over a sheet, calibrations, checked prints, and evaluations.
+/// Drawing: writes self-contained SVG pictures. They show the stages of `locate` for one frame, the
+/// path of a camera over a sheet, or the result of a calibration, a print check or an evaluation.
 ///
 ///     const dotpose::Fix fix = locator.locate(image.view());
 ///     draw_frame("frame.svg", image.view(), locator.trace());
@@ -46,7 +46,7 @@ struct DrawOptions {
     std::string title{};  ///< title of the caption, for example the name of the file, or empty
     /// Place of the fix on a sheet. If given, the caption shows the pose in large type. This pose
     /// is in world coordinates, or in sheet coordinates if the world pose of the sheet is unknown.
-    /// If no place is given, the caption shows the pose in the pattern.
+    /// If no place is given, the caption shows the pose in the pattern frame.
     std::optional<SheetPlace> place{};
     /// Text of the caption if there is no fix: the reason and the remedy. Default: the message for
     /// the status.
@@ -64,8 +64,9 @@ struct DrawOptions {
 /// pose, or the reason why there is none.
 ///
 /// Everything is drawn at its position in the image, so grid lines are curved if the lens has
-/// distortion. To keep the file size below 1 MB, large images are embedded at a lower resolution,
-/// and dots that are too close together for letters are drawn as points.
+/// distortion. To keep the file size below 1 MB, large images are embedded at a lower resolution.
+/// If the dots are too close together to show the letters of their symbols, they are drawn as
+/// points.
 void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
@@ -87,7 +88,8 @@ void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint>
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,
                std::span<const PathPoint> path, const std::string& title = {});
 
-/// Draws the residual fields before and after calibration, and the coverage of the image by dots.
+/// Draws the mean residual in each part of the image, before and after the calibration, and a map
+/// of the dot density.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
 /// Residuals of a lens calibration, summed over square parts of the image, as in the pictures that
