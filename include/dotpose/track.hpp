@@ -86,7 +86,7 @@ struct TrackOptions {
     /// accepted.
     int confirmations = 3;
 
-    /// Time without an accepted sighting or a measured motion after which the robot is lost.
+    /// The robot is lost if the latest accepted sighting or measured motion is at least this old.
     std::int64_t lost_after_us = 70'000;
     /// Maximum standard deviation of the position along either axis while only measured motions
     /// update the pose. Above this limit, the robot is lost.

@@ -37,8 +37,8 @@ class Series {
     Series(int frames, const FrameAt& frame_at, const CalibrateOptions& options)
         : frame_at_(frame_at), options_(options), total_(2 * frames) {}
 
-    /// Returns frame `index` for the first round, or an empty optional if an earlier frame is
-    /// identical.
+    /// Loads frame `index` for the first round. Returns an empty optional if the frame is identical
+    /// to an earlier frame.
     std::optional<GreyImage> new_frame(int index) {
         GreyImage image = frame_at_(index);
         if (width_px == 0) {

@@ -30,8 +30,8 @@ struct SheetView {
     int rows = 0;
     /// Cells of the dots: column in the upper 32 bits, row in the lower 32 bits.
     std::vector<std::uint64_t> dots;
-    /// Fields of the image that show dots of the sheet. The image is divided into 8 x 8 fields, and
-    /// bit 8 j + i is the field in column i and row j.
+    /// Bit mask of the fields of the image that show dots of the sheet. The image is divided into 8
+    /// x 8 fields. Bit 8 j + i represents the field in column i and row j.
     std::uint64_t fields = 0;
 
     bool has_scale() const { return rows == 6; }

@@ -78,8 +78,8 @@ struct OpticsReport {
     bool block_fits_anywhere = false;
 
     double fastest_mm_s = 0;  ///< maximum speed at the given exposure, without rotation
-    /// Maximum rate of rotation about the image centre at the given exposure. The blur is evaluated
-    /// at the middle of the image edge that is farthest from the image centre.
+    /// Maximum turn rate about the image centre at the given exposure, without straight motion. The
+    /// blur is evaluated at the middle of the image edge that is farthest from the image centre.
     double fastest_turn_rpm = 0;
     /// Maximum exposure at the given speed and turn rate. Infinite if the speed and the turn rate
     /// are 0.

@@ -1,5 +1,5 @@
 /// Tracks a camera in space: smooths the poses of single frames, predicts the pose at other times,
-/// and rejects outliers and wrong second poses.
+/// rejects outliers, and resolves ambiguous poses.
 ///
 ///     SpaceTracker tracker;
 ///     for (;;) {
