@@ -63,8 +63,8 @@ struct SourceOptions {
     /// Frame rate requested from a camera. For other sources, frame timestamps are computed from
     /// this rate, even if a video file contains timestamps.
     std::optional<double> fps;
-    std::optional<double> exposure;  ///< in the driver's unit
-    std::optional<double> gain;      ///< in the driver's unit
+    std::optional<double> exposure;  ///< exposure of a camera, in the driver's unit
+    std::optional<double> gain;      ///< gain of a camera, in the driver's unit
     /// True to flip frames left to right. Frames are flipped before they are cropped to `region`.
     bool flip = false;
     std::optional<Region> region;  ///< part of each frame to keep, or empty for the whole frame

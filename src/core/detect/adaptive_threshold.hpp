@@ -43,7 +43,7 @@ struct AdaptiveThreshold {
     int tiles_per_band = 0;
     int rows_taken = 0;
     bool has_contrast = false;  ///< true if any tile so far has contrast
-    /// Largest contrast between paper and ink in all tiles so far, in grey levels.
+    /// Largest contrast between paper and ink in any tile so far, in grey levels.
     int max_contrast = 0;
     /// Pixels of the two newest bands. Rows are padded to whole tiles.
     std::span<std::uint8_t> rows;

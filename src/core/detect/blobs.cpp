@@ -191,8 +191,8 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
         run.blob = whole(run.blob);
 }
 
-/// Closes the blobs that do not continue in row `v`. Adds a closed blob to the list if it may be a
-/// dot. Also frees blobs that were merged into another blob.
+/// Closes the blobs that do not continue in row `v`. Adds each closed blob that may be a dot to the
+/// list. Also frees blobs that were merged into another blob.
 void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& threshold,
                  OpenBlobs& open, DotList list) {
     for (const Run& run : above) {

@@ -1,6 +1,6 @@
 // Smooth: the image filter for the second attempt. The filter normalises the illumination, averages
-// noise over about the area of a blurred dot, and removes isolated defective pixels. Unlike the
-// paper, the second attempt filters the image before it detects dots. See
+// out noise over an area about as large as a blurred dot, and removes isolated defective pixels.
+// Unlike the paper, the second attempt filters the image before it detects dots. See
 // docs/differs-from-paper.md.
 #pragma once
 

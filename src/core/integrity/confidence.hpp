@@ -53,7 +53,8 @@ class Confidence {
     }
 
   private:
-    /// For each level, the number of correct bits, followed by the number of wrong bits.
+    /// Element 2 * level is the number of correct bits, and element 2 * level + 1 is the number of
+    /// wrong bits.
     std::array<std::int32_t, 2 * kLevels> counts_{};
 };
 

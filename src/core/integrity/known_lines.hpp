@@ -17,7 +17,7 @@
 
 namespace dotpose::core {
 
-/// Number of orientations in which a block may show the pattern: 0 to 3 quarter turns.
+/// Number of possible orientations of the pattern in a block. They differ by quarter turns.
 inline constexpr int kTurns = 4;
 
 /// Returns the class of a position, which is the position modulo 63.

@@ -13,8 +13,8 @@ namespace dotpose::core {
 namespace {
 
 /// Safety factor for the expected odds of the sets that are not searched. On 3,798 axes of nominal
-/// frames, the ratio of the true odds of these sets to the expected odds was 0.03 in total, above 4
-/// on 6 axes, and at most 9.
+/// frames, the true odds of these sets were 0.03 times the expected odds in total. On single axes,
+/// the ratio was at most 9, and exceeded 4 on only 6 axes.
 constexpr float kPlanMargin = 4;
 
 /// Upper limit on kPlanMargin * (expected odds of the sets that are not searched). Keeps the result
@@ -267,7 +267,7 @@ class SetSearch {
     EqualPlaces equal_places_;
     std::span<const PlannedSet> earlier_;  ///< sets before the current set
     std::array<KeyedPlaces, 4> lists_;
-    /// Linked lists of the pairs of places with the same key. `newest_` contains the newest pair
+    /// Linked lists of pairs of places, one list for each key. `newest_` contains the newest pair
     /// for each key. `before_` contains the next older pair for each pair.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;

@@ -73,8 +73,8 @@ class SetPlan {
     /// places_[n][k] is the expected number of places in sequence k that have the same digits as
     /// the reading at n given steps.
     std::array<std::array<float, 4>, kMaxLines + 1> places_;
-    /// number_[n] is the expected number of alternatives that have these digits in all four
-    /// sequences, times a correction factor (see kUnevennessOfTwo).
+    /// number_[n] is the expected number of alternatives that have the same digits as the reading
+    /// in all four sequences at n given steps, times a correction factor (see kUnevennessOfTwo).
     std::array<ByDifferent, kMaxLines + 1> number_;
     /// returned_[n] is the probability that the roll offset is 0 again after each of n gaps.
     std::array<ByDifferent, kMaxLines + 1> returned_;
