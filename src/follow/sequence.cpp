@@ -139,8 +139,8 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
 }
 
 /// If an image shows more than the page of the fix, masks everything outside this page and locates
-/// the image again. Returns `found` if the second attempt does not find the same sheet as the
-/// first.
+/// the image again. Returns `found` if the fix in the masked image is not on the same sheet, or if
+/// there is no such fix.
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {

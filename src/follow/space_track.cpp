@@ -343,9 +343,9 @@ void SpaceTracker::start(const SpaceSighting& sighting) {
     track_.verdict = SpaceVerdict::accepted;
 }
 
-/// Corrects the track with the pose of the sighting that is consistent with the track. Returns
-/// false if neither pose is consistent, or if the track does not decide between the two poses of an
-/// ambiguous sighting.
+/// Corrects the track with the more likely pose of the sighting. Returns false if this pose is not
+/// consistent with the track, or if neither pose of an ambiguous sighting is much more likely than
+/// the other.
 bool SpaceTracker::take(const SpaceSighting& sighting) {
     const double first = squared_innovation(motion_, sighting, sighting.camera, options_);
     SpaceVerdict verdict = SpaceVerdict::accepted;

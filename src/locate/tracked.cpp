@@ -157,8 +157,8 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Fr
     return hypothesis;
 }
 
-/// Tries the image points kPoints in turn: corrects the hypothesis with the dots near the point,
-/// and tests the corrected hypothesis (see `confirm`). Returns true as soon as a corrected
+/// For each of the image points kPoints in turn, corrects the hypothesis with the dots near the
+/// point, and tests the corrected hypothesis (see `confirm`). Returns true as soon as a corrected
 /// hypothesis is confirmed.
 bool confirm_corrected(const Frame& frame, const Hypothesis& hypothesis, int max_px,
                        const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {

@@ -135,7 +135,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
     // The blocks of the PaperMap are squares. Their side is a tenth of the shorter image side,
-    // rounded down, and therefore at least 6 px. There are at most 11 x 683 blocks.
+    // rounded down. It is at least 6 px, because the shorter image side is at least 60 px. There
+    // are at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
