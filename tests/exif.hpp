@@ -7,7 +7,7 @@
 
 namespace dotpose::test {
 
-/// Tags in the EXIF directory, to which an entry of the first TIFF directory points.
+/// Tags in the EXIF directory. An entry of the first TIFF directory points to the EXIF directory.
 enum ExifTag : std::uint16_t {
     exposure_time = 33434,
     f_number = 33437,

@@ -79,7 +79,7 @@ std::filesystem::path program_folder() {
 }
 
 bool is_terminal(std::FILE* stream) {
-    // _isatty also returns true for NUL and serial devices.
+    // Uses GetConsoleMode because _isatty also returns true for NUL and serial devices.
     DWORD mode = 0;
     return GetConsoleMode(reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(stream))), &mode) != 0;
 }

@@ -39,8 +39,8 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
-// Locates frames taken with an unknown lens. Its distortion moves the image corners inwards or
-// outwards by up to 5 % of their distance from the centre.
+// Locates frames taken with an unknown lens. The distortion moves each image corner towards or away
+// from the image centre, by up to 5 % of the distance between them.
 TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     const auto corner_px = [](int width, int height) {
         return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);
@@ -204,8 +204,8 @@ TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
 }
 
 TEST_F(CalibrateCommand, TakesTheSpacingFromTheSheetFile) {
-    // In a new sheet file, the first sheet begins at cell 1024,1024, so frames at the following
-    // cells show this sheet.
+    // In a new sheet file, the first sheet begins at cell (1024, 1024). The following frames
+    // therefore show this sheet.
     ASSERT_EQ(run("print -o fine.svg --spacing 0.3 --sheets sheets.json --name fine"), 0);
     std::string frames;
     for (const int at : {1100, 1130, 1160, 1190, 1220}) {

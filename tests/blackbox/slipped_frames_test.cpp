@@ -24,7 +24,7 @@ Shot nominal_shot(std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Returns the maximum of the errors of x, y and theta, each divided by its reported standard
+/// Returns the largest of the errors of x, y and theta, each in units of its reported standard
 /// deviation.
 double sigmas_off(const Fix& fix, const Truth& truth) {
     const Deviation off = deviation_of(fix, truth);
@@ -89,7 +89,7 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     EXPECT_GE(divided, fixes / 2);
 }
 
-/// Errors of the fixes on one kind of sheet, relative to the reported covariances.
+/// Statistics of the position errors on one kind of sheet, relative to the reported covariances.
 struct Claims {
     int fixes = 0;
     int within_4_sigmas = 0;

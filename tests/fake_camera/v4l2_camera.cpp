@@ -26,7 +26,7 @@ namespace {
 constexpr int kBuffers = 4;
 
 struct FakeCamera {
-    int descriptor = -1;  ///< memory file that replaces the device and contains the buffers
+    int descriptor = -1;  ///< in-memory file that represents the device and contains the buffers
     int width_px = 0;
     int height_px = 0;
     double fps = 30;

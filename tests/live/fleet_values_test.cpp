@@ -157,7 +157,8 @@ TEST(FleetValues, OneRobotWithItsPathAndAlerts) {
     EXPECT_EQ(value(77), nullptr);
 }
 
-/// A map message sent by the fleet: a JSON header, followed by binary records.
+/// A map message sent by the fleet. It consists of the size of the header, the header in JSON, and
+/// binary records.
 struct MapMessage {
     explicit MapMessage(const std::string& bytes) {
         std::uint32_t size = 0;

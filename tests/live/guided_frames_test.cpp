@@ -68,7 +68,7 @@ TEST(GuidedFrames, AnUnfinishedTurnIsNotComplete) {
 TEST(GuidedFrames, ADriveTakesFramesAtEqualDistances) {
     Robot robot;
     DriveFrames frames;
-    // The robot rests, and then drives 0.1 mm per frame.
+    // The robot first rests, and then drives at 0.1 mm per frame.
     for (int i = 0; i < 50; ++i)
         frames.take(robot.frame(100, 100));
     EXPECT_EQ(frames.images().size(), 1U);

@@ -81,7 +81,7 @@ for (const { name, definition, hash } of JSON.parse(await readFile("/dev/stdin",
     differ = true;
   }
   for (const wanted of theirs) {
-    // The first definition has no name.
+    // The first definition is that of `type` itself. It has no name.
     const found = wanted.name === type ? ours[0] : ours.find((each) => each.name === wanted.name);
     if (found !== undefined && members(found) === members(wanted)) continue;
     console.log(`${wanted.name}: ${found && members(found)} instead of ${members(wanted)}`);

@@ -23,8 +23,8 @@ class Recording : public WatchCommand {
   protected:
     using ToolCommand::shell;
 
-    /// Records frames from a pipe, sends `signal` to the tool after it has processed `frames`
-    /// frames, and returns the exit code of the tool.
+    /// Records frames from a pipe. When the tool has processed `frames` frames, sends `signal` to
+    /// it. Returns the exit code of the tool.
     int stop_after(int frames, const std::string& signal) {
         return shell("mkfifo frames; : >lines; \"$T\" watch - " + std::string(kRaw) + " " + kTrack +
                      " --no-window --mcap run.mcap -o lines <frames & tool=$!; exec 3>frames; "
@@ -54,7 +54,8 @@ TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     expect_messages_of(lines, messages, "anna", kAsWatched);
     expect_odometry_of(lines, messages, "anna");
 
-    // The tolerance is larger for the log, because its numbers are rounded.
+    // The numbers in the log are rounded, so the tolerance is larger for poses that are replayed
+    // from it.
     ASSERT_EQ(run("replay run.csv -o again.mcap --robot anna"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames with a fix "));
     expect_messages_of(lines, recorded("again.mcap"), "anna", kAsLogged);

@@ -156,8 +156,8 @@ class VideoFile : public capture::FrameSource {
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
-    /// Returns the number of frames given in the file, or an estimate from the duration if no
-    /// number is given.
+    /// Returns the number of frames according to the file. If the file does not contain this
+    /// number, returns an estimate that is computed from the duration.
     std::int64_t expected_frames() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
@@ -233,8 +233,7 @@ class VideoFile : public capture::FrameSource {
         waits_for_key_frame_ = true;
     }
 
-    /// Converts the decoded picture to a frame. Returns false if parts of the picture may be
-    /// damaged.
+    /// Converts the decoded picture to a frame. Returns false if the picture may be partly damaged.
     bool take_picture(Frame& frame) {
         const std::int64_t time = picture_->best_effort_timestamp;
         if (time != AV_NOPTS_VALUE) {
@@ -272,7 +271,7 @@ class VideoFile : public capture::FrameSource {
     double time_s_ = 0;   ///< time of the latest picture, relative to the first picture
     bool is_lossy_ = false;
     std::int64_t packet_bytes_ = 0;  ///< total size of the decoded packets
-    std::int64_t packet_px_ = 0;     ///< total number of pixels of the returned frames
+    std::int64_t packet_px_ = 0;     ///< total number of pixels in the returned frames
     bool has_begun_ = false;
     bool is_damaged_ = false;
     bool has_index_ = false;

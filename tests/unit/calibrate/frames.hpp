@@ -83,8 +83,8 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
-/// Mean position error along the axes of the robot, and mean heading error. Averaging over many
-/// directions cancels the errors of single fixes, so only the calibration error remains.
+/// Mean position error along the axes of the robot, and mean heading error. The errors of single
+/// fixes average out over the directions of the robot, so only the calibration error remains.
 struct RobotError {
     Vec2 place_mm;
     double heading_rad = 0;

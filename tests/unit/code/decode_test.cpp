@@ -289,8 +289,8 @@ TEST(Decode, RefusesOneSymbolAllOver) {
     }
 }
 
-/// Returns a window across the border of two sections. In the columns from `cut` onwards, the
-/// section is (`other_u`, `place.section.v`).
+/// Returns a window that extends across the border between two sections. In the columns from `cut`
+/// onwards, the section is (`other_u`, `place.section.v`).
 Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int cut) {
     Grid seam = reference_window(CodeVariant::anoto, place, columns, 8);
     const Place other{place.cell, {other_u, place.section.v}};
@@ -305,8 +305,8 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
     // Eleven columns have ten differences between adjacent rolls. The difference across the border
-    // of the sections is wrong. At least five of the correct differences are on one side of the
-    // border. They determine a position, which the wrong difference contradicts.
+    // between the sections is wrong. At least five of the correct differences are on one side of
+    // the border. They determine a position, which the wrong difference contradicts.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;

@@ -130,8 +130,8 @@ struct View {
     Vec2 image_px{188, 120};
 
     Vec2 centre_px() const { return {(image_px.x - 1) / 2, (image_px.y - 1) / 2}; }
-    /// Steps on the pattern, in spacings, that correspond to one px along u or v of the image.
-    /// These are the columns of R(theta) / spacing_px.
+    /// Displacements on the pattern, in spacings, that correspond to a displacement of one px along
+    /// the image axes u and v. These vectors are the columns of R(theta) / spacing_px.
     Vec2 du() const { return {std::cos(theta_rad) / spacing_px, std::sin(theta_rad) / spacing_px}; }
     Vec2 dv() const { return {-du().y, du().x}; }
     Vec2 pattern(Vec2 p_px) const {

@@ -16,7 +16,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 43;
 
-/// A window with the x bits as weights, and storage for the scores of its columns.
+/// A window in which only the x bits are set, as weights, and storage for the scores of its
+/// columns.
 struct ScoredWindow {
     ScoredWindow(int columns, int rows) : owned(std::max(columns, rows)) {
         owned.grid.columns = columns;
@@ -84,8 +85,8 @@ TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
 }
 
 TEST(FindAxis, FindsThePositionAmongWrongBits) {
-    // Longer lines tolerate more wrong bits. With 12 rows, for example, only half of the windows
-    // are found if every fifth bit is wrong.
+    // Longer lines tolerate a larger fraction of wrong bits. If every fifth bit is wrong, for
+    // example, only half of the windows with 12 rows are found.
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         EXPECT_GE(found_of_200(code, 12, 0.08), 198) << "seed " << kSeed;
         EXPECT_GE(found_of_200(code, 20, 0.12), 198) << "seed " << kSeed;

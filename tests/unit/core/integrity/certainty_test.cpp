@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Returns the verdict on the claim that the bits of a block are at the place `claimed`.
+/// Judges the claim that the bits of `block` are at the place `claimed`, and returns the verdict.
 Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& options = {}) {
     core::BitBlock words;
     core::Evidence evidence;

@@ -1,5 +1,5 @@
 // Tests the likelihood ratios of hard bits. They must equal the ratios of scored lines whose bits
-// all have weight 127. Estimates of sums of these ratios must be upper bounds.
+// all have weight 127. Estimated sums of likelihood ratios must not be smaller than the exact sums.
 #include <algorithm>
 #include <cmath>
 #include <memory>

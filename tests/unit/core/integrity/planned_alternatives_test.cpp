@@ -85,8 +85,8 @@ TEST(SmallViews, EndAtTheWorkLimit) {
     int found = 0;
     for (int i = 0; i < 50; ++i) {
         const std::array axis{small_view(rng)};
-        // The preparation takes 80,000 instructions, which leaves 5,000 for the search. The search
-        // of one set of lines takes at least 1,500.
+        // The preparation takes 80,000 instructions, which leaves 5,000 for the search. Searching
+        // the alternatives for one set of lines takes at least 1,500 instructions.
         EXPECT_GE(wrong_in(kernels(), axis, 0x1p-30F, 85'000), 1) << i;
         found += wrong_in(kernels(), axis, 0x1p-30F, kPlenty) < 0x1p-30F ? 1 : 0;
     }
@@ -102,7 +102,7 @@ TEST(SmallViews, UseOneLimitForBothAxes) {
         if (both >= 1) continue;
         ++found;
         EXPECT_LE(both, 0x1p-30F) << i;
-        // The result for a single axis must also be within the limit.
+        // The result for each axis alone must also be within the limit.
         for (const RatiosCase& axis : axes)
             EXPECT_LE(wrong_in(kernels(), std::span(&axis, 1), 0x1p-30F, kPlenty), 0x1p-30F) << i;
     }
