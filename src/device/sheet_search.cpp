@@ -51,7 +51,7 @@ struct LinePair {
 
 /// Returns the first line of the best pair of adjacent lines. Pairs are ranked by the number of
 /// bits in the line with fewer bits. Skips pairs with a line in the bit set `tried`, and adds both
-/// lines of the result to this set. Returns nullopt if no pair with bits is left.
+/// lines of the result to this set. Returns nullopt if no remaining pair has bits in both lines.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -100,7 +100,8 @@ class PairsOfLines {
     std::array<LinePair, kTurns> pairs_{};
 };
 
-/// The range of positions that a region covers on one axis, and its section on this axis.
+/// The range of positions that a region covers on one axis, and the section of the region on this
+/// axis.
 struct RegionAxis {
     std::uint32_t first;
     std::uint32_t size;

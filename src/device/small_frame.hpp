@@ -1,7 +1,7 @@
-// Small frame: finds the dots of a small frame on known sheets. Such a frame has only a few more
-// dots than necessary, so dots close to the border or to each other must also be found. Blob
-// detection (core/detect/blobs.hpp) misses these dots. The search for darkest pixels finds them,
-// but requires that the rows are stored.
+// Small frame: finds the dots of a small frame on known sheets. Such a frame contains only a few
+// more dots than are needed to locate it, so dots close to the border or to each other must also be
+// found. Blob detection (core/detect/blobs.hpp) misses these dots. The search for darkest pixels
+// finds them, but requires that the rows are stored.
 #pragma once
 
 #include "dotpose/device_options.hpp"

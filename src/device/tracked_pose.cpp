@@ -10,10 +10,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the number of bits by which masses and mass-weighted sums must be shifted right for the
-/// total mass to be less than 2^16. All sums are then less than 2^31, because dots are at most 16
-/// cells from the middle and offsets are at most 448/256 px, which is an eighth of the maximum
-/// spacing of 14 px.
+/// Returns the right shift, in bits, that reduces the total mass to less than 2^16. The same shift
+/// is applied to the masses and to the mass-weighted sums. All sums are then less than 2^31,
+/// because dots are at most 16 cells from the middle and offsets are at most 448/256 px, which is
+/// an eighth of the maximum spacing of 14 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)

@@ -11,9 +11,9 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// Fraction of the dots, in units of 1/20, that must be near an intersection for the fit to extend
-/// to farther dots without another iteration. The fraction is less than 1, because some detected
-/// dots may be dirt.
+/// Minimum fraction of dots that are near an intersection, in units of 1/20. If the fraction is
+/// reached, the fit is extended to farther dots without another iteration. The value is less than
+/// 20, because some detected dots may be dirt.
 inline constexpr int kSettled_20th = 19;
 /// Minimum fraction of the dots in a grid that must be near an intersection, in tenths. If dots are
 /// placed randomly, half of them are near an intersection.
@@ -88,8 +88,8 @@ inline constexpr float kCoarsest_px = 40;
 inline constexpr float kMinSpacing = 0.7F;
 inline constexpr float kMaxSpacing = 1.4F;
 inline constexpr float kMaxFold = 0.7F;
-/// Reach and maximum offset from an intersection in the first rounds, in spacings. These rounds
-/// treat displacements as noise.
+/// Parameters of the first rounds, in spacings: the reach, and the maximum offset of a dot from its
+/// intersection. These rounds treat displacements as noise.
 inline constexpr float kFirstReach = 3;
 inline constexpr float kFirstMaxOffset = 0.42F;
 /// Limits to which the displacement in a first grid is clamped, in spacings. The range is slightly

@@ -28,7 +28,7 @@ inline constexpr int kMinSigma_q8 = 230;
 /// the print errors.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton iterations. The fit ends early after a step shorter than
-/// kSettled_q8, in 1/256 px.
+/// kSettled_q8 / 256 px.
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
 /// Maximum mass of a dot, in halves of the typical mass. The minimum is half the typical mass.
@@ -95,8 +95,8 @@ inline constexpr int kMaxRounds = 30;
 
 /// Bias of facing dots (pose/facing_dots).
 namespace facing {
-/// A bias is corrected only if it is significant: its ratio to its standard deviation must exceed
-/// this value.
+/// Minimum ratio of a bias to its standard deviation. A smaller bias is not significant, and is not
+/// corrected.
 inline constexpr float kSure = 4;
 }  // namespace facing
 
@@ -104,8 +104,8 @@ inline constexpr float kSure = 4;
 namespace bias {
 /// Maximum number of stacked dots. More dots do not make the fitted dot shape more accurate.
 inline constexpr int kDots = 256;
-/// Width of the border around a dot that is included in the stacked images, because it contains the
-/// blurred edge.
+/// Width of the border around a dot. The stacked images include this border, because it contains
+/// the blurred edge of the dot.
 inline constexpr float kBeyondEdge_px = 1.5F;
 /// If the blur variance exceeds this limit along both axes, the bias is not corrected: it is
 /// negligible, and dots may be larger than the model image.
