@@ -96,8 +96,9 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
                               [](const FrameTimes& t) { return t.camera.width_px; });
 }
 
-/// Returns the minimum percentage of frames that the first attempt locates at any tilt, and the
-/// maximum ratio of the time at a tilt to the time at 0 degrees.
+/// Returns the percentage of frames that the first attempt locates, at the tilt with the lowest
+/// percentage. Also returns the median time per frame relative to a tilt of 0 degrees, at the tilt
+/// with the highest ratio.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     double share = 100;
     double ratio = 1;

@@ -211,7 +211,8 @@ class LocateRun {
                                       std::function<bool(Outcome)> pass_on) {
         capture::SourceOptions options = arguments.sources.options;
         // Without a camera file, images of up to kDefaultImagePixels pixels are accepted, because
-        // Follower downscales large images. With a camera file, the image size must match the file.
+        // Follower downscales large images. With a camera file, only images of the size in the file
+        // are accepted.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
         options.tell = tell;
         options.stop = interrupted;

@@ -217,7 +217,8 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
-    blobs.effort = Effort::device;  // with this effort, the trace contains the blob grid
+    // Only with this effort does the trace contain the grid of blobs.
+    blobs.effort = Effort::device;
     blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
         if (std::min(image.width_px, image.height_px) / by < kMinFrameSide_px) break;
@@ -291,8 +292,8 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
             "the sheet is tilted too much, by about {:.0f} degrees: look straight down on it",
             *tilt_degrees);
     }
-    // In videos with sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel
-    // (docs/live.md). The limit below includes a margin.
+    // Minimum number of bits per pixel of a video, with a margin. If the frames are sharp, H.264
+    // and HEVC begin to lose dots at 0.1 bits per pixel (docs/live.md).
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(

@@ -107,7 +107,7 @@ struct RunStatistics {
     std::int64_t fixes = 0;
     double duration_s = 0;
     std::map<std::string, std::int64_t> without_fix;  ///< number of frames without a fix, by status
-    std::map<std::string, std::int64_t> events;       ///< number of events by name
+    std::map<std::string, std::int64_t> events;       ///< number of events of each kind, by name
     std::map<std::string, std::int64_t> verdicts;
     std::int64_t gaps = 0;  ///< number of periods without a fix
     double longest_gap_s = 0;

@@ -90,10 +90,10 @@ class LargeMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-extern template class DeviceMemoryFor<36, 36>;    ///< 4.5 KB with 32-bit pointers
-extern template class DeviceMemoryFor<160, 120>;  ///< 11 KB with 32-bit pointers
-extern template class DeviceMemoryFor<188, 120>;  ///< 13 KB with 32-bit pointers
-extern template class DeviceMemoryFor<320, 240>;  ///< 23 KB with 32-bit pointers
+extern template class DeviceMemoryFor<36, 36>;    ///< size: 4.5 KB with 32-bit pointers
+extern template class DeviceMemoryFor<160, 120>;  ///< size: 11 KB with 32-bit pointers
+extern template class DeviceMemoryFor<188, 120>;  ///< size: 13 KB with 32-bit pointers
+extern template class DeviceMemoryFor<320, 240>;  ///< size: 23 KB with 32-bit pointers
 /// Memory for frames of the paper's sensor, 188 x 120 px.
 using DeviceMemory = DeviceMemoryFor<188, 120>;
 
