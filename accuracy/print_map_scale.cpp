@@ -19,7 +19,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// Processor time of the stages, in s.
+/// Processor time of each stage, in s.
 struct StageTimes {
     double rendering = 0;
     double locating = 0;

@@ -151,9 +151,9 @@ struct ViewCounts {
     int alone = 0;        ///< number of views located without evidence from other views
     int ambiguous = 0;    ///< number of views refused as `ambiguous_code` without such evidence
     int later_given = 0;  ///< number of views after the first kFirstViews
-    int later = 0;        ///< number of `later_given` views located with earlier evidence
+    int later = 0;        ///< number of views in `later_given` located with earlier evidence
     int wrong = 0;
-    double max_against_log2 = 0;  ///< maximum log2 evidence of a view against the given code
+    double max_against_log2 = 0;  ///< maximum evidence of one view against the given code, in bits
 };
 
 class ViewReader {

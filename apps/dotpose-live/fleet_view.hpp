@@ -24,8 +24,8 @@ class FleetView {
     /// the drawing cannot be written.
     FleetView(FleetMap map, std::string drawing, Delivery delivery);
 
-    /// Processes the pressed keys, and updates the table if there are any. Returns false if the
-    /// user wants to quit.
+    /// Processes the keys that were pressed since the previous call. If there are any, updates the
+    /// table. Returns false if the user wants to quit.
     bool take_keys(const FleetState& fleet, const Now& now);
 
     /// Updates the table if standard output is a terminal. Also draws the map, but spends at most a

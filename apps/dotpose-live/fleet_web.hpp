@@ -69,7 +69,7 @@ class FleetWeb {
     AlertWatch watch_;
     std::deque<RobotAlert> alerts_;
     Clock::time_point next_check_;
-    Snapshot snapshot_;  ///< robots in this tick, or null until a topic needs the robots
+    Snapshot snapshot_;  ///< robots in the current tick, or null if not needed yet
     std::int64_t counted_states_ = 0;
     Clock::time_point counted_at_;
 

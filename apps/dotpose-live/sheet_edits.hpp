@@ -51,7 +51,8 @@ class SheetEdits {
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
 
     /// Removes a sheet. Throws Error if it is the only sheet, because a run needs at least one.
-    /// Undoing the removal appends the sheet to the file, but keys unknown to dotpose are lost.
+    /// Undoing the removal appends the sheet to the file, without the keys that dotpose does not
+    /// recognise.
     void remove(const Target& target);
 
     /// Replaces the world poses and print scales of several sheets with the values in `measured`,

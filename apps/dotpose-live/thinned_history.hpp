@@ -21,8 +21,8 @@ class ThinnedHistory {
 
     std::int64_t states() const { return states_; }
 
-    /// Returns one array for each member of Point, and the number of states for each motion.
-    /// docs/fleet.md describes the value.
+    /// Returns an object with an array for each member of Point and with the number of states for
+    /// each kind of motion. docs/fleet.md describes the value.
     nlohmann::json value() const;
 
   private:

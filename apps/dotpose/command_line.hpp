@@ -1,4 +1,5 @@
-/// Commands and their options: a thin wrapper around CLI11 with the same names as in CLI11.
+/// Command-line commands and options: a thin wrapper around CLI11. The member functions have the
+/// same names as in CLI11.
 ///
 /// Only command_line.cpp includes the CLI11 header, because the header adds ten seconds to the
 /// compile time of a source file.

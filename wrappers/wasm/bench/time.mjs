@@ -50,7 +50,8 @@ function keepLeast(least, times_us) {
 }
 
 /**
- * Returns the mean time of the frames without (`way` 0) or with (`way` 1) a prediction.
+ * Returns the mean time per frame, in µs: without a prediction if `way` is 0, and with a prediction
+ * if `way` is 1.
  */
 function mean(times_us, way) {
     const chosen = times_us.filter((_, i) => i % 2 === way);

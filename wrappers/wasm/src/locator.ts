@@ -38,7 +38,7 @@ export interface LocatorOptions {
      */
     lens_k_per_px2?: number;
     /**
-     * Distortion centre minus the image centre, to the right and down. Default: 0, 0.
+     * Offset of the distortion centre from the image centre, to the right and down. Default: 0, 0.
      */
     lens_centre_offset_px?: readonly [number, number];
     /**

@@ -92,7 +92,7 @@ export interface Imperfections {
     motion_y_px?: number;
     /** Standard deviation of the noise, in grey levels. */
     noise_sigma?: number;
-    /** Fraction of the pixels that are black or white. */
+    /** Fraction of the pixels that are replaced with black or white at random. */
     salt_and_pepper?: number;
     /** Standard deviation of the position of a printed dot, per axis. */
     jitter_mm?: number;

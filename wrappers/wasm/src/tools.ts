@@ -63,7 +63,8 @@ export class Tools {
     }
 
     /**
-     * Returns the layout of a sheet: whole cells inside the margins, starting at the upper left.
+     * Returns the layout of a sheet. The grid starts at the upper left and contains all whole cells
+     * that fit inside the margins.
      */
     layout(sheet: SheetOptions = {}): SheetLayout {
         const kLayoutBytes = 32;
