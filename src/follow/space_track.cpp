@@ -113,8 +113,8 @@ Matrix6 matrix_of(const SpaceCovariance& covariance) {
 
 /// Returns the matrix that converts from the agility axes to position and rotation. In a view of a
 /// plane, the point in front of the camera is measured more accurately than the camera position.
-/// The position error is therefore mostly the rotation error multiplied by a lever. The lever is
-/// the regression of the position on the rotation. `noise` is the covariance of a sighting.
+/// The position error is therefore mostly the rotation error multiplied by a lever arm. The lever
+/// arm is the regression of the position on the rotation. `noise` is the covariance of a sighting.
 Matrix6 lever_of(const Matrix6& noise) {
     Matrix6 result = Matrix6::Identity();
     const Matrix3d rotation = noise.bottomRightCorner<3, 3>();

@@ -22,8 +22,8 @@
 namespace dotpose::core {
 
 /// Memory of a Locator, and results of its attempts. Only the entry points and the attempts access
-/// the whole workspace. They pass parts of it to the stages. The base class is the memory of a
-/// DeviceLocator, which `Effort::device` uses.
+/// the whole workspace. They pass parts of it to the stages. The base class, which is the memory of
+/// a DeviceLocator, is used by the attempt of `Effort::device`.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;   ///< used by the first attempt and the search for a rotation
     Smoothing smoothing;      ///< used by the second attempt
