@@ -24,8 +24,8 @@ struct SpaceDot {
 struct SpaceState {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
-    double displacement =
-        1.0 / 6;  ///< displacement of the dots from their intersections, in spacings
+    /// Displacement of the dots from their intersections, in spacings.
+    double displacement = 1.0 / 6;
 };
 
 struct SpaceFit {

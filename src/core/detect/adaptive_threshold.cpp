@@ -67,7 +67,7 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// Stores the maximum mean and the maximum darkness over three bands, for each column of tiles.
+/// For each column of tiles, stores the maximum mean and the maximum darkness over three bands.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {

@@ -31,8 +31,8 @@ constexpr int kSkippedBits = 46;
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
-/// Number of packed lines. Their roll offsets are packed into one word. `SetSearch` first computes
-/// only the loss of each alternative in these lines.
+/// Number of packed lines. Their roll offsets are packed into one word. For each alternative,
+/// `SetSearch` first computes the loss in these lines alone.
 constexpr std::size_t kPackedLines = 4;
 
 /// A set of shared lines, and the packed lines: the unshared lines with the largest minimum losses.

@@ -46,8 +46,8 @@ class SetPlan {
 
   private:
     struct Node;
-    /// Separate values for the alternatives that differ from the reading in two, three, and four
-    /// sequences.
+    /// A value for each group of far alternatives: those that differ from the reading in two, in
+    /// three and in four sequences.
     struct ByDifferent {
         float two;
         float three;

@@ -27,7 +27,7 @@ enum class Excused : std::uint8_t { none, any_one };
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
-    int count;       ///< number of compared steps, which are centred in the view
+    int count;       ///< number of compared steps, in the middle of the view
     int first_line;  ///< first line of the first step
     /// Lower bound on the loss at each step, rounded down. The unit is 1/kLimitParts of the loss
     /// that excludes a place. Losses of one unit are replaced with 0.

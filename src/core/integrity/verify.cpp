@@ -58,8 +58,9 @@ struct Doubt {
     /// Odds that a bit with weight 127 is correct, as log2 in units of 2^-8. The value is 0 if the
     /// bits contain no information, or if too many bits are wrong.
     int odds_per_bit_q8 = 0;
-    /// For each axis, log2 of an upper bound on the probability that random bits agree with any
-    /// place in the code at least as well as the bits that were read, in units of 2^-8.
+    /// Upper bound on the probability of a chance match on each axis, as log2 in units of 2^-8. A
+    /// chance match is a place in the code that random bits agree with at least as well as the bits
+    /// that were read.
     std::array<int, 2> by_chance_q8{};
 };
 

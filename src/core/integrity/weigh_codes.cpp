@@ -69,9 +69,9 @@ struct Losses {
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
 
-/// Sums the odds of the places in one other code, along one axis. The *same place* is the place of
-/// the reading in the a4 of the other code, at the shift `shift_here_`. All other places and shifts
-/// are *other places*.
+/// Sums the odds of the places in one other code, along one axis. The *same place* has the same
+/// index in a4 as the place of the reading, but in the other code, at the shift `shift_here_`. All
+/// other places and shifts are *other places*.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
