@@ -123,9 +123,9 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
     return subject;
 }
 
-/// Measures the time of every frame once. Each frame is first copied to the same memory, as with a
-/// real camera. All other frames are processed between two measurements of the same frame, so
-/// caches and branch prediction do not adapt to it.
+/// Measures the time of every frame once. Each frame is first copied to the same buffer, as if a
+/// real camera had written it there. All other frames are processed between two measurements of the
+/// same frame, so caches and branch prediction do not adapt to it.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;
     GreyImage camera = *subject.frames.front();

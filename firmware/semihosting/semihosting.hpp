@@ -15,8 +15,8 @@ enum class Call : std::uint32_t {
     exit = 0x20,
 };
 
-/// File modes as in fopen. The file ":tt" is the console: standard output if it is opened for
-/// writing, and standard error if it is opened for appending.
+/// File modes, with the same meanings as in fopen. The file ":tt" is the console: standard output
+/// if it is opened for writing, and standard error if it is opened for appending.
 inline constexpr std::uint32_t kRead = 1;
 inline constexpr std::uint32_t kWrite = 4;
 inline constexpr std::uint32_t kAppend = 8;

@@ -61,8 +61,8 @@ class DeviceMemoryFor : public AnyDeviceMemory {
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory for a Locator whose images are up to 188 px wide, the width of the paper's sensor. Its
-/// size is about 330 KB.
+/// Memory for a Locator that processes images up to 188 px wide, the width of the sensor in the
+/// paper. The memory has a size of about 330 KB.
 class SmallMemory {
   public:
     SmallMemory();
@@ -76,7 +76,8 @@ class SmallMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory for a Locator whose images have up to 4096 x 4096 px. Its size is about 4.4 MB.
+/// Memory for a Locator that processes images of up to 4096 x 4096 px. The memory has a size of
+/// about 4.4 MB.
 class LargeMemory {
   public:
     LargeMemory();
@@ -94,7 +95,7 @@ extern template class DeviceMemoryFor<36, 36>;    ///< size: 4.5 KB with 32-bit 
 extern template class DeviceMemoryFor<160, 120>;  ///< size: 11 KB with 32-bit pointers
 extern template class DeviceMemoryFor<188, 120>;  ///< size: 13 KB with 32-bit pointers
 extern template class DeviceMemoryFor<320, 240>;  ///< size: 23 KB with 32-bit pointers
-/// Memory for frames of the paper's sensor, 188 x 120 px.
+/// Memory for frames of 188 x 120 px, the size of the sensor in the paper.
 using DeviceMemory = DeviceMemoryFor<188, 120>;
 
 }  // namespace dotpose

@@ -33,8 +33,8 @@ inline constexpr int kPacketVersion = 1;
 /// before `cell` are valid, and `make_packet` sets the other members to 0.
 struct PosePacket {
     std::uint16_t sequence = 0;  ///< frame number, in which a gap indicates lost packets
-    std::uint32_t time_us =
-        0;  ///< frame time on the sender's clock, which wraps every 71.6 minutes
+    /// Frame time on the sender's clock, which wraps around every 71.6 minutes.
+    std::uint32_t time_us = 0;
     Status status = Status::not_run;
     CodeVariant code = CodeVariant::anoto;
 

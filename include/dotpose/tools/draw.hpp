@@ -92,8 +92,9 @@ void draw_path(const std::filesystem::path& file, const Sheet& sheet,
 /// of the dot density.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
-/// Residuals of a lens calibration, summed over square parts of the image, as in the pictures that
-/// `draw_calibration` writes. Programs can use this struct to draw the residuals themselves.
+/// Residuals of a lens calibration, summed separately for each of the square parts that
+/// `draw_calibration` divides the image into. Programs can use this struct to draw the residuals
+/// themselves.
 struct ResidualField {
     struct Part {
         PixelPoint before;  ///< sum of the residuals before the calibration, in px
@@ -117,8 +118,8 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-/// Draws the map of a page: the smooth distortion as a deformed grid (exaggerated), and the x and y
-/// offsets of all dots as two images.
+/// Draws the print map of a page: the smooth distortion as a deformed grid (exaggerated), and the
+/// offsets of all dots as two images, one for x and one for y.
 void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 
 /// Draws the sheets in the world, seen from above with x to the right and y up. Sheets without a
