@@ -316,7 +316,8 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
         places.push_back(frame.place);
     result.spacing_mm = printed_spacing_mm(options, reader.code(), places);
     const FitSetting setting{series.width_px, series.height_px, result.spacing_mm};
-    // The reader finds dots in the corners of the image only if the lens is known.
+    // Sets the lens before the second round, because the reader finds dots in the corners of the
+    // image only if the lens is known.
     reader.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
     auto located = read_again(first, series, reader);
     take_all_dots(fit_all(located, setting).after, setting, reader.code(), located);

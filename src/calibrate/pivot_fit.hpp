@@ -28,9 +28,9 @@ struct PivotFit {
     Eigen::Vector3d tip_mm;   ///< tip in the camera frame
     Eigen::Vector3d rest_mm;  ///< resting point on the paper, in the frame of the views
     /// Covariance of the tip and of the resting point. Frames that show the same dots have
-    /// correlated errors, because the print errors of these dots shift all poses. The covariance is
-    /// therefore computed from the residuals of each dot in all frames. The covariance is increased
-    /// if the tip moved by more than the pose errors explain.
+    /// correlated errors, because the printing errors of these dots shift all poses. The covariance
+    /// is therefore computed from the residuals of each dot in all frames. The covariance is
+    /// increased if the tip moved by more than the pose errors explain.
     Eigen::Matrix<double, 6, 6> covariance;
     std::vector<bool> is_used;  ///< indexed by view
     double residual_mm = 0;     ///< rms residual per axis

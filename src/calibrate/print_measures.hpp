@@ -1,4 +1,4 @@
-// Measures a print from the cells of a field.
+// Computes the measurements of a print from the cells of a field.
 #pragma once
 
 #include <optional>

@@ -89,8 +89,8 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, CodeVariant co
 }
 
 /// Sets the place, axes and errors of `view` by fitting an affine map to the dots. `camera` must
-/// contain the view of the paper. `first` is the position of the intersection with
-/// `LocatedDot::step` (0, 0) on the sheet, in nominal mm.
+/// contain the view of the paper. `first` is the position on the sheet, in nominal mm, of the
+/// intersection whose `LocatedDot::step` is (0, 0).
 void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
     std::vector<Eigen::Vector2d> points;

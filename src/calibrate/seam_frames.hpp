@@ -24,8 +24,8 @@ struct SheetView {
     Eigen::Vector2d place = Eigen::Vector2d::Zero();
     Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
     /// Transforms the errors of place and axes (column by column) into errors with standard
-    /// deviation 1. Rows with an index of `rows` or more are 0, because the corresponding
-    /// combinations of place and axes are not known.
+    /// deviation 1. Only the first `rows` rows are set. The other rows are 0, because the
+    /// corresponding combinations of place and axes are not known.
     Eigen::Matrix<double, 6, 6> whitening = Eigen::Matrix<double, 6, 6>::Zero();
     int rows = 0;
     /// Cells of the dots: column in the upper 32 bits, row in the lower 32 bits.

@@ -327,9 +327,9 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
 }
 
-/// Returns the DotShare of each dot, for an affine map fitted to all dots. The derivatives are
-/// scaled so that dot errors with standard deviation 1 cause whitened residuals with standard
-/// deviation 1.
+/// Returns the DotShare of each dot. Assumes that the view was computed by fitting an affine map to
+/// all dots. The derivatives are scaled so that dot errors with standard deviation 1 cause whitened
+/// residuals with standard deviation 1.
 std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;

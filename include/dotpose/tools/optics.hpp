@@ -1,5 +1,6 @@
-/// Optics: predicts how the pattern appears in a camera with given components. Intended for the
-/// design of a device (paper, section III-A). The model is a thin lens focused on the paper.
+/// Optics: predicts how the pattern appears in the images of a camera with given components.
+/// Intended for the design of a device (paper, section III-A). The model is a thin lens focused on
+/// the paper.
 ///
 ///     const OpticsReport report = design_optics(paper_optics());
 ///     for (const OpticsAdvice& advice : report.advice) puts(advice.text.c_str());

@@ -25,7 +25,7 @@ struct Deviation {
 /// Returns the deviation of a fix from the truth.
 Deviation deviation_of(const Fix& fix, const Truth& truth);
 
-/// The result of one call of `locate`.
+/// The result of one call to `locate`.
 struct Outcome {
     Fix fix;
     Truth truth;

@@ -59,7 +59,7 @@ struct ProtocolResult {
     std::vector<Station> angles;  ///< results at 36 angles in the middle of the area
 };
 
-/// The experiment on a perfect page and on a printed page.
+/// Results of the experiment on a perfect page and on a printed page.
 struct Protocol {
     int samples = 0;
     /// Result for a page whose dots deviate from their intended positions only by jitter.

@@ -262,7 +262,8 @@ struct Setup {
     std::uint64_t seed = 1;
 };
 
-/// All inputs of one frame. `page.pattern.section` and `pose` are the truth.
+/// All inputs of one frame. The true section is `page.pattern.section`, and the true pose is
+/// `pose`.
 struct Shot {
     Page page;
     CameraModel camera;

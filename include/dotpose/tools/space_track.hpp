@@ -60,7 +60,7 @@ struct SpaceTrackOptions {
     double speed_mm_s = 500;
     double turn_rad_s = 5;
     /// Maximum normalised innovation squared, with six degrees of freedom, of an accepted sighting.
-    /// A correct sighting exceeds the default by chance about once in 10^7.
+    /// A correct sighting exceeds the default by chance about once in 2 * 10^7.
     double max_innovation = 45;
     /// Number of consecutive rejected sightings, consistent with each other, after which the track
     /// restarts from the newest of them.

@@ -68,7 +68,7 @@ struct Sweep {
 /// Simulates and locates the frames of all values. Throws Error if `progress` returned false before
 /// two values were complete, and BadArgument if there are no frames per value.
 Sweep run_sweep(SweepKind kind, const SweepOptions& options);
-/// Writes one line for each value and decoder.
+/// Writes one line for each combination of value and decoder.
 void write_sweep_csv(std::ostream& out, const Sweep& sweep);
 
 /// Writes sweep-KIND.csv, .svg and .png.
