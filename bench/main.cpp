@@ -5,8 +5,8 @@
 //
 // Writes tables.md, pixels.svg and dots.svg to FOLDER (default: bench-out). --update also replaces
 // the generated blocks in the document and its figures. --quick does a short run to test the
-// program. The numbers from such a run are inaccurate. With Google Benchmark options, runs and
-// prints only the selected benchmarks.
+// program. The numbers from such a run are inaccurate. If Google Benchmark options are given, runs
+// and prints only the selected benchmarks.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

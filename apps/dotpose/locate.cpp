@@ -236,7 +236,7 @@ class LocateRun {
         return true;
     }
 
-    /// Locates the images in several threads, each with its own source and locator.
+    /// Locates the images in several threads, each of which has its own source and locator.
     int in_threads() {
         const std::vector<std::string> images = sources_.all_images();
         const std::size_t threads = arguments_.threads > 0

@@ -1,4 +1,5 @@
-/// The result of `dotpose locate` for one image, and its output line.
+/// The result of `dotpose locate` for one image, and functions that convert the result to an output
+/// line.
 #pragma once
 
 #include <array>

@@ -121,8 +121,8 @@ struct RunStatistics {
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);
 
-/// Draws an SVG with the path and with plots of speed, dots and certainty over time. The plots mark
-/// periods without a fix.
+/// Draws an SVG with the path, and with plots of the speed, the number of dots and the certainty
+/// over time. Periods without a fix are marked in the plots.
 std::string draw_run(const std::vector<LogRow>& rows, const std::string& title);
 
 }  // namespace dotpose::cli

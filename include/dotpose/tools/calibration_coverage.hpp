@@ -121,9 +121,9 @@ class CalibrationCoverage {
         return directions_[static_cast<std::size_t>(direction)];
     }
 
-    /// Returns the requirements that are not met, the most urgent first, or an empty list if the
-    /// frames are sufficient. `lens` is the calibration computed from the frames so far, if there
-    /// is one.
+    /// Returns the requirements that have not been met yet, the most urgent first. The list is
+    /// empty if the frames are sufficient. `lens` is the calibration computed from the frames so
+    /// far, if there is one.
     std::vector<CalibrationNeed> missing(const std::optional<Camera>& lens) const;
 
   private:
