@@ -260,8 +260,8 @@ class ImageRows {
     }
 
   private:
-    // Returns the image coordinate of the centre of a sub-pixel, in px. Sub-pixel 0 is the
-    // outermost sub-pixel of the border.
+    // Returns the image coordinate of the centre of a sub-pixel, in px. Sub-pixel 0 is the first
+    // sub-pixel of the left or top border.
     double pixel_of(int sub_pixel) const {
         return (sub_pixel + 0.5) / kernel_.per_pixel - 0.5 - kernel_.border_px;
     }
