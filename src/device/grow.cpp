@@ -43,8 +43,8 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
-/// Maximum distance of a dot from cell (0, 0) along each axis, in cells. Dots farther away do not
-/// belong to the grid.
+/// Maximum distance of a cell from cell (0, 0) along each axis, in cells. Dots in farther cells are
+/// ignored.
 constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. c is the `rounding_plane_point_q16` of the

@@ -41,7 +41,7 @@ struct CellPass {
     /// Maximum distance between a dot and the nearest dot position of its cell, in spacings. The
     /// sums exclude dots beyond this limit.
     float max_off = 0;
-    /// Distance between the intersection and the four dot positions, in spacings. If 0, the
+    /// Distance from an intersection to each of its four dot positions, in spacings. If 0, the
     /// intersection is the only dot position.
     float displacement = 0;
     bool with_perspective = false;

@@ -15,7 +15,7 @@ namespace regularity {
 /// reached, the fit is extended to farther dots without another iteration. The value is less than
 /// 20, because some detected dots may be dirt.
 inline constexpr int kSettled_20th = 19;
-/// Minimum fraction of the dots in a grid that must be near an intersection, in tenths. If dots are
+/// Minimum fraction of the dots in a grid that are near an intersection, in tenths. If dots are
 /// placed randomly, half of them are near an intersection.
 inline constexpr int kMin_10ths = 7;
 }  // namespace regularity

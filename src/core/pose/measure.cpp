@@ -32,7 +32,7 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// Size of the measuring window, and width of the fitted dot.
+/// Half-width of the measurement window, and standard deviation of the fitted dot.
 struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;

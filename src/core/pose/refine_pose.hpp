@@ -1,5 +1,5 @@
-// Refine pose: fits the pose to all dots in view once the place in the code is known, in single
-// precision. The place determines the printed position of each dot, including its displacement. The
+// Refine pose: fits the pose to all dots in view, in single precision, once the place in the code
+// is known. The place determines the printed position of each dot, including its displacement. The
 // pose is the least-squares map from the measured centres to these printed positions. Unlike the
 // paper, which computes the pose from the grid (paper, equations 10-12), this fit is not affected
 // by the noise that displacements add to the grid.

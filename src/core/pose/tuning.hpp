@@ -143,8 +143,8 @@ inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
-/// Maximum expected number of outliers on a flat sheet: kFewOutliers plus kOutlierFraction times
-/// the number of dots.
+/// Maximum number of outliers that is normal on a flat sheet: kFewOutliers plus kOutlierFraction
+/// times the number of dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
 /// With more dots than this, each image side is divided into nine blocks. Otherwise, it is divided
