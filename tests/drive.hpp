@@ -77,7 +77,7 @@ class Drive {
     }
 
   private:
-    static constexpr double kRamp = 0.4;  ///< duration of acceleration and deceleration, in s
+    static constexpr double kRamp = 0.4;  ///< duration of each acceleration and deceleration, in s
 
     /// Returns the integral of a ramp from 0 to 1 that begins at t = 0 and is smooth at both ends.
     static double ramp_integral(double t) {

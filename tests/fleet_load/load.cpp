@@ -32,7 +32,7 @@ struct Arguments {
 struct Outcome {
     std::int64_t published = 0;
     std::int64_t answered = 0;
-    std::int64_t latest_us = 0;  ///< maximum delay of a publication after its due time
+    std::int64_t latest_us = 0;  ///< maximum delay of a publication, relative to its due time
 };
 
 /// Publishes all states of the robots over a connection. In each publication period, each robot

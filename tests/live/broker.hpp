@@ -35,9 +35,9 @@ inline int free_port() {
 
 class Broker {
   public:
-    /// `users` is a file written by mosquitto_passwd. If it is empty, anonymous clients are
-    /// allowed. With TLS, the broker uses a self-signed certificate, cert.pem in `directory`.
-    /// `more` is appended to the configuration file.
+    /// `users` is the path of a file written by mosquitto_passwd. If no path is given, anonymous
+    /// clients are allowed. With TLS, the broker uses a self-signed certificate, cert.pem in
+    /// `directory`. `more` is appended to the configuration file.
     explicit Broker(const std::filesystem::path& directory, const std::string& users = {},
                     bool has_tls = false, const std::string& more = {})
         : port_(free_port()), directory_(directory), has_tls_(has_tls) {

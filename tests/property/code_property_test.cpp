@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 6667695;
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
 constexpr int kDraws = 200'000;
 #else
-constexpr int kDraws = 50'000;  // fewer, because unoptimized and sanitized builds are slow
+constexpr int kDraws = 50'000;  // fewer windows, because unoptimized and sanitized builds are slow
 #endif
 constexpr int kDrawsAtLength = 5 * kDraws;
 

@@ -1,5 +1,5 @@
-// Tests the conversion of fixes and tracks to messages. Frames of reference, units and covariances
-// are compared with values computed by hand.
+// Tests the conversion of fixes and tracks to messages. The expected frames of reference, units and
+// covariances were determined by hand.
 #include "dotpose/tools/robot_messages.hpp"
 
 #include <cmath>

@@ -70,8 +70,8 @@ TEST_P(RenderedPdf, shows_every_dot_in_its_place) {
     options.pattern.dot_mm = is_coarse ? coarse_dot_px * 25.4 / dpi : dots.spacing_mm / 6;
     options.pattern.section = {5, 60};
     options.origin = {123'456, 400'000'000};
-    // The height is not a whole number of pixels. The page is wide because errors could accumulate
-    // over its width.
+    // The height is not a whole number of pixels. The page is wide, because errors that accumulate
+    // along x would be largest at the right edge.
     options.paper = {150, 21.3};
     options.margin_mm = 5;
     const Sheet sheet = make_sheet(options);

@@ -126,7 +126,8 @@ class VideoFile : public capture::FrameSource {
         const std::string url = "file:" + name_;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
-        // Reading packets adds entries to the index, so the index must be checked first.
+        // The index is checked here because reading packets adds entries to it.
+        // avformat_find_stream_info reads packets.
         for (unsigned i = 0; i < file->nb_streams; ++i) {
             const int entries = avformat_index_get_entries_count(file->streams[i]);
             has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);
@@ -151,8 +152,8 @@ class VideoFile : public capture::FrameSource {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is that of its longest stream, so the file's duration is used only
-        // if the video is the only stream.
+        // The duration of a file is that of its longest stream, so it is used only if the video is
+        // the only stream of the file.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }

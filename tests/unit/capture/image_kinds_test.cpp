@@ -92,7 +92,7 @@ TEST(BmpKinds, StateTheirResolution) {
     EXPECT_NEAR(resolution->x_dpi, 300, 0.01);
 }
 
-/// Writes TIFF files of 48 x 20 px.
+/// Fixture that writes TIFF files with images of 48 x 20 px.
 class TiffKinds : public testing::Test {
   protected:
     static constexpr std::uint32_t kWidth = 48;

@@ -205,8 +205,8 @@ TEST(BitLines, OneWrongBitMakesALineInexact) {
             const std::uint64_t here = std::uint64_t{1} << cell;
             const bool bit = main_bit(roll + static_cast<unsigned>(cell)) == 1;
             bits = bit ? bits | here : bits & ~here;
-            // The first six adjacent bits are always present because six bits are needed to
-            // determine the roll. Any other bit may be missing.
+            // Six adjacent bits are needed to determine the roll, so the first six bits are always
+            // present. Any other bit may be missing.
             if (cell < first + 6 || rng.below(8) != 0) valid |= here;
         }
         EXPECT_EQ(core::exact_roll(bits, valid), roll);

@@ -52,7 +52,7 @@ TEST(AdaptiveThreshold, EveryBandBecomesReadyOnceWhateverTheHeight) {
             for_each_band(image, {}, w.threshold, [&](int band) {
                 EXPECT_EQ(band_begin(w.threshold, band), covered);
                 covered = band_end(w.threshold, band);
-                // The rows of the band are still stored.
+                // All rows of the band must still be stored.
                 for (int v = band_begin(w.threshold, band); v < covered; ++v) {
                     EXPECT_EQ(kept_row(w.threshold, v)[image.width_px - 1], 200);
                 }

@@ -178,8 +178,8 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns a difficult view: a small view in which some dots are missing, displaced, or have a
-/// wrong symbol.
+/// Returns a difficult view: it is small, and some of its dots are missing, are displaced, or have
+/// a wrong symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
     view.code = kCodeVariants[static_cast<std::size_t>(rng.below(3))];
