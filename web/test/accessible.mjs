@@ -14,7 +14,7 @@ export async function audit(page) {
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= page.viewportSize().width);
 }
 
-/** Audits the page in both colour schemes, on a desktop and on phones. */
+/** Audits the page in both colour schemes, at desktop and phone sizes. */
 export async function requireAccessible(page) {
     const size = page.viewportSize();
     for (const colorScheme of ["dark", "light"]) {

@@ -1,5 +1,5 @@
-// Tests `grow_grid`, which extends a rough estimate in the middle to a grid without perspective
-// over the whole image.
+// Tests `grow_grid`, which starts from a rough estimate in the middle of the image and extends the
+// grid over the whole image. The grids have no perspective.
 #include "device/grow.hpp"
 
 #include <gtest/gtest.h>

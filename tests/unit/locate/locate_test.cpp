@@ -1,5 +1,6 @@
-// Tests the whole pipeline on simulated frames. A fix must not depend on the memory, on earlier
-// frames, or on whether the frame is passed as an image or row by row.
+// Tests the whole pipeline on simulated frames. A fix must not depend on the type or the previous
+// contents of the memory, on earlier frames, or on whether the frame is passed as an image or row
+// by row.
 #include "dotpose/locate.hpp"
 
 #include <cmath>
@@ -216,7 +217,8 @@ TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
 }
 
 TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
-    // Frames of other sizes and refused frames that come in between must have no effect.
+    // Before a frame is located, the locator processes frames of other sizes and frames that it
+    // refuses. These frames must have no effect.
     const auto used_memory = std::make_unique<LargeMemory>();
     Locator used(*used_memory, DeviceOptions{});
     const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));

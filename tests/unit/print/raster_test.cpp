@@ -101,7 +101,7 @@ TEST(write_raster, first_letters_are_those_of_the_code) {
     }
 }
 
-/// Distances, in pixels, of the centroids of the ink from the expected centres of the dots.
+/// Distances between the centroids of the printed dots and their expected centres.
 struct Errors {
     double largest_px = 0;
     double mean_px = 0;

@@ -64,7 +64,7 @@ TEST(FramePacer, TakesEveryFrameOfAMovingDevice) {
 
 TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     Device device;
-    // The device is at rest, and its fixes have a noise of 0.01 spacings.
+    // The device is at rest, and the positions of its fixes have noise of 0.01 spacings.
     device.run_until(65 * kSecond_us, [](std::int64_t t) {
         return at(100 + (t / kFrame_us % 2 == 0 ? 0.01 : -0.01));
     });

@@ -262,7 +262,7 @@ TEST(TrackerPredict, SurvivesAnyInput) {
     Followed other = driven;
     other.sighting.spacing_nm = 0;
     expect_as_seen(other.predict(205'000), other.fix);
-    other.sighting.spacing_nm = 1;  // the predicted motion would be too large in spacings
+    other.sighting.spacing_nm = 1;  // makes the predicted motion, in spacings, too large
     expect_as_seen(other.predict(205'000), other.fix);
     other.sighting = driven.sighting;
     other.sighting.x_nm += 1'000'000'000'000;

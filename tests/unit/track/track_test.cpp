@@ -202,7 +202,7 @@ TEST(Tracker, RefusesOtherWeakSightings) {
         return see(tracker, sighting).verdict;
     };
     // Three sightings must be refused: one outside the gate, one whose p_wrong is hardly better
-    // than chance, and one of a lost robot.
+    // than chance, and one that arrives while the robot is lost.
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 12, 0, 0.2), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 10, 0, 0.2), -9)), Verdict::too_weak);
     EXPECT_EQ(verdict(165'000, weak(at(165'000, 16.5, 0, 0.33), -12)), Verdict::too_weak);

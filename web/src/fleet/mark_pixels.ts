@@ -5,7 +5,7 @@ import { addMark, kDrawingOrder, kSquare, paintMarks, paintSquares, radiusFor } 
 import { kConditions, type Positions } from "./messages.js";
 import type { Viewport } from "./viewport.js";
 
-/** Number of distinct headings of the marks. */
+/** Number of headings for which marks are prepared. Headings are rounded to the nearest of these. */
 const kHeadings = 64;
 const kFirstHeading = kConditions.length;
 const kSquareMark = kFirstHeading + kHeadings;

@@ -20,8 +20,8 @@ export function drawMissing(canvas: HTMLCanvasElement, { columns, covered }: Len
 }
 
 /**
- * Draws the sectors of a full turn, filled if they have been seen, and the direction of the newest frame. The first
- * sector begins `begin` sectors after direction 0.
+ * Draws the sectors of a full turn, with those already seen in a different colour, and an arrow in the direction of the
+ * newest frame. The first sector begins `begin` sectors after direction 0.
  */
 export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], theta_rad: number | null, begin = 0): void {
     const { context, width, height } = surfaceOf(canvas);

@@ -1,4 +1,5 @@
-// Makes the PDF of a sheet. The dots are the same as those of `dotpose print` at 600 dpi, and use only black ink.
+// Makes the PDF of a sheet. The dots are the same as those of `dotpose print` at 600 dpi. They are printed with black
+// ink only.
 //
 // Dots are drawn with a font of four glyphs. At the default spacing, dots consist of whole printer
 // pixels at 300, 600 and 1200 dpi, and renderers place glyphs on whole pixels.

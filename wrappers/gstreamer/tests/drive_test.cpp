@@ -32,8 +32,8 @@ class GstreamerDrive : public WatchCommand {
             stream << grey.substr(at, size) << std::string(size / 2, '\x80');
     }
 
-    /// Reads a file of frames in `format` at 200 frames per second, and passes them through the
-    /// element.
+    /// Runs a pipeline that reads raw frames in `format` from a file, at a frame rate of 200 per
+    /// second, and passes them through the element.
     Outcome run_element(const std::string& frames, const std::string& format,
                         const std::string& properties) {
         return run_pipeline("filesrc location=" + (directory_ / frames).string() +
@@ -177,7 +177,8 @@ TEST_F(GstreamerDrive, OverlayIsDrawnOnTheLumaAlone) {
         const std::string& drawn = outcome.frames[i].bytes;
         const std::string before = frames.substr(i * kLuma * 3 / 2, kLuma * 3 / 2);
         EXPECT_TRUE(drawn.substr(kLuma) == before.substr(kLuma));
-        // Rings around 600 dots cover about 12,000 pixels, many of which are already dark.
+        // The rings around 600 dots cover about 12,000 pixels. Many of these pixels are already
+        // dark and do not change.
         std::size_t changed = 0;
         for (std::size_t at = 0; at < kLuma; ++at)
             changed += drawn[at] != before[at] ? 1 : 0;
