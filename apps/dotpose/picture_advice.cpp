@@ -249,9 +249,9 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// If the position is certain in one code alone, returns the advice to specify this code.
-/// Otherwise, returns an empty string. If the code is not given, a position may be uncertain only
-/// because positions in other codes are also possible.
+/// If the position is certain when only one of the codes is tried, returns the advice to specify
+/// this code. Otherwise, returns an empty string. If the code is not given, a position may be
+/// uncertain only because positions in other codes are also possible.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {

@@ -42,7 +42,8 @@ using FrameAt = std::function<GreyImage(int index)>;
 /// Options common to all calibrations.
 struct CalibrateOptions {
     /// The printed pattern. Only its code variant and spacing are used. All measured lengths are
-    /// proportional to the spacing, so they have the same relative error as the spacing.
+    /// proportional to the spacing, so an error in the spacing causes the same relative error in
+    /// these lengths.
     Pattern pattern;
     /// True to detect the code variant from the frames instead of using the code variant of
     /// `pattern`. `stitch_sheets` ignores this option, because each sheet has its own code variant.
@@ -152,7 +153,7 @@ struct SpinCalibration {
     int frames = 0;
     int located = 0;
     double sigma_mm = 0;     ///< standard deviation of the centre of rotation, per axis
-    double residual_mm = 0;  ///< rms residual of the frames about the centre of rotation, per axis
+    double residual_mm = 0;  ///< rms residual, per axis, of the fit of the centre of rotation
     double turn_rad = 0;  ///< angle of the smallest arc that contains the directions of all frames
     /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. It
     /// is included in `sigma_mm`. 0 if noise explains the drift.

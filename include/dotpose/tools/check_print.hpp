@@ -131,7 +131,7 @@ struct PrintField {
     /// Median dot diameter. The diameter of a dot is the diameter of an equivalent disc (see
     /// CheckPrintOptions::ink_reflectance).
     double dot_mm = 0;
-    /// Standard deviation of the dot diameter, computed from the median absolute deviation.
+    /// Standard deviation of the dot diameters, computed from their median absolute deviation.
     double dot_sigma_mm = 0;
     double paper_level = 0;  ///< median grey level of blank paper
     double contrast = 0;     ///< darkness of the dot centres relative to the paper, 0 to 1
