@@ -9,13 +9,13 @@
 
 namespace dotpose::calibrate {
 
-/// A dot on the paper and in the image.
+/// A dot: its place on the paper and its measured image point.
 struct SpaceDot {
-    /// Undistorted pixel minus the pixel on the optical axis.
+    /// Undistorted image point relative to the principal point, in px.
     Eigen::Vector2d pixel;
     Eigen::Vector2d intersection_mm;  ///< position of the dot's intersection on the paper
     Eigen::Vector2d direction_mm;  ///< offset from the intersection for a displacement of 1 spacing
-    /// Covariance of the measured pixel, up to a factor common to all dots.
+    /// Covariance of the measured image point, up to a factor common to all dots.
     Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Identity();
 };
 

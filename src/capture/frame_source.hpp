@@ -19,7 +19,7 @@ namespace dotpose::capture {
 struct Frame {
     GreyImage image;           ///< empty while the camera delivers no frames
     std::int64_t time_us = 0;  ///< time on the source's clock; increases with each frame
-    std::int64_t index = 0;    ///< frame number, starting at 0 and including dropped frames
+    std::int64_t index = 0;    ///< number of preceding frames, including dropped frames
     std::string file;          ///< path of the image file, or empty for other sources
     bool is_live = false;      ///< true if `time_us` is on the monotonic clock of this computer
 };

@@ -39,7 +39,7 @@ class Voters {
     int across_;  ///< index step between adjacent lines
     int along_;   ///< index step within a line
     int length_;
-    int step_;  ///< distance between adjacent voters, in lines
+    int step_;  ///< distance between adjacent voting lines, in lines
     std::int8_t GridCell::*bit_;
 };
 

@@ -46,8 +46,8 @@ namespace patch {
 /// A patch is small if its shorter side is below this limit, in patch pixels.
 inline constexpr int kSmall_px = 48;
 /// A tile has contrast if its darkest smoothed pixel is at least kMinDarkness grey levels darker
-/// than the paper. At least kMinTiles tiles of a patch must have contrast. In a small patch, it is
-/// enough if half the tiles have contrast.
+/// than the paper. At least kMinTiles tiles of a patch must have contrast. For a small patch, the
+/// minimum is half of its tiles.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
 /// Parameters of `DotTiles::pale`. The dot contrast is the 1/kPaleParts quantile of darkness over

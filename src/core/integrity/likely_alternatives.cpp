@@ -170,8 +170,8 @@ class Finder {
     }
 
     /// Combines pairs of places in the first two sequences with pairs of places in the last two
-    /// sequences. Uses only combinations whose total roll offset is the same before and after the
-    /// first gap, and before and after the second gap.
+    /// sequences. Uses only combinations whose total roll offset is the same on both sides of the
+    /// first gap, and the same on both sides of the second gap.
     void add_matches() {
         const auto& [a, b, c, d] = lists_;
         // The captures have new names because clang 14 cannot capture structured bindings.

@@ -123,10 +123,11 @@ class KeyedPlaces {
 
 /// Finds the far alternatives that share given sets of lines, and adds up their odds. For each set,
 /// the search lists the places in each sequence at which an alternative may share these lines (see
-/// `EqualPlaces`). It then builds a table of all pairs of places in a1 and a3. The key of a pair is
-/// the sum of the keys of both places. For each pair of places in a2 and a4, the search looks up
-/// the pairs in a1 and a3 whose roll offsets after the first two gaps are opposite. The four places
-/// of such a match belong to an alternative that shares the lines at the ends of these gaps.
+/// `EqualPlaces`). The search then builds a table of all pairs of places in a1 and a3. The key of a
+/// pair is the sum of the keys of both places. For each pair of places in a2 and a4, the search
+/// looks up the pairs in a1 and a3 that cancel the roll offsets of this pair after the first two
+/// gaps. The four places of such a match belong to an alternative that shares the lines at the ends
+/// of these gaps.
 class SetSearch {
   public:
     SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)
@@ -185,8 +186,8 @@ class SetSearch {
     }
 
     /// Combines pairs of places in a2 and a4 with pairs of places in a1 and a3. Uses only
-    /// combinations whose total roll offset is the same before and after the first gap, and before
-    /// and after the second gap.
+    /// combinations whose total roll offset is the same on both sides of the first gap, and the
+    /// same on both sides of the second gap.
     void add_matches(const Pattern& pattern) {
         const auto& [first, second, third, fourth] = lists_;
         for (std::size_t n = 0; n < third.count(); ++n) {

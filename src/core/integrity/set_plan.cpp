@@ -45,7 +45,7 @@ struct SetPlan::Node {
     /// Product of the mean odds in the unshared lines and in the lines that are not compared.
     float odds = 1;
     int min_loss = 0;    ///< total minimum loss of the unshared lines
-    unsigned steps = 0;  ///< number of steps between adjacent shared lines
+    unsigned steps = 0;  ///< number of steps whose two lines are both shared
     unsigned gaps = 0;
     int last = -2;  ///< last shared line
     int run = 0;    ///< length of the run of shared lines that ends with `last`
