@@ -152,8 +152,9 @@ struct SpinCalibration {
     CameraPoint offset_mm;
     int frames = 0;
     int located = 0;
-    double sigma_mm = 0;     ///< standard deviation of the centre of rotation, per axis
-    double residual_mm = 0;  ///< rms residual, per axis, of the fit of the centre of rotation
+    double sigma_mm = 0;  ///< standard deviation of the centre of rotation, per axis
+    double residual_mm =
+        0;  ///< rms difference, per axis, between the measured and the fitted positions
     double turn_rad = 0;  ///< angle of the smallest arc that contains the directions of all frames
     /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. It
     /// is included in `sigma_mm`. 0 if noise explains the drift.
