@@ -138,11 +138,11 @@ struct TrackedPose {
 /// The tracker's verdict on the sighting in a frame.
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
-    /// The sighting is certain enough without the prior, and its pose is possible or confirmed. A
-    /// pose is possible if it is inside the gate. While the robot is lost, a pose is also possible
-    /// if the robot could have reached it. The pose of the first sighting is always possible. A
-    /// pose is confirmed after TrackOptions::confirmations sightings that are consistent with each
-    /// other.
+    /// The sighting is certain enough without the prior, and its pose is possible or confirmed.
+    /// While the robot is tracked, a pose is possible if it is inside the gate. While the robot is
+    /// lost, a pose is possible if the robot could have reached it. The pose of the first sighting
+    /// is always possible. A pose is confirmed after TrackOptions::confirmations sightings that are
+    /// consistent with each other.
     accepted,
     /// The sighting is weak, but certain enough together with the prior.
     with_prior,
