@@ -200,7 +200,8 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const double step_s = row.t_s - before.t_s;
         if (row.state == "stationary") {
             run.stationary_s += step_s;
-            // The step is not added to the path, because it is only noise.
+            // Does not add the step to the path, because the measured motion of a stationary robot
+            // is only noise.
             continue;
         }
         moving_s += step_s;

@@ -71,7 +71,8 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
         sheets_.push_back(sheets.front());
         sheets_.front().world = WorldPose{};
     }
-    // The motion blur. The robot moves along the x axis of the image, so the scene moves along -x.
+    // Sets the motion blur. The robot moves along the x axis of the image, so the scene moves along
+    // -x.
     imperfections_.motion_px = {-options.speed_mm_s * kExposure_s / camera.mm_per_px, 0};
     lay_path();
 }

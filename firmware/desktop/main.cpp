@@ -42,7 +42,7 @@ class Predictor {
   public:
     explicit Predictor(std::uint64_t seed) : rng_(seed) {}
 
-    /// Locates `image`. If it succeeds, writes a prediction that is wrong by up to half a spacing
+    /// Locates `image`. If this succeeds, writes a prediction that is wrong by up to half a spacing
     /// and 4 degrees, and then the image.
     void write(const dotpose::GreyImage& image) {
         using namespace dotpose;
@@ -74,8 +74,8 @@ class Predictor {
     dotpose::DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory_;
 };
 
-/// Reads the frames in a file. Writes each frame that can be located to standard output, preceded
-/// by a prediction.
+/// Reads the frames in a file. If a frame can be located, writes a prediction and the frame to
+/// standard output.
 int predict(const char* path, std::uint64_t seed) {
     if (!host::open(path)) return 1;
     Predictor predictor(seed);

@@ -153,8 +153,8 @@ struct SpinCalibration {
     int frames = 0;
     int located = 0;
     double sigma_mm = 0;  ///< standard deviation of the centre of rotation, per axis
-    double residual_mm =
-        0;  ///< rms difference, per axis, between the measured and the fitted positions
+    /// Rms difference, per axis, between the measured and the fitted positions of the camera.
+    double residual_mm = 0;
     double turn_rad = 0;  ///< angle of the smallest arc that contains the directions of all frames
     /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. It
     /// is included in `sigma_mm`. 0 if noise explains the drift.
