@@ -106,7 +106,8 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
             return true;
         }
     }
-    // Uses windows around intersections, which can measure larger offsets than centroid windows.
+    // Measures the dots in windows around intersections, because these windows can measure larger
+    // offsets than centroid windows.
     kernels.list_cells(view, dots);
     kernels.measure_windows(
         image, view, {spacing, 0.3F, hypothesis.dot_contrast_q8 * kContrastCut_q8 >> 8}, dots);

@@ -213,8 +213,8 @@ inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// cache. Larger areas would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// If the image contains fewer cells than this, bits are also read from dots that are cut off by
-/// the image border. With more cells, the position is certain without these dots.
+/// If the image contains fewer than this number of cells, bits are also read from dots that are cut
+/// off by the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
 /// Maximum number of pixels in a small view. A view is small only if it also contains fewer than
 /// kMaxCellsWithCutDots cells. Larger images rarely contain so few cells, except if a rolling
@@ -253,10 +253,9 @@ inline constexpr float kRough = 0.027F;
 /// Views of known sheets (locate/hypothesis, locate/on_sheets).
 namespace known {
 /// If the shorter image side is less than kSmallView spacings, the margin at the image border is
-/// reduced to kMargin_px: dots closer than this to the border are not read. The usual margin is at
-/// least 1.7 px. Of 300 views of 36 x 36 px at 6 px per spacing, 97 % are located with a margin of
-/// 1.0 px, and 88 % with the usual margin. The pose errors are equal in both cases
-/// (`dotpose_tables known`).
+/// reduced to kMargin_px. Dots in the margin are not read. The usual margin is at least 1.7 px. Of
+/// 300 views of 36 x 36 px at 6 px per spacing, 97 % are located with a margin of 1.0 px, and 88 %
+/// with the usual margin. The pose errors are equal in both cases (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of a bit, in units of 1/127. The second attempt uses a cell only if each of its

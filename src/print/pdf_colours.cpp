@@ -115,8 +115,8 @@ QPDFObjectHandle cmy_space(QPDF* pdf) {
     return space;
 }
 
-/// Converts the colours of an image by changing its /Decode array, which maps samples to colour
-/// values, and if necessary its colour space. The pixel data do not change. Returns false and
+/// Converts the colours of an image by changing its /Decode array and, if necessary, its colour
+/// space. /Decode maps samples to colour values. The pixel data do not change. Returns false and
 /// changes nothing if the image is in CMYK and its black is to be converted, because /Decode cannot
 /// express this conversion.
 bool convert_decode(InkChange change, QPDFObjectHandle dict, ColourKind kind, QPDF* pdf) {

@@ -62,7 +62,8 @@ struct ServerOptions {
     Address address;
     /// Token that clients must send. May be empty only if `address` is a loopback address.
     std::string token;
-    /// Files of the web page, which must outlive the server. The page "/" is the start page.
+    /// Files of the web page. They must outlive the server. The file with the path "/" is the start
+    /// page.
     std::span<const Page> pages;
     /// Called with messages for the user, such as reports of refused clients. Called on the
     /// server's thread.
