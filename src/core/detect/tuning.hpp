@@ -32,8 +32,9 @@ namespace smooth {
 /// window shrinks to this size at the image border.
 inline constexpr int kMinHalf_px = 4;
 /// Level below which a pixel is assumed to be part of text or graphics, in tenths of the brightest
-/// paper level nearby. In the local mean, such pixels are replaced with the paper level, because
-/// this mean represents the illumination. With a value of 4 or 9, 1,995 frames are located.
+/// paper level nearby. Such pixels are replaced with the paper level when the local mean is
+/// computed, because this mean must depend only on the illumination. With a value of 4 or 9, 1,995
+/// frames are located.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are clamped to this
 /// level, so they are not darker than a weak dot. Otherwise, the required contrast near dark
