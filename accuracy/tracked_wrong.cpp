@@ -38,8 +38,8 @@ Prediction worst(const LocatedPair& views, Rng& rng) {
     return prediction;
 }
 
-/// Returns a prediction that is displaced by `dx` cells to the left or right and by `dy` cells up
-/// or down, at random.
+/// Returns a prediction that is displaced by `dx` cells along x and by `dy` cells along y. The
+/// signs of the displacements are random.
 Prediction displaced(const Fix& fix, int dx, int dy, Rng& rng) {
     Prediction prediction = Prediction::like(fix);
     const auto either = [&rng](int step) { return rng.below(2) == 0 ? step : -step; };

@@ -1,6 +1,6 @@
-// Counts how many views of sheets that were not printed by dotpose are located. The views are cut
-// from page images at random positions and angles. Each view is located with the given code and
-// with code detection. Prints the rows of a table in docs/integrity.md, in Markdown.
+// Counts the located views of sheets that were not printed by dotpose. The views are cut from page
+// images at random positions and angles. Each view is located with the given code and with code
+// detection. Prints the rows of a table in docs/integrity.md, in Markdown.
 //
 //   dotpose_tables views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
 //

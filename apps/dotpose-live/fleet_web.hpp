@@ -31,7 +31,7 @@ struct FleetWebOptions {
     std::function<void(const std::string& robot)> remove = nullptr;
 };
 
-/// Serves the page on its own threads.
+/// Serves the page. Uses separate threads, so the caller is not blocked.
 class FleetWeb {
   public:
     /// Starts the server and reports its address. `fleet` and `map` must outlive this object.

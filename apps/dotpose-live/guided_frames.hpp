@@ -1,5 +1,5 @@
 /// Selects the frames for four calibration steps: a turn on the spot, a straight drive, a fast
-/// drive and a pivoting pen.
+/// drive, and pivoting a pen about its tip.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct GuidedFrame {
     Fix fix;
     double spacing_mm = 0;
     std::int64_t time_us = 0;
-    std::int64_t index = 0;  ///< frame number, including dropped frames
+    std::int64_t index = 0;  ///< number of the frame, counting dropped frames
     ImageView image;
 };
 

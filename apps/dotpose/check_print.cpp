@@ -191,8 +191,8 @@ void require_apart(const CheckPrintArguments& arguments) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns the part of the error message that explains how a scan with too many pixels can be
-/// checked.
+/// Returns advice on how to check a scan that has too many pixels. The advice is part of an error
+/// message.
 std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution>& resolution,
                        int max_megapixels) {
     const double megapixels = 1e-6 * scan.width_px * scan.height_px;

@@ -156,7 +156,7 @@ class Command {
     Command* command_of(CLI::App* app) const;
 
     std::shared_ptr<CLI::App> app_;
-    // Wrappers of CLI11 options and commands, created on first use.
+    // Wrappers around CLI11 options and commands, created on first use.
     mutable std::map<CLI::Option*, Option> options_;
     mutable std::map<CLI::App*, std::unique_ptr<Command>> commands_;
 };

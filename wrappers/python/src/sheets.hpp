@@ -1,4 +1,4 @@
-/// Conversions of sheets and their entries.
+/// Conversions between Python values and sheets, their entries and patterns.
 #pragma once
 
 #include <array>

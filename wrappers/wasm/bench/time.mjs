@@ -1,5 +1,5 @@
-// Compares the times of the WebAssembly modules and of the C++ library without AVX2. The modules
-// and the library are measured alternately.
+// Compares the time per frame of the WebAssembly modules with that of the C++ library without AVX2.
+// The modules and the library are measured alternately.
 //
 //   node wrappers/wasm/bench/time.mjs [ROUNDS [GOLDEN]]
 //
