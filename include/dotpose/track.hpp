@@ -222,11 +222,11 @@ class Tracker {
     /// not newer than the previous frame only clears the events.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
-    /// Updates the state with a frame and the motion since the previous update, measured by
-    /// odometry. `right_mm` is measured along the direction given by the theta of the sightings.
-    /// This is the image x axis, or the robot's heading if a camera file is used. The motion
-    /// advances the pose, and the uncertainty of the motion increases the covariance of the pose.
-    /// An accepted sighting then corrects the pose and reduces its covariance.
+    /// Updates the state with a frame and with the motion that odometry has measured since the
+    /// previous update. `right_mm` is measured along the direction given by the theta of the
+    /// sightings. This is the image x axis, or the robot's heading if a camera file is used. The
+    /// motion advances the pose, and the uncertainty of the motion increases the covariance of the
+    /// pose. An accepted sighting then corrects the pose and reduces its covariance.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 
