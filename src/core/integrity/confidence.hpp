@@ -71,10 +71,10 @@ int odds_per_bit_q8(const Confidence& confidence);
 /// an upper bound on this probability for any value of `odds_per_bit_q8`.
 int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 
-/// Returns log2 of an upper bound on the probability that random bits agree with any place, in any
-/// section and orientation, at least as well as the bits that were read. See docs/integrity.md,
-/// "Chance: a bound". The result is an upper bound for any value of `odds_per_bit_q8`, and is
-/// smallest if this value is near the true odds.
+/// Returns log2 of an upper bound on the probability that random bits agree with at least one
+/// place, over all sections and orientations, at least as well as the bits that were read. See
+/// docs/integrity.md, "Chance: a bound". The result is an upper bound for any value of
+/// `odds_per_bit_q8`, and is smallest if this value is near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Variant of `chance_log2` with a result in units of 2^-8. Multiplies the number of hypotheses by

@@ -137,8 +137,8 @@ class Finder {
     }
 
     /// Adds the odds of the alternatives that share exactly the lines `shared`. Each alternative is
-    /// a combination of the given places. Lines without a positive minimum loss may or may not be
-    /// shared. Returns false if the search ends early.
+    /// a combination of the given places. They may also share lines without a positive minimum
+    /// loss. Returns false if the search ends early.
     bool add_all(const PlaceSets& places, LineSet shared) {
         std::size_t combinations = 1;
         for (std::size_t k = 0; k < lists_.size(); ++k) {

@@ -21,7 +21,7 @@ struct PlannedSet {
 
 /// Lists the sets of lines that far alternatives may share, in the order in which these sets should
 /// be searched. The sets contain only lines with a positive minimum loss. The alternatives of a set
-/// may or may not share lines without a positive minimum loss.
+/// may also share other lines.
 class SetPlan {
   public:
     explicit SetPlan(const RankedLines& lines);
