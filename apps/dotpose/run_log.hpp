@@ -20,7 +20,7 @@
 
 namespace dotpose::cli {
 
-/// A row of a log, with access to its cells by column name.
+/// A row of a log. The cells are accessed by column name.
 class LogCells {
   public:
     /// Maps the name of each column to the index of its cell in a row.

@@ -1,4 +1,4 @@
-/// Fix: the pose computed from one frame, with the evidence for it.
+/// Fix: the pose computed from one frame, and the evidence that the pose is correct.
 #pragma once
 
 #include <cmath>
@@ -37,7 +37,7 @@ enum class Surface : std::uint8_t {
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;
 
-/// The set of places that `p_wrong_log2` assumes to be possible.
+/// The set of places that are assumed to be possible when `p_wrong_log2` is computed.
 enum class Prior : std::uint8_t {
     plane,   ///< all places of the code
     sheets,  ///< places on the known sheets, after the bits of the frame ruled out other sheets

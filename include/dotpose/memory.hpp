@@ -1,6 +1,6 @@
-/// Fixed-size memory for a Locator or DeviceLocator, which reuses it for each frame. The caller
-/// owns the memory, unless a Locator allocates it. The memory may be static, on the heap, or on a
-/// sufficiently large stack. The contents are private to the core.
+/// Fixed-size memory for a Locator or DeviceLocator. The locator reuses the memory for each frame.
+/// The caller owns the memory, unless a Locator allocates it. The memory may be static, on the
+/// heap, or on a sufficiently large stack. The contents are private to the core.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct DeviceWorkspace;
 struct DesktopWorkspace;
 }  // namespace core
 
-/// Base class of DeviceMemoryFor, independent of the frame size.
+/// Base class of all DeviceMemoryFor classes. It does not depend on the frame size.
 class AnyDeviceMemory {
   public:
     AnyDeviceMemory(const AnyDeviceMemory&) = delete;

@@ -71,7 +71,7 @@ struct SheetPrint {
 /// One page of a sheet file.
 struct SheetEntry {
     std::string name;  ///< name of the page, unique in the file
-    int page = 1;      ///< number of the page within its print job, from 1
+    int page = 1;      ///< number of the page within its print job, starting at 1
     Sheet sheet;
     /// Ratio of the printed to the nominal length, 0.5 to 2. The page is scaled about the first
     /// intersection, which is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.

@@ -320,8 +320,8 @@ struct Seam {
     /// Rms difference between the frame directions computed from the two sheets.
     double residual_rad = 0;
 };
-/// Position of the image centre of one frame on two sheets, relative to the first intersection of
-/// each sheet, in nominal mm.
+/// Position of the image centre of one frame, computed separately on each of two sheets. Each
+/// position is relative to the first intersection of the sheet, in nominal mm.
 struct SeamMeasurement {
     std::size_t first = 0;  ///< index of the first sheet
     std::size_t second = 0;

@@ -34,7 +34,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Known properties of the print and its image.
+/// Known properties of the print and of the image.
 struct CheckPrintOptions {
     /// The pattern that was printed. The section is read from the image. Patches of a test page
     /// encode their own settings, so for a test page only the code variant of `pattern` is used.
@@ -100,7 +100,7 @@ struct DistortionBin {
 
 /// One contiguous region of the code plane that was found in the image.
 struct PrintField {
-    Pattern pattern;        ///< nominal pattern, with the section that was read
+    Pattern pattern;        ///< nominal pattern, but with the section that was read from the image
     Cell origin;            ///< first cell of the region
     int columns = 0;        ///< number of columns of the region
     int rows = 0;           ///< number of rows of the region
