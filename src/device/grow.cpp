@@ -31,9 +31,9 @@ Square cells_within(int limit) {
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Returns the set of offsets from the nearest intersection with both components at most
-/// `limit_q16` in magnitude. Each component is encoded as the lower 16 bits of the same component
-/// of `rounding_plane_point_q16`, shifted left by 16 bits.
+/// Returns the set of offsets whose components are both at most `limit_q16` in magnitude. Offsets
+/// are relative to the nearest intersection. Each component is encoded as the lower 16 bits of the
+/// same component of `rounding_plane_point_q16`, shifted left by 16 bits.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kTurns = 4;
 /// Maximum number of pairs of lines that the search tries on each axis. The pairs are disjoint, so
-/// a bit error affects at most one pair on each axis.
+/// a wrong bit affects at most one pair.
 constexpr int kMaxPairs = 3;
 
 /// The rolls at which all bits of a line agree with the main sequence. Empty if there are more than

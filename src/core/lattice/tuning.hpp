@@ -73,9 +73,9 @@ inline constexpr int kMinDots = 40;
 /// improve the waves, but take longer, because each dot is evaluated in at least 12 directions.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
-/// Limits on the total power of the two waves, divided by the square of the number of dots. A grid
-/// without displacements has a power of about 2. Above kClearWaves, the search does not try other
-/// spacings. Waves below kFaintWaves are rejected.
+/// Limits on the normalized power: the total power of the two waves divided by the square of the
+/// number of dots. It is about 2 for a grid without displacements. If it exceeds kClearWaves, the
+/// search does not try further spacings. If it is below kFaintWaves, the waves are rejected.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
 /// Range of spacings in the smoothed patch, in patch pixels. In a finer grid, the dots merge. In a

@@ -11,9 +11,9 @@
 
 namespace dotpose::core {
 
-/// Improves the pose by least squares, and rejects outliers. Shrinks the distortion terms to their
-/// posterior means (fit/posterior), because fitting a term whose true value is 0 only adds noise to
-/// the pose. Returns false if the dots do not determine the pose. In this case,
+/// Improves the pose by least squares, and rejects outliers. Shrinks the distortion terms towards
+/// 0, to their posterior means (fit/posterior), because fitting a term whose true value is 0 only
+/// adds noise to the pose. Returns false if the dots do not determine the pose. In this case,
 /// `pattern_from_image` contains the result of the last successful iteration, if any.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);

@@ -124,7 +124,7 @@ inline constexpr float kSlopes = 0.03F;
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
 /// Limits for the scatter between blocks. The limits apply to `GroupScatter::excess`, in standard
-/// deviations. `dotpose_tables slips` measures the fractions of flat sheets that exceed them.
+/// deviations. `dotpose_tables slips` measures the fraction of flat sheets above each limit.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
 ///   The limit is low because the plane fitted to all dots absorbs most of a step, and because dot
 ///   centres measured in the second attempt are noisier than those from the other attempts.
@@ -137,8 +137,8 @@ namespace uneven {
 ///   about 1 in 1,000 flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
 /// Maximum number of dots for which the second attempt uses kMaybeLine as the limit. With more
-/// dots, the limit is kMaybeLine * sqrt(dots / kMaybeLineDots), because block residuals become
-/// statistically more significant with the number of dots, even on flat sheets.
+/// dots, the limit is kMaybeLine * sqrt(dots / kMaybeLineDots), because more dots make block
+/// residuals statistically more significant, even on flat sheets.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
