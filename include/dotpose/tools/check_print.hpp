@@ -1,4 +1,5 @@
-/// Print check: detects faults of the printer and the paper in a scan or photo of a printed sheet.
+/// Print check: examines a scan or photo of a printed sheet, and detects faults of the printer and
+/// of the paper.
 ///
 ///     CheckPrintOptions options;  // the pattern as it was printed
 ///     const ImageOrigin origin = read_origin("scan.png");  // image_file.hpp
@@ -52,8 +53,8 @@ struct CheckPrintOptions {
     /// perspective and lens distortion, and does not judge the scale. If the resolution contradicts
     /// the spacing, the check reports a fault.
     std::optional<Resolution> resolution;
-    /// True if the image was taken with a camera, according to the metadata in its file. In this
-    /// case, the resolution is ignored.
+    /// True if the metadata in the image file indicate that the image was taken with a camera. In
+    /// this case, the resolution is ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. The reflectance cannot be
     /// measured, because dots are only a few pixels wide. The measured diameter of a dot is the
