@@ -37,7 +37,7 @@ class ThinnedHistory {
     };
     /// Summary of the states in one time span.
     struct Point {
-        std::int64_t span = 0;       ///< index of the time span
+        std::int64_t span = 0;       ///< index of the time span, 0 for the first span
         std::int64_t time_us = 0;    ///< time of the first state
         std::optional<Place> place;  ///< first known position, or nullopt
         double speed_mm_s = 0;       ///< maximum speed

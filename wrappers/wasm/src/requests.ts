@@ -70,13 +70,19 @@ export interface Imperfections {
     paper_level?: number;
     /** Reflectance of ink, relative to paper. Default: 0.15. */
     ink_reflectance?: number;
-    /** Standard deviation of the ink reflectance from dot to dot. */
+    /** Standard deviation of a dot's reflectance, relative to paper. */
     ink_variation?: number;
-    /** Contrast of the palest ink relative to the darkest ink. Default: 1. */
+    /**
+     * Contrast of the palest ink relative to the darkest ink. Each of the four directions of
+     * displacement has its own ink. Default: 1.
+     */
     palest_ink?: number;
     /** Fraction of the light that is lost in the corners, 0 to 1. */
     vignetting?: number;
-    /** Change in brightness from one side of the image to the other, 0 to 2. */
+    /**
+     * Linear change in illumination across the image, relative to the illumination at the centre, 0
+     * to 2.
+     */
     fall?: number;
     /** Direction of decreasing brightness: angle from the image x axis towards the y axis
      * (down). */
