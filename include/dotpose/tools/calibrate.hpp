@@ -337,7 +337,7 @@ struct Stitching {
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
     /// Measurements from all frames that show at least two connected sheets. In each frame, the
-    /// sheet with the largest number of dots is paired with every other sheet.
+    /// sheet with the largest number of dots is paired with every other connected sheet.
     std::vector<SeamMeasurement> measurements;
     /// Names of the sheets that are not connected to the fixed sheet by any chain of frames.
     std::vector<std::string> unconnected;
