@@ -11,9 +11,9 @@
 
 namespace dotpose::core {
 
-/// Returns an upper bound on the total number of wrong bits, over both axes, that a place can have
-/// and still be certain. `dots` is the number of bits per axis. `lines` is the number of columns or
-/// rows, whichever is larger. Returns -1 if no place can be certain.
+/// Returns an upper bound on the number of wrong bits, summed over both axes, at which a place can
+/// be certain. `dots` is the number of bits per axis. `lines` is the number of columns or rows,
+/// whichever is larger. Returns -1 if no place can be certain.
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options);
 

@@ -12,7 +12,7 @@
 namespace dotpose::core {
 
 struct SheetPlace {
-    int quarters = 0;            ///< quarter turns from the block to the pattern
+    int quarters = 0;            ///< number of quarter turns from the block to the pattern
     Place corner;                ///< place where the first column and the first row cross
     std::array<int, 2> wrong{};  ///< number of wrong x bits, and number of wrong y bits
 };

@@ -13,8 +13,9 @@ struct UnitVec {
     float sin = 0;
 };
 
-/// Returns the unit vector of an angle. The angle is clamped to [-1, 1] rad. The error is at most
-/// 3e-6. The result is bit-identical on every processor, unlike the results of C libraries.
+/// Returns the unit vector in the direction of an angle. The angle is clamped to [-1, 1] rad. The
+/// error is at most 3e-6. The result is bit-identical on every processor, unlike the results of C
+/// libraries.
 inline UnitVec small_unit(float rad) {
     rad = std::clamp(rad, -1.0F, 1.0F);
     const float q = rad * rad;

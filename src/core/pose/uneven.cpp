@@ -208,7 +208,7 @@ void fit_uneven(const Kernels& kernels, const Observations& observations, FixedV
         dots.row[k] = static_cast<float>(o.pattern_step.y);
         dots.bits[k] = static_cast<std::int32_t>(o.symbol);
     });
-    // The arrays need padding, because the kernels process eight dots at a time.
+    // Pads the arrays, because the kernels process eight dots at a time.
     for (std::size_t k = 0; k < 8; ++k)
         dots.x[static_cast<std::size_t>(dots.count) + k] = kNoDot_px;
     FloatPlane better = float_plane(plane);
