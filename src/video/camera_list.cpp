@@ -58,7 +58,7 @@ void for_each_entry(const Device& device, unsigned long request, Entry entry,
     }
 }
 
-/// Returns the string in an array from a driver, even if the terminating zero is missing.
+/// Converts a character array from a driver to a string. The terminating zero may be missing.
 template <std::size_t size>
 std::string text_of(const std::uint8_t (&bytes)[size]) {
     const char* text = reinterpret_cast<const char*>(bytes);

@@ -50,7 +50,7 @@ struct Scene {
     Trace trace;
     bool is_good = false;  ///< false to use a warning colour for the text and the position
     std::vector<std::string> lines;          ///< captions: pose, rate, quality
-    std::span<const PathMark> path;          ///< the path up to this frame
+    std::span<const PathMark> path;          ///< the path of the robot up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
     bool y_up = false;                       ///< true if y points up in the plane
     /// Calibration gauges, which are shown instead of the sheets and the path.

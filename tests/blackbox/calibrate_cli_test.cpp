@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class CalibrateCommand : public ToolCommand {
   protected:
-    /// Simulates frames with the lens distortion of the camera used in the paper, and writes them
+    /// Simulates frames with the lens distortion that the camera in the paper has, and writes them
     /// to a folder.
     void simulate(const std::string& folder, int frames, const std::string& more = "") {
         ASSERT_EQ(run("simulate -o " + folder + " --seed 91 --k -8.7e-6 --frames " +
@@ -104,8 +104,9 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
         2);
     EXPECT_NEAR(u, 93.5, 0.3);
     EXPECT_NEAR(v, 59.5, 0.3);
-    // The robot drives along the x axis of the pattern, so its heading is 0 degrees. The image x
-    // axis has an angle of -90 degrees, so 90 degrees must be added to obtain the heading.
+    // The robot drives along the x axis of the pattern, so its heading is 0 degrees. The angle of
+    // the image x axis is -90 degrees, so 90 degrees must be added to this angle to obtain the
+    // heading.
     double offset_rad = 0;
     ASSERT_EQ(std::sscanf(yaml.c_str() + yaml.find("theta_offset_rad: "), "theta_offset_rad: %lf",
                           &offset_rad),

@@ -133,7 +133,7 @@ TEST(WrinkledSheet, DoesNotMakeFlatOnesLookInexact) {
     EXPECT_LT(flat.mean_square, 1.25);
 }
 
-/// Returns a shot in which a third of the view is displaced by a fifth of a spacing.
+/// Returns a shot in which one third of the view is displaced by a fifth of the spacing.
 Shot slipped_shot() {
     Shot shot = nominal_shot(0);
     apply({half_extent_grid(shot, 1) / 3, 1, {0.2, -0.05}, 0.005}, shot);

@@ -1,5 +1,5 @@
-// Tests that `dotpose watch --camera` reports the pose of the robot, as `dotpose locate --camera`
-// does.
+// Tests that `dotpose watch --camera` reports the pose of the robot, like `dotpose locate
+// --camera`.
 #include <cmath>
 #include <numbers>
 #include <sstream>

@@ -100,8 +100,8 @@ class Printer : public DataReaderListener {
     std::atomic<bool> has_gone_ = false;
 };
 
-/// If ROS_AUTOMATIC_DISCOVERY_RANGE is set, searches for participants only at the ports of this
-/// computer and without multicast, as ROS nodes do if the value is LOCALHOST.
+/// If ROS_AUTOMATIC_DISCOVERY_RANGE is set, treats it like LOCALHOST: searches for participants
+/// without multicast, and only at the ports of this computer, as ROS nodes do.
 DomainParticipantQos participant_quality() {
     DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
     if (std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE") == nullptr) return qos;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// A simulated robot whose frames are 100 ms apart.
+/// A simulated robot whose camera takes a frame every 100 ms.
 class Robot {
   public:
     GuidedFrame frame(double x_grid, double y_grid, double theta_rad = 0) {

@@ -147,7 +147,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         << errors_;
     std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames);
-    // The limit of 100 allows for the 50 states in the queue, and for states that are published
+    // The limit is 100 because 50 states are in the queue, and because states are also published
     // before the publisher notices that the broker has stopped.
     EXPECT_GT(dropped, kBack - kGone - 100);
 

@@ -148,8 +148,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
 }
 
 /// Draws views of a place until the p_wrong of one view is between 2^-30 and 2^-10. For this view,
-/// returns the minimum margin of the tracker's bound over all gate sizes. The margin is log2 of
-/// the ratio between the bound and the sum of the odds in the gate.
+/// computes the margin of the tracker's bound at each gate size, and returns the minimum. The
+/// margin is log2 of the ratio of the bound to the sum of the odds in the gate.
 double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     View view;
     view.code = code;

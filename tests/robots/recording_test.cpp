@@ -89,7 +89,7 @@ TEST_F(Recording, HasTheFramesIfAskedFor) {
     const json& message = images[3]["message"];
     EXPECT_EQ(message["format"], "png");
     EXPECT_EQ(message["header"]["frame_id"], "camera_optical");
-    // The image, decoded by another program, must have the same pixels as the frame.
+    // The recorded image is decoded by another program. It must have the same pixels as the frame.
     const auto bytes = message["data"].get<std::vector<std::uint8_t>>();
     std::ofstream(directory_ / "frame.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
@@ -163,8 +163,8 @@ TEST_F(Recording, KilledItIsStillReadable) {
     DOTPOSE_NEEDS_NPM();
     put_raw(400);
     ASSERT_EQ(stop_after(400, "KILL"), 128 + 9);
-    // The tool processed 2 s of frames. The last chunk, of at most a second, may be missing, but
-    // both readers must be able to read the file.
+    // The tool has processed the frames of 2 s. The last chunk, which contains at most one second,
+    // may be missing, but both readers must be able to read the file.
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_GE(poses.size(), 199U);
     EXPECT_LE(poses.size(), 400U);

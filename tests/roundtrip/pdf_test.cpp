@@ -27,9 +27,9 @@ constexpr Limits kUsual = {4, 12};
 // neighbouring dots may ink the same pixel. The displacement of a symbol is 50 µm.
 constexpr Limits kFineOnCoarse = {6, 30};
 
-// Minimum diameter of a dot whose position can be measured exactly. A smaller dot looks the same
-// wherever it is within a pixel. For example, the error is up to 17 µm for a dot of 0.05 mm at 300
-// dpi. A dot that consists of whole pixels has no such error.
+// Minimum diameter of a dot whose position can be measured exactly. A smaller dot may look the same
+// at different positions within a pixel. For example, the error is up to 17 µm for a dot of 0.05 mm
+// at 300 dpi. A dot that consists of whole pixels has no such error.
 constexpr double kExactDot_px = 2.3;
 // Maximum diameter at which there is a white pixel between any two dots, for a spacing of 0.3 mm at
 // 300 dpi.

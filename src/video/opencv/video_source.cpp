@@ -271,7 +271,7 @@ class VideoFile : public capture::FrameSource {
     double begin_s_ = 0;  ///< time of the first picture in the file
     double time_s_ = 0;   ///< time of the latest picture, relative to the first picture
     bool is_lossy_ = false;
-    std::int64_t packet_bytes_ = 0;  ///< total size of the decoded packets
+    std::int64_t packet_bytes_ = 0;  ///< total size of the packets that were decoded
     std::int64_t packet_px_ = 0;     ///< total number of pixels in the returned frames
     bool has_begun_ = false;
     bool is_damaged_ = false;

@@ -341,8 +341,8 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
 }
 
 TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
-    // The dots have a diameter of 0.27 mm. At a spacing of 0.38 mm, the centres of two neighbours
-    // may be only 0.25 mm apart, so their dots overlap.
+    // The dots have a diameter of 0.27 mm. At a spacing of 0.38 mm, the distance between the
+    // centres of two neighbours may be as small as 0.25 mm, so their dots overlap.
     TestPageOptions options;
     options.paper = {60, 60};
     options.margin_mm = 5;

@@ -17,7 +17,7 @@ constexpr int kRows = 30;
 constexpr std::uint32_t kDotSeed = 5;
 
 /// Returns the relative brightness of the paper at a pixel. It decreases by 40 % from the middle to
-/// the corners, and by a tenth from left to right.
+/// the corners, and by 10 % from left to right.
 double light_at(double u, double v) {
     const double x = 2 * u / (kColumns - 1) - 1;
     const double y = 2 * v / (kRows - 1) - 1;

@@ -225,7 +225,7 @@ TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     EXPECT_EQ(refused, static_cast<int>(file.size() - file.size() / 4));
 }
 
-// A file of a few kilobytes with thousands of scans would keep the decoder busy for hours.
+// Decoding a file of a few kilobytes could take hours if it contained thousands of scans.
 TEST(JpegKinds, AreRefusedWithTooManyScans) {
     Bytes file = progressive_jpeg();
     const Bytes marker{0xFF, 0xDA};

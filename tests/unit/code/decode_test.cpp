@@ -235,8 +235,8 @@ TEST(Decode, NeverGuessesFromAChanged6x6) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, grid)) << describe(CodeVariant::anoto, place);
         ++elsewhere;
     }
-    // An independent simulation in another language gives 70.6 %. The standard deviation for these
-    // draws is 0.3 %.
+    // An independent simulation in another language gives 70.6 %. With the number of draws used
+    // here, the standard deviation is 0.3 %.
     EXPECT_NEAR(static_cast<double>(elsewhere) / kDraws, 0.706, 0.013);
 }
 
@@ -324,14 +324,14 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, eight)) << describe(CodeVariant::anoto, place);
         ++found_in_8;
     }
-    // 0.75 % of the windows with eight columns occur elsewhere in the code, according to an
-    // independent simulation in another language (400,000 draws). The standard deviation of the
-    // result here is 0.06 %.
+    // According to an independent simulation in another language (400,000 draws), 0.75 % of the
+    // windows with eight columns occur elsewhere in the code. The standard deviation of the
+    // fraction measured here is 0.06 %.
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// If a window is decoded in the wrong code variant, the place may be wrong. The expected numbers of
-// windows were computed from the sequences by a program in another language.
+// If a window is decoded in the wrong code variant, the result may be a wrong place. The expected
+// numbers of windows were computed from the sequences by a program in another language.
 TEST(Decode, AnotherVariantReadsSomeWindowsWrong) {
     using Pair = std::pair<CodeVariant, CodeVariant>;
     for (const auto& [printed, read] : {Pair{CodeVariant::anoto, CodeVariant::libdots},

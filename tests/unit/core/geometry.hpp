@@ -112,8 +112,7 @@ inline std::vector<DetectedDot> dots_of(const std::vector<PlacedDot>& placed) {
     return dots;
 }
 
-/// Returns a displacement by a sixth of the spacing in one of the four directions, chosen at
-/// random.
+/// Returns a displacement of a sixth of the spacing, in one of the four directions at random.
 inline Vec2 random_displacement(Rng& rng) {
     const auto symbol = static_cast<Symbol>(rng.below(4));
     return {dx(symbol) / 6.0, dy(symbol) / 6.0};

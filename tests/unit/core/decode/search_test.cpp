@@ -158,9 +158,9 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         ScoredWindow lines = window(CodeVariant::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
-        // Each line has 12 random bits. The best of its 63 rolls agrees with 9 or 10 of them. The
-        // search selects a run of 6 lines with such rolls, but the other 14 lines score 0 on
-        // average. The total score is therefore far below the maximum.
+        // Each line has 12 random bits. The best of the 63 rolls of a line agrees with 9 or 10 of
+        // them. The search selects a run of 6 lines that all have such rolls, but the other 14
+        // lines score 0 on average. The total score is therefore far below the maximum.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }

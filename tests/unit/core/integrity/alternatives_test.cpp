@@ -1,4 +1,4 @@
-// Tests the odds of alternatives against sums in double precision.
+// Tests the odds of alternatives against sums that are computed in double precision.
 #include "core/integrity/alternatives.hpp"
 
 #include <algorithm>

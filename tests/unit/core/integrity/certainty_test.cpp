@@ -1,5 +1,5 @@
-// Tests p_wrong, the upper bound on the probability that a fix of the first or tracked attempt is
-// wrong. The expected values are sums over all alternatives in double precision.
+// Tests p_wrong, the upper bound on the probability that a fix of the first or the tracked attempt
+// is wrong. The expected values are double-precision sums over all alternatives.
 #include "core/integrity/certainty.hpp"
 
 #include <gtest/gtest.h>

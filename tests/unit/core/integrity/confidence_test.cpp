@@ -53,8 +53,8 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
     for (const int bits : {100, 400, 3000}) {
         for (const int wrong : {0, 1, 5, 20}) {
             SCOPED_TRACE(testing::Message() << wrong << " wrong of " << bits);
-            // The fraction of wrong bits is 1 / (1 + odds). The estimate adds two errors to the
-            // observed number, as a margin for small samples.
+            // The fraction of wrong bits is 1 / (1 + odds). As a margin for small samples, the
+            // estimate counts two more wrong bits than were observed.
             const double expected = std::log2(bits / (wrong + 2.0) - 1);
             // Weights are quantised in steps of 8, which changes the largest weights by up to 3 %.
             // The exponential is accurate to 2 %, which the 0.1 in the tolerance allows for.

@@ -60,7 +60,7 @@ TEST(PlannedAlternatives, DoNotIncludeSingleAlternatives) {
     }
 }
 
-/// Returns a view of ten lines with nine correct bits each, as in a frame of 64 x 64 px.
+/// Returns a view of ten lines, each with nine correct bits, as in a frame of 64 x 64 px.
 RatiosCase small_view(Rng& rng) {
     RatiosCase c = at_random_place(rng, 10);
     c.odds_q8 = 1650;

@@ -1,4 +1,4 @@
-// Tests the quick estimate of alternatives against sums in double precision.
+// Tests the quick estimate of the odds of alternatives against double-precision sums.
 #include "core/integrity/quick_alternatives.hpp"
 
 #include <gtest/gtest.h>

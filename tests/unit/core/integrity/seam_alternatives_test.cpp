@@ -1,5 +1,5 @@
 // Tests the odds of seam alternatives, which have different shifts on the two sides of a border,
-// against a sum over all places, borders and shifts in double precision.
+// against a double-precision sum over all places, borders and shifts.
 #include "core/integrity/seam_alternatives.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Tests the upper bounds that are computed from tables against sums over all alternatives in double
-// precision.
+// Tests the upper bounds that are computed from tables. They must not be smaller than the sums over
+// all alternatives, which the tests compute in double precision.
 #include "core/integrity/tabled_alternatives.hpp"
 
 #include <algorithm>
