@@ -144,8 +144,8 @@ class SheetSearch {
 
     const HardBlock& block_;
     CodeVariant code_;
-    /// Maximum number of wrong bits, summed over both axes. Once a place is found, this is one less
-    /// than that place's number of wrong bits.
+    /// Maximum number of wrong bits, summed over both axes. Once a place has been found, the
+    /// maximum is one less than the number of wrong bits at this place.
     int max_wrong_;
     std::optional<SheetPlace> best_;
 };

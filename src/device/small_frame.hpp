@@ -15,8 +15,8 @@ struct DeviceWorkspace;
 /// enough dots for blob detection.
 inline constexpr int kMaxSmallSide_px = 80;
 
-/// Prepares for storing the rows of a frame. Returns false if the frame is not small, or if the
-/// memory has no room for all of its rows.
+/// Prepares the workspace to store the rows of a frame. Returns false if the frame is not small, or
+/// if the memory has no room for all of its rows.
 bool begin_small_frame(int width_px, int height_px, const DeviceOptions& options,
                        DeviceWorkspace& w);
 

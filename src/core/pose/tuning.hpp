@@ -31,7 +31,7 @@ inline constexpr int kFarthest_2 = 9;
 /// kSettled_q8 / 256 px.
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
-/// Maximum mass of a dot, in halves of the typical mass. The minimum is half the typical mass.
+/// Maximum mass of a dot, in units of half the typical mass. The minimum is half the typical mass.
 /// These limits reject dirt, graphics, and bare paper where a dot is missing.
 inline constexpr int kTooDark_halves = 3;
 /// Maximum number of dots in the sample for the typical mass, which is the median of the sample.
@@ -180,7 +180,7 @@ inline constexpr float kOnPlane = 5;
 /// Maximum squared residual that a displaced part of the sheet can explain, in units of the
 /// residual variance.
 inline constexpr float kTogether = 36;
-/// Maximum distance by which the reference point may be beyond the line, in spacings.
+/// Maximum distance of the reference point beyond the line, in spacings.
 inline constexpr float kBehind = 0.5F;
 /// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;
