@@ -40,9 +40,9 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     }
 }
 
-/// `grow_grid` remembers the cells of a limited number of dots between fits. With more dots, each
-/// fit computes its sums over all dots instead of updating them for dots whose cell has changed.
-/// The result must be the same.
+/// Between fits, `grow_grid` stores the cells of a limited number of dots. With more dots, each fit
+/// computes its sums over all dots instead of updating them for dots whose cell has changed. The
+/// result must be the same.
 TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
     Rng rng(kSeed);
     for (int i = 0; i < 50; ++i) {

@@ -7,7 +7,7 @@ export type Phase = "idle" | "collecting" | "solving" | "solved" | "failed" | "s
 export interface Gauge {
     label: string;
     text: string;
-    /** Fraction of the goal, at most 1. */
+    /** Fraction of the goal that has been reached, at most 1. */
     share: number;
     is_reached: boolean;
 }

@@ -179,7 +179,8 @@ class DotTable {
     std::array<std::vector<std::int32_t>, 7> ints_;
 };
 
-/// Returns the plane of a camera over a rotated pattern, with some tilt and lens distortion.
+/// Returns the map from an image to the pattern. The pattern is rotated, and the camera has some
+/// tilt and lens distortion.
 inline core::FloatPlane random_plane(Rng& rng, double spacing_px, double tilt, double bend) {
     const double turn = rng.uniform(0, 6.283);
     const double unit = 1 / spacing_px;

@@ -1,4 +1,5 @@
-// Compares the pose computed from the place in the code to a camera of known geometry.
+// Compares the pose computed from the place in the code with the true pose of a camera of known
+// geometry.
 #include <cmath>
 
 #include <gtest/gtest.h>

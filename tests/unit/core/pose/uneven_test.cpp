@@ -27,8 +27,8 @@ constexpr double kMaxSigmas = 4.5;
 /// The displacement of the paper, in spacings, at a position relative to the image centre.
 using Shift = std::function<Vec2(Vec2)>;
 
-/// A sheet whose paper is displaced by a `Shift`, its dots in an image of 188 x 120 px, and the
-/// pose fitted to these dots.
+/// A sheet whose paper is displaced by a `Shift`. Contains its dots in an image of 188 x 120 px,
+/// and the pose fitted to these dots.
 struct Sheet {
     FloatPlane truth;
     OwnedDots owned;

@@ -1,5 +1,5 @@
-// Tests the C functions for poses in space: compares the poses with the true poses and with the C++
-// library, and checks misuse.
+// Tests the C functions for poses in space: compares the poses with the true poses and with those
+// of the C++ library, and checks misuse.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
