@@ -149,7 +149,7 @@ struct ViewCounts {
     // The next four counts include only the views counted in `given`. These views are located again
     // with code detection.
     int alone = 0;        ///< number of views located without evidence from other views
-    int ambiguous = 0;    ///< number of views refused as `ambiguous_code` without such evidence
+    int ambiguous = 0;    ///< number of views refused as `ambiguous_code` without that evidence
     int later_given = 0;  ///< number of views after the first kFirstViews
     int later = 0;        ///< number of views in `later_given` located with earlier evidence
     int wrong = 0;

@@ -103,8 +103,8 @@ export class Tools {
     }
 
     /**
-     * Returns the sheet as a PNG file with 1 bit per pixel. The file contains the resolution, so it
-     * prints at true size.
+     * Returns the sheet as a PNG file with 1 bit per pixel. The file contains the resolution, so
+     * programs can print the sheet at true size.
      */
     png(sheet: SheetOptions = {}, dpi = 600): Promise<Uint8Array<ArrayBuffer>> {
         return pngOf(this.raster(sheet, dpi));
