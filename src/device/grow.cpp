@@ -110,9 +110,9 @@ class Fits {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
 
-    /// Fits the plane to the dots that are within reach and near an intersection of the given
-    /// `plane`, which is replaced by the result. Sets `found` to the statistics of the dots.
-    /// Returns false if the dots do not determine the plane, or if its cells are not nearly square.
+    /// Fits a plane to the dots that are within reach and near an intersection of `plane`. Replaces
+    /// `plane` with the result. Sets `found` to the statistics of the dots. Returns false if the
+    /// dots do not determine the plane, or if its cells are not nearly square.
     bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
         const Cells cells(plane);
         found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);
