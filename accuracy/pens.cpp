@@ -99,9 +99,10 @@ struct InkTally {
     Errors raw;
     Errors smoothed;
     std::uint64_t strokes = 0;
-    std::uint64_t found = 0;      ///< number of strokes in the recorded ink
-    std::uint64_t late_ends = 0;  ///< number of stroke starts and ends wrong by two or more frames
-    int largest_delay = 0;        ///< largest error of a stroke start or end, in frames
+    std::uint64_t found = 0;  ///< number of strokes in the recorded ink
+    /// Number of stroke starts and ends with an error above one frame.
+    std::uint64_t late_ends = 0;
+    int largest_delay = 0;  ///< largest error of a stroke start or end, in frames
 
     void operator+=(const InkTally& other) {
         frames += other.frames;

@@ -45,11 +45,12 @@ Shot hand_shot(const Shot& first, double t_s, std::uint64_t seed) {
 /// each pose.
 struct TrackErrors {
     std::uint64_t count = 0;
-    double position = 0;             ///< sum of the squared errors, mm^2
-    double rotation = 0;             ///< sum of the squared errors, rad^2
-    double normalised = 0;           ///< sum of the normalised squared errors, divided by 6
-    double velocity = 0;             ///< sum of the squared velocity errors, mm^2/s^2
-    double normalised_velocity = 0;  ///< sum of the normalised squared velocity errors, / 3
+    double position = 0;    ///< sum of the squared errors, mm^2
+    double rotation = 0;    ///< sum of the squared errors, rad^2
+    double normalised = 0;  ///< sum of the normalised squared errors, divided by 6
+    double velocity = 0;    ///< sum of the squared velocity errors, mm^2/s^2
+    /// Sum of the normalised squared velocity errors, divided by 3.
+    double normalised_velocity = 0;
 
     void add(const CameraInSpace& camera, const SpaceCovariance& covariance,
              const TrueSpacePose& truth) {
