@@ -149,7 +149,7 @@ struct FitSums {
 /// px. The offset is the measured centre minus the predicted point.
 struct DotOffsets {
     int points = 0;
-    float u = 0;  ///< sums of the predicted points
+    float u = 0;  ///< sums of the coordinates of the predicted points
     float v = 0;
     float squares = 0;  ///< sum of u^2 + v^2
     float squared = 0;  ///< sum of squared offsets

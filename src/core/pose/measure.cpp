@@ -99,7 +99,7 @@ struct BorderBackground {
 
 /// Computes the paper level from the window sides that are in the image. At least two sides are in
 /// the image, because an image that shows a grid is larger than a window. If only one of two
-/// opposite sides is in the image, the slope between them is set to 0.
+/// opposite sides is in the image, the slope in this direction is set to 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
