@@ -46,8 +46,8 @@ Sheet small_sheet() {
 constexpr int kFirst_px = 25;
 constexpr int kSpacing_px = 6;
 
-/// Returns the pixels of a dot at `scale` times 300 dpi, relative to the top left corner of its
-/// pixel at 300 dpi.
+/// Returns the pixels of a dot that is printed at `scale` times 300 dpi. Positions are relative to
+/// the top left corner of the pixel that the dot occupies at 300 dpi.
 Pixels dot_shape(int scale) {
     if (scale == 1) return {{0, 0}};
     if (scale == 2) return {{0, 0}, {1, 0}, {0, 1}, {1, 1}};

@@ -68,7 +68,7 @@ TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     device.run_until(65 * kSecond_us, [](std::int64_t t) {
         return at(100 + (t / kFrame_us % 2 == 0 ? 0.01 : -0.01));
     });
-    // Frames are taken from 0 s to 5 s, then at 6 s, 7 s, ... 64 s.
+    // Frames are taken every 20 ms from 0 s to 5 s, and then at 6 s, 7 s, ... 64 s.
     ASSERT_EQ(device.frames_us.size(), 251U + 59);
     EXPECT_EQ(device.frames_us[250], 5 * kSecond_us);
     EXPECT_EQ(device.motions[249], Motion::moving);

@@ -25,7 +25,7 @@ export function radiusFor(count: number): number {
     return count > 500 ? 3.5 : count > 100 ? 5 : 7;
 }
 
-/** Adds a mark to the path. `angle` is the heading on the canvas, or null. */
+/** Adds a mark to the current path of the canvas. `angle` is the heading on the canvas, or null. */
 export function addMark(context: CanvasRenderingContext2D, condition: Condition, x: number, y: number, angle: number | null, r: number): void {
     if (condition === "silent") {
         context.moveTo(x - r, y - r);

@@ -18,9 +18,9 @@ using namespace core;
 constexpr std::uint64_t kSeed = 47;
 constexpr Vec2 kImage_px{188, 120};
 
-/// Returns the tolerance of a fit to displaced dots, in spacings. The displacements act as noise of
-/// 0.12 spacings rms per axis. A fit of 8 parameters to at least 100 dots has an rms error of 0.12
-/// sqrt(8 / 100) = 0.034, and up to 3 times as much at the corners.
+/// Returns the tolerance, in spacings, for a fit to displaced dots. The displacements act as noise
+/// of 0.12 spacings rms per axis. A fit of 8 parameters to at least 100 dots has an rms error of
+/// 0.12 sqrt(8 / 100) = 0.034, and up to 3 times as much at the corners.
 double perspective_tolerance(const std::vector<PlacedDot>&) {
     return 0.25;
 }
@@ -28,9 +28,9 @@ double perspective_tolerance(const std::vector<PlacedDot>&) {
 struct Stage {
     const char* name;
     decltype(grow_grid)* find_grid;
-    /// Returns the tolerance, in spacings, of a fit to displaced dots.
+    /// Returns the tolerance, in spacings, for a fit to displaced dots.
     double (*tolerance)(const std::vector<PlacedDot>& dots);
-    double plain_tolerance;  ///< tolerance of a fit to dots on their intersections, in spacings
+    double plain_tolerance;  ///< tolerance for a fit to undisplaced dots, in spacings
 };
 void PrintTo(const Stage& stage, std::ostream* out) {
     *out << stage.name;
