@@ -79,8 +79,8 @@ TEST_F(Afternoon, OfARoboticist) {
     expect_ok("watch drive --fps 50 --sheets sheets.json --camera camera.yaml");
 }
 
-// A teacher prints a page, takes a photo with a phone, measures it with a ruler, and prints the
-// page again.
+// A teacher prints a page, takes a photo of it with a phone, measures the page with a ruler, and
+// prints it again.
 TEST_F(Afternoon, OfATeacherWithAPhone) {
     expect_ok("print -o sheet.pdf --paper A5 --sheets sheets.json --name table");
     const json sheet = sheets().at(0);

@@ -118,7 +118,8 @@ DomainParticipantQos participant_quality() {
     return qos;
 }
 
-/// Prints the names of ROS topics that have a writer without a type hash in its user data.
+/// Listener that prints the name of each ROS topic with a writer whose user data contain no type
+/// hash.
 class HashCheck : public DomainParticipantListener {
   public:
     void on_publisher_discovery(DomainParticipant*,

@@ -222,8 +222,8 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Returns `options` with the presence enabled. The publisher then publishes its presence as a word
-/// on the topic `presence`.
+/// Returns `options` with a topic for the presence of the publisher. The publisher then publishes
+/// its presence as a word on this topic.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";
     options.presence = [](publish::Presence presence) -> std::string {

@@ -184,7 +184,7 @@ TEST(CodeProperty, EveryPositionOfOneSheet) {
 }
 
 TEST(CodeProperty, TurningASymbolTurnsItsDisplacement) {
-    // The order is clockwise, as seen on the page: up, right, down, left.
+    // A quarter turn of the page is clockwise: up becomes right, right becomes down, and so on.
     EXPECT_EQ(turned(Symbol::up), Symbol::right);
     EXPECT_EQ(turned(Symbol::right), Symbol::down);
     EXPECT_EQ(turned(Symbol::down), Symbol::left);

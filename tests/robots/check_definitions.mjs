@@ -1,6 +1,6 @@
-// Reads types and their definitions, as JSON on standard input, and prints their differences from
-// the definitions of ROS 2. Comments and constants are ignored. The type hashes are computed from
-// the definitions of ROS 2 according to REP 2011.
+// Reads types and their definitions from standard input, as JSON, and prints how they differ from the definitions of
+// ROS 2. Comments and constants are ignored. The type hashes are computed from the definitions of ROS 2 according to
+// REP 2011.
 import { createHash } from "node:crypto";
 import { readFile } from "node:fs/promises";
 

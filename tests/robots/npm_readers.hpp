@@ -1,4 +1,4 @@
-/// Reads messages with independent programs from npm.
+/// Reads robot messages with independent programs that are installed from npm.
 #pragma once
 
 #include <sstream>

@@ -17,7 +17,8 @@
 #include "dotpose/tools/image_file.hpp"
 #include "encoders.hpp"
 
-// The AVIF decoder dav1d 1.0 leaks memory when it refuses damaged data.
+// Suppresses reports about the AVIF decoder dav1d 1.0, which leaks memory when it refuses damaged
+// data.
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libdav1d";
 }

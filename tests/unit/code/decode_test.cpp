@@ -185,7 +185,7 @@ TEST(Decode, RefusesPublishedWindowsThatStandTwice) {
         EXPECT_EQ(ambiguous_places(7, 7, along_x), (std::set<std::uint32_t>{198, 218}));
         EXPECT_TRUE(ambiguous_places(8, 8, along_x).empty());
     }
-    // Only the number of columns matters for the x axis.
+    // On the x axis, only the number of columns determines which windows are ambiguous.
     EXPECT_EQ(ambiguous_places(6, 32, true), kTwinPlaces);
     EXPECT_TRUE(ambiguous_places(8, 6, true).empty());
 }

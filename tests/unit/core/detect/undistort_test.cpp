@@ -1,4 +1,4 @@
-// Tests the undistortion (paper, equations 1-2) against double precision.
+// Tests the undistortion (paper, equations 1-2) against a computation in double precision.
 #include "core/detect/undistort.hpp"
 
 #include <gtest/gtest.h>
