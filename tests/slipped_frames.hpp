@@ -59,8 +59,8 @@ inline void apply(const Slip& slip, Shot& shot) {
     };
 }
 
-/// Deforms the paper by three waves in random directions. Wavelengths are 16 to 60 spacings. Each
-/// wave displaces the dots by up to `amplitude_grid`.
+/// Deforms the paper by three waves in random directions. Their wavelengths are 16 to 60 spacings,
+/// and each wave displaces the dots by up to `amplitude_grid`.
 inline void wrinkle(double amplitude_grid, Shot& shot) {
     struct Wave {
         Vec2 per_grid;  ///< radians per spacing

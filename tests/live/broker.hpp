@@ -70,7 +70,8 @@ class Broker {
             const int nowhere = open("/dev/null", O_RDWR);
             dup2(nowhere, STDOUT_FILENO);
             dup2(nowhere, STDERR_FILENO);
-            // Debian installs mosquitto in /usr/sbin, which is only in the PATH of root.
+            // Adds /usr/sbin to the PATH. Debian installs mosquitto there, but only the PATH of
+            // root contains this folder.
             setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin").c_str(), 1);
             execlp("mosquitto", "mosquitto", "-c", file.c_str(), nullptr);
             _exit(127);

@@ -1,4 +1,5 @@
-// Tests `dotpose calibrate --live` with a fake V4L2 camera (tests/fake_camera), and in a window.
+// Tests `dotpose calibrate --live` with a fake V4L2 camera (tests/fake_camera), without and with a
+// window.
 #include <string>
 
 #include <gmock/gmock.h>

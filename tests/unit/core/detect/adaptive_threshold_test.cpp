@@ -11,8 +11,8 @@ namespace {
 
 using namespace core;
 
-/// Returns an image of uniform paper with dark squares of 2 x 2 px every 8 px. Only some rows of a
-/// tile are measured, and each square intersects one of these rows.
+/// Returns an image of uniform paper with a dark square of 2 x 2 px in every block of 8 x 8 px.
+/// Only some rows of a tile are measured, and each square intersects one of these rows.
 GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     GreyImage image = blank(width_px, height_px, paper);
     for (int v = 2; v + 2 <= height_px; v += 8) {
