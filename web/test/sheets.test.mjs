@@ -297,7 +297,7 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         assert.match(answer.message, /'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
 
-        // Values typed before the change are refused the first time. They are saved if the user tries again.
+        // The first attempt to save values that were typed before the change is refused. A second attempt saves them.
         await save(page, "place");
         await message(page, /^Refused: 'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });

@@ -83,7 +83,8 @@ test("the page shows height, tilt, azimuth and turn, and draws the camera", asyn
         await requireAccessible(page);
         return shownIn(page);
     });
-    // The paper gets closer to the camera along the image x axis, so the camera leans in this direction.
+    // The distance from the camera to the paper decreases along the image x axis, so the camera leans in this
+    // direction.
     near(shown, "height_mm", kHeight_mm, 0.05);
     near(shown, "tilt_deg", kTilt_deg, 0.1);
     near(shown, "azimuth_deg", kTurn_deg, 0.3);

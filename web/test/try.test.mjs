@@ -1,5 +1,5 @@
-// Tests the view "Try": the simulated camera must be located after it moves and after its frames
-// are degraded.
+// Tests the view "Try": the simulated camera must be located after the user has moved it, and after its frames have
+// been degraded.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { launch, open, serve } from "./browser.mjs";

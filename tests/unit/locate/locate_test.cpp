@@ -356,8 +356,8 @@ TEST(Locate, ALensIsUndone) {
     }
 }
 
-// The second attempt also measures dots that were not found as blobs, at the positions predicted by
-// the code. These dots must be counted as seen, too.
+// At the positions predicted by the code, the second attempt also measures dots that were not found
+// as blobs. These dots must be counted as seen, too.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

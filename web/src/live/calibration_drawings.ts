@@ -6,7 +6,10 @@ const kMissing = "rgba(213, 60, 40, 0.34)";
 /** Values at the rim of the tilt drawing: the change of the scale for a lens, and the tangent of the tilt for a pen. */
 export const kMaxTilt = 0.15;
 export const kMaxLean = Math.tan((45 * Math.PI) / 180);
-/** Minimum residual that an arrow of maximum length represents. Arrows that show only noise therefore stay short. */
+/**
+ * Lower limit of the residual that is represented by an arrow of maximum length. Arrows that show only noise therefore
+ * stay short.
+ */
 const kMinFullScale_px = 0.05;
 
 /** Marks the parts of the image in which no dots have been seen. The frame must already be on the canvas. */

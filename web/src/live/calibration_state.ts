@@ -72,7 +72,9 @@ export interface CalibrationState {
     needs: string[];
     problem: string;
     result: Result | null;
-    /** Result of each step in the camera file, as text. Empty if the file does not contain the result. */
+    /**
+     * For each step, the result that the camera file contains, as text. Empty if the file does not contain a result.
+     */
     values: Record<StepName, string>;
 }
 

@@ -51,7 +51,7 @@ class Meter {
         });
     }
 
-    /** Resets the maximum steepness, for example after the lens was changed. */
+    /** Resets the maximum steepness, for example after the lens has been changed. */
     restart(): void {
         this.#best = 0;
     }

@@ -1,4 +1,4 @@
-// Sends the frames of a simulated drive over two sheets through the element, in all supported
+// Simulates a drive over two sheets, and sends its frames through the element in all supported
 // formats. The poses must equal those of `dotpose watch`, no frame may be lost, and timestamps and
 // pixels must not change.
 #include <string>

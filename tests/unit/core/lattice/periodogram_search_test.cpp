@@ -1,4 +1,5 @@
-// Tests the search for the grid in the periodogram of the dots, from inaccurate first estimates.
+// Tests the search for the grid in the periodogram of the dots. The search starts from inaccurate
+// first estimates.
 #include "core/lattice/periodogram_search.hpp"
 
 #include <gtest/gtest.h>
@@ -59,7 +60,7 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
 }
 
 TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
-    // The camera is tilted by 30 degrees about a random axis, which foreshortens the grid in one
+    // The camera is tilted by 30 degrees about a random axis. The tilt foreshortens the grid in one
     // direction by a factor of cos(30 degrees).
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {

@@ -1,5 +1,5 @@
-// Tests fits on sheets that are not planar. The positions of the dots are computed from a plane in
-// double precision and a known displacement.
+// Tests fits on sheets that are not planar. The positions of the dots are computed in double
+// precision from a plane and a known displacement.
 #include "core/pose/uneven.hpp"
 
 #include <functional>
