@@ -1,4 +1,5 @@
-// Tests the normal equations of the fit against derivatives and solutions in double precision.
+// Tests the normal equations of the fit against derivatives and solutions that are computed in
+// double precision.
 #include "core/fit/plane_normal.hpp"
 
 #include <cmath>
