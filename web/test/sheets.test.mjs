@@ -160,7 +160,7 @@ test("a sheet is moved and turned by mouse and keyboard, and the edits are undon
         await message(page, /Done again/);
         assert.deepEqual(placeOf("shelf"), moved);
 
-        // A sheet without a pose in the world gets a pose when the user moves the sheet.
+        // If the user moves a sheet that has no pose in the world, the sheet gets a pose.
         await select(page, "door");
         assert.equal(placeOf("door"), null);
         await page.focus("#sheets-map");

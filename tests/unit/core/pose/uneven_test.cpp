@@ -65,7 +65,7 @@ struct Sheet {
         return std::equal(columns.begin(), columns.end(), owned.dots.column.begin());
     }
     Vec2 off() const { return formula(plane, {}) - formula(truth, {}); }
-    /// Returns the larger of the errors of x and y, each divided by its standard deviation.
+    /// Divides the errors of x and y by their standard deviations, and returns the larger quotient.
     double sigmas_off() const {
         return std::max(std::abs(off().x) / std::sqrt(double{fix.covariance[0][0]}),
                         std::abs(off().y) / std::sqrt(double{fix.covariance[1][1]}));
