@@ -4,9 +4,10 @@
 //   dotpose_tables adversarial [--frames N] [--class NAME] [--code given|auto] [--seed S]
 //   [--threads N]
 //
-// Locates N frames. They are divided equally among the classes in tests/adversarial_frames.hpp.
-// With --class, all frames belong to the class NAME. The exit status is 1 if any fix is wrong.
-// Ctrl-C ends the run early and prints the results so far. Times are CPU times.
+// Attempts to locate N frames, which are divided equally among the classes in
+// tests/adversarial_frames.hpp. With --class, all frames belong to the class NAME. The exit status
+// is 1 if any fix is wrong. Ctrl-C ends the run early and prints the results so far. Times are CPU
+// times.
 #include <algorithm>
 #include <array>
 #include <ctime>

@@ -83,7 +83,8 @@ double bound_px(const BoundFrames& frames, const DotImage& dot) {
             }
         }
     }
-    constexpr double kRounding = 1.0 / 12;  // variance of the error due to rounding to integers
+    // Variance of the error from rounding grey levels to integers.
+    constexpr double kRounding = 1.0 / 12;
     const double contrast = kPaper * (1 - kInk);
     const double dots =
         1.0 * frames.width_px * frames.height_px / (frames.spacing_px * frames.spacing_px);

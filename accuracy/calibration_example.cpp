@@ -22,8 +22,8 @@ void write_frames(const fs::path& folder, int frames, FrameAt frame_at) {
         write_pgm(folder / fmt::format("frame_{:06}.pgm", i), frame_at(i).view());
 }
 
-/// Writes the sheet file for the sheets in `kTable`. Their poses are rounded to 1 mm, as if
-/// measured with a ruler.
+/// Writes the sheet file for the sheets in `kTable`. The positions of the sheets are rounded to 1
+/// mm and their angles are 0, as if the poses had been measured with a ruler.
 void write_sheets(const fs::path& path) {
     fs::remove(path);
     SheetFile file(path);

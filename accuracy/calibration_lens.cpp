@@ -22,7 +22,7 @@ constexpr int kLensFrames = 20;
 /// Standard deviation of the print jitter in the preset `nominal`.
 constexpr double kJitter_mm = 0.010;
 
-/// A kind of camera whose calibration is measured.
+/// A kind of camera whose calibration errors are measured.
 struct CameraKind {
     const char* title;
     CameraModel camera;
@@ -174,7 +174,8 @@ void measure_parameters(const Series& series, const LensCalibration& found,
 void measure_residual(const LensCalibration& found, const std::vector<Shot>& shots,
                       const std::vector<TrueDot>& dots, LensTally& tally) {
     Locator locator{DeviceOptions{}};
-    // Scale at the centre of each frame, which converts `residual_px` to mm.
+    // Scale at the centre of each frame. It converts the residuals of the dots from mm to px, for
+    // comparison with `residual_px`.
     std::vector<double> mm_per_px(shots.size(), NAN);
     for (std::size_t i = 0; i < shots.size(); ++i) {
         DeviceOptions options;

@@ -71,7 +71,8 @@ void add(Checksum& sum, const Fix& fix) {
     add(sum, fix.pattern_from_image);
 }
 
-/// Two consecutive frames. The fix of the first frame is the prediction for the second.
+/// Two consecutive frames. Tracking uses the fix of the first frame as the prediction for the
+/// second frame. Other methods use only the first frame.
 struct FramePair {
     GreyImage image;
     GreyImage next;

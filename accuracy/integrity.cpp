@@ -95,8 +95,9 @@ bool holds(const Bin& bin) {
            poisson_at_least(bin.wrong, bin.predicted) > 1e-3;
 }
 
-/// Prints the counts of all readings, grouped into ranges of p_wrong that are a factor of 8 wide.
-/// Returns true if the counts in all ranges are consistent with p_wrong.
+/// Prints the counts of all readings, grouped by p_wrong. The first range contains only p_wrong =
+/// 1, and the last range has no lower limit. All other ranges are a factor of 8 wide. Returns true
+/// if the counts in all ranges are consistent with p_wrong.
 bool print(std::string_view title, const IntegrityTally& tally) {
     constexpr std::size_t kWidth_log2 = 3;
     constexpr std::size_t kLast = 34;  // first bin of the last range, which has no lower limit

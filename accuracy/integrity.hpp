@@ -32,7 +32,7 @@ struct IntegrityTally {
     /// a smaller p_wrong.
     std::array<Bin, 64> bins;
     std::uint64_t unread = 0;
-    std::uint64_t skipped = 0;  ///< number of skipped grids that are not doubtful
+    std::uint64_t skipped = 0;  ///< number of grids that were skipped because they are not doubtful
 
     void add(int p_wrong_log2, bool is_wrong) {
         Bin& bin = bins[std::min(static_cast<std::size_t>(-p_wrong_log2), bins.size() - 1)];

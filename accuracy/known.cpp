@@ -97,7 +97,7 @@ void leave_strip(Shot& shot, const ViewSize& size, int rows) {
     constexpr double kBeyondView = 1000;
     const bool is_along_x = quarter % 2 == 0;
     const CameraPose& pose = shot.pose;
-    // Rounded so that the edges of the strip are halfway between two intersections.
+    // Rounds the middle of the strip to put the edges of the strip halfway between intersections.
     const double middle =
         std::round((is_along_x ? y_grid(pose) : x_grid(pose)) + offset) + (rows % 2 == 0 ? 0.5 : 0);
     const PageArea strip{is_along_x ? x_grid(pose) : middle, is_along_x ? middle : y_grid(pose),

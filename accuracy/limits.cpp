@@ -3,8 +3,9 @@
 //
 //   dotpose_tables limits [--frames N] [--seed S] [--threads N]
 //
-// Locates N frames for each condition in tests/limit_frames.hpp. Large images and mirror images
-// take longer, so fewer of them are located. The exit status is 1 if any fix is wrong.
+// Attempts to locate N frames for each condition in tests/limit_frames.hpp. Conditions with large
+// images or mirror images use fewer frames, because these images take longer. The exit status is 1
+// if any fix is wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
-// Measures the errors of a pen's calibrated tip and of its recorded strokes in simulated frames
-// (docs/pens.md). Prints tables in Markdown, and --update also writes them to the document.
+// Simulates the frames of a pen, and measures the errors of the calibrated pen tip and of the
+// recorded strokes (docs/pens.md). Prints tables in Markdown, and --update also writes them to the
+// document.
 //
 //   dotpose_tables pens [--pivots N] [--words N] [--seed S] [--threads N] [--draw FILE]
 //                       [--update DOCUMENT]
@@ -55,7 +56,7 @@ PivotCalibration calibrated(std::uint64_t seed, double max_tilt_deg) {
 }
 
 struct PivotTally {
-    std::array<Errors, 4> errors;  ///< errors of the tip's x, y and z, and of its height at rest
+    std::array<Errors, 4> errors;  ///< errors of x_mm, y_mm, z_mm and rest_mm of the tip
     double residual_mm = 0;
     double error_ratio = 0;
 
@@ -98,9 +99,10 @@ struct InkTally {
     Errors raw;
     Errors smoothed;
     std::uint64_t strokes = 0;
-    std::uint64_t found = 0;      ///< number of strokes in the recorded ink
-    std::uint64_t late_ends = 0;  ///< number of stroke starts and ends off by two or more frames
-    int largest_delay = 0;        ///< largest error of a stroke start or end, in frames
+    std::uint64_t found = 0;  ///< number of strokes in the recorded ink
+    /// Number of stroke starts and ends with an error above one frame.
+    std::uint64_t late_ends = 0;
+    int largest_delay = 0;  ///< largest error of a stroke start or end, in frames
 
     void operator+=(const InkTally& other) {
         frames += other.frames;

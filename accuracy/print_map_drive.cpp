@@ -5,8 +5,8 @@
 //
 //   dotpose_tables print_map_drive [--frames N] [--update DOCUMENT]
 //
-// The exit status is 1 if an error with the map exceeds 0.12 µm, or if an absolute error with the
-// map exceeds a fifth of the absolute error without the map.
+// The exit status is 1 if the error with the map exceeds 0.12 µm or, on the print with a feed wave,
+// if the absolute error with the map exceeds a fifth of the absolute error without the map.
 #include <algorithm>
 #include <array>
 #include <cmath>

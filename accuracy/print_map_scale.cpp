@@ -1,5 +1,5 @@
-// Measures the processor time and the memory needed to make the map of an A4 page from many frames
-// of 640 x 480 px (docs/print-map.md).
+// Measures the processor time and the memory that are needed to make a print map of an A4 page from
+// many frames of 640 x 480 px (docs/print-map.md).
 //
 //   dotpose_tables print_map_scale [--frames N] [--threads N]
 //
@@ -19,7 +19,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// Processor time of the stages, in s.
+/// Processor time of each stage, in s.
 struct StageTimes {
     double rendering = 0;
     double locating = 0;

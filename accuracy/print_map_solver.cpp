@@ -1,6 +1,6 @@
-// Measures the processor time and the memory of the print map solver (docs/print-map.md) for frames
-// of 640 x 480 px on an A4 page. The dots are simulated directly, because rendering all frames
-// would take hours.
+// Measures the processor time and the memory that the print map solver (docs/print-map.md) needs
+// for an A4 page and frames of 640 x 480 px. The dots are simulated directly, because rendering all
+// frames would take hours.
 //
 //   dotpose_tables print_map_solver [--frames N]
 //

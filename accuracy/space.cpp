@@ -28,7 +28,7 @@ constexpr double kJitter_mm = 0.010;
 /// standard deviation.
 struct SpaceErrors {
     std::array<Errors, 6> coordinates;
-    Errors all;  ///< errors of all six coordinates, normalised by the reported covariance
+    Errors all;  ///< square roots of the normalised squared errors (`normalised_square`)
 
     SpaceErrors& operator+=(const SpaceErrors& other) {
         for (std::size_t i = 0; i < coordinates.size(); ++i)
@@ -43,7 +43,7 @@ struct SpaceTally {
     std::uint64_t located = 0;
     std::uint64_t wrong = 0;
     std::uint64_t ambiguous = 0;
-    std::uint64_t second = 0;  ///< number of frames with a second pose, even if ruled out
+    std::uint64_t second = 0;  ///< number of frames with a second pose, including ruled-out poses
     SpaceErrors ours;
     SpaceErrors opencv;
 
@@ -89,8 +89,8 @@ void measure(const Shot& shot, SpaceTally& tally) {
 #endif
 }
 
-/// Returns two table cells: the rms errors of the position and of the rotation, relative to the
-/// bound.
+/// Returns two table cells: the rms errors of the three position coordinates, and those of the
+/// three rotation coordinates, relative to the bound.
 std::string ratios_text(const SpaceErrors& errors) {
     const auto& e = errors.coordinates;
     if (e[0].count == 0) return " - | - |";

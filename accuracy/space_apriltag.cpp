@@ -53,7 +53,7 @@ double side_in_view_mm(const Shot& shot) {
     return 2 * inside_mm;
 }
 
-/// Returns the pose of the camera relative to the centre of the tag, in the axes of the pattern.
+/// Returns the pose of the camera relative to the centre of the tag, along the axes of the pattern.
 TrueSpacePose pose_of(apriltag_detection_t& tag, const CameraModel& camera, double border_mm) {
     const double focal_px = camera.working_distance_mm / camera.mm_per_px;
     // In libapriltag, the origin is the corner of the first pixel.

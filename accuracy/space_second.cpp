@@ -33,7 +33,7 @@ constexpr std::array kTiltRanges = {TiltRange{0, 15}, TiltRange{15, 30}, TiltRan
 struct SecondTally {
     std::uint64_t frames = 0;
     std::uint64_t located = 0;
-    std::uint64_t second = 0;  ///< number of frames with a second pose, even if ruled out
+    std::uint64_t second = 0;  ///< number of frames with a second pose, including ruled-out poses
     std::uint64_t ambiguous = 0;
     std::uint64_t swapped = 0;  ///< number of ambiguous frames whose second pose is more accurate
     double expected = 0;        ///< expected value of `swapped`, computed from the odds

@@ -1,6 +1,6 @@
-// Measures the errors of tracking a camera in space (docs/pose-in-space.md), with rendered frames
-// from a camera that moves and tilts. Prints a table in Markdown, and --update also writes it to
-// the document.
+// Renders frames from a camera that moves and tilts, and measures the errors of tracking the camera
+// in space (docs/pose-in-space.md). Prints a table in Markdown, and --update also writes it to the
+// document.
 //
 //   dotpose_tables space_track [--frames N] [--seed S] [--threads N] [--update DOCUMENT]
 #include "dotpose/tools/space_track.hpp"
@@ -45,11 +45,12 @@ Shot hand_shot(const Shot& first, double t_s, std::uint64_t seed) {
 /// each pose.
 struct TrackErrors {
     std::uint64_t count = 0;
-    double position = 0;             ///< sum of the squared errors, mm^2
-    double rotation = 0;             ///< sum of the squared errors, rad^2
-    double normalised = 0;           ///< sum of the normalised squared errors per coordinate
-    double velocity = 0;             ///< sum of the squared velocity errors, mm^2/s^2
-    double normalised_velocity = 0;  ///< sum of the normalised squared errors per axis
+    double position = 0;    ///< sum of the squared errors, mm^2
+    double rotation = 0;    ///< sum of the squared errors, rad^2
+    double normalised = 0;  ///< sum of the normalised squared errors, divided by 6
+    double velocity = 0;    ///< sum of the squared velocity errors, mm^2/s^2
+    /// Sum of the normalised squared velocity errors, divided by 3.
+    double normalised_velocity = 0;
 
     void add(const CameraInSpace& camera, const SpaceCovariance& covariance,
              const TrueSpacePose& truth) {

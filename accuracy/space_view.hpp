@@ -1,5 +1,5 @@
-// Views of a tilted camera: the frames, their true poses in space, and the Cramer-Rao bounds on the
-// pose errors.
+// Simulated views from a tilted camera: the frames, the true poses of the camera in space, and the
+// Cramer-Rao bounds on the pose errors.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace dotpose::tables {
 
-/// Distance and lens of a camera with 640 x 480 px.
+/// Distance and lens of a simulated camera whose images have 640 x 480 px.
 struct SpaceLens {
     const char* title;
     double distance_mm;  ///< distance from the camera to the pose point

@@ -30,7 +30,7 @@ struct Done {
     std::string speed_text(const std::string& items) const;
 };
 
-/// The sum of the tallies of all threads.
+/// The result of a measurement: the sum of the tallies that the threads produced.
 template <typename Tally>
 struct Count : Done {
     Tally tally;

@@ -48,11 +48,12 @@ inline double quantile(std::vector<double> values, double share) {
 /// Results for one kind of prediction.
 struct TrackedTally {
     std::uint64_t tracked = 0;        ///< number of correct fixes based on the prediction
-    std::uint64_t afresh = 0;         ///< number of correct fixes after the prediction was rejected
+    std::uint64_t afresh = 0;         ///< number of correct fixes not based on a prediction
     std::uint64_t none = 0;           ///< number of frames without a fix
     std::uint64_t tracked_wrong = 0;  ///< number of wrong fixes based on the prediction
-    std::uint64_t afresh_wrong = 0;   ///< number of wrong fixes after the prediction was rejected
-    std::vector<double> errors_um;    ///< position errors of the fixes in `tracked`
+    std::uint64_t afresh_wrong = 0;   ///< number of wrong fixes not based on a prediction
+    /// Position errors of the fixes in `tracked` or, if no predictions were given, in `afresh`.
+    std::vector<double> errors_um;
 
     /// Counts a fix. Without a true pose, every fix counts as wrong.
     void count(const Fix& fix, const std::optional<TrueView>& truth) {
@@ -70,7 +71,7 @@ struct TrackedTally {
     }
 
     /// Returns two table cells, with the median and the 95 % quantile of the errors. The cells are
-    /// empty if no frame was tracked.
+    /// empty if `errors_um` is empty.
     std::string errors() const {
         if (errors_um.empty()) return " | ";
         return fmt::format("{:.2f} | {:.2f}", quantile(errors_um, 0.5), quantile(errors_um, 0.95));
@@ -122,7 +123,7 @@ struct TrackedTable {
 /// Returns the table for drives at several speeds and frame rates.
 TrackedTable drives_table(const TableRun& run);
 
-/// Returns the table for nominal frames with predictions of increasing error.
+/// Returns the table for predictions of increasing error. The frames have the preset `nominal`.
 TrackedTable offsets_table(const TableRun& run, std::uint64_t frames);
 
 /// Returns the table for changes between two frames, such as different light, a lifted camera,

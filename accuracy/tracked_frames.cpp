@@ -43,8 +43,9 @@ Setup nominal(std::uint64_t seed) {
     return setup;
 }
 
-/// Locates a frame with predictions of increasing error. The first tally counts fixes without a
-/// prediction. Tally i + 1 counts the results for a prediction with the error kOffsets[i].
+/// Locates a frame without a prediction, and then with one prediction for each error in kOffsets.
+/// The first tally counts the fixes without a prediction, in `afresh`. Tally i + 1 counts the
+/// results for the error kOffsets[i].
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
     const Fix fresh = Locator(thread_memory(), DeviceOptions{}).locate(image.view());

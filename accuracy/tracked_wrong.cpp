@@ -38,8 +38,8 @@ Prediction worst(const LocatedPair& views, Rng& rng) {
     return prediction;
 }
 
-/// Returns a prediction that is displaced by `dx` cells to the left or right and by `dy` cells up
-/// or down, at random.
+/// Returns a prediction that is displaced by `dx` cells along x and by `dy` cells along y. The
+/// signs of the displacements are random.
 Prediction displaced(const Fix& fix, int dx, int dy, Rng& rng) {
     Prediction prediction = Prediction::like(fix);
     const auto either = [&rng](int step) { return rng.below(2) == 0 ? step : -step; };
@@ -98,8 +98,8 @@ GreyImage scattered_dots(const Shot& shot, Rng& rng) {
 struct WrongClass {
     const char* name;
     Prediction (*predict)(const LocatedPair& views, Rng& rng);
-    /// Draws an image that the same camera takes of a scene without a valid code, so every
-    /// prediction is wrong. Null if the class uses the image of the shot.
+    /// Draws a scene without a valid code, as seen by the camera of the shot. Every prediction for
+    /// this scene is wrong. Null if the class uses the image of the shot.
     GreyImage (*draw)(const Shot& shot, Rng& rng) = nullptr;
 };
 constexpr Prediction (*kRight)(const LocatedPair&, Rng&) = displaced<0, 0>;

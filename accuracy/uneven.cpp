@@ -1,5 +1,5 @@
-// Compares the errors of fixes with the reported covariances on sheets that are not planar. Prints
-// tables for docs/integrity.md in Markdown, with N frames for each condition.
+// Compares the errors of fixes with the reported covariances, for sheets that are not planar.
+// Locates N frames for each condition, and prints tables for docs/integrity.md in Markdown.
 //
 //   dotpose_tables slips [--frames N] [--seed S] [--threads N]
 //   dotpose_tables seams [--frames N] [--seed S] [--threads N]

@@ -1,6 +1,6 @@
-// Counts how many views of sheets that were not printed by dotpose are located. The views are cut
-// from page images at random positions and angles. Each view is located with the given code and
-// with code detection. Prints the rows of a table in docs/integrity.md, in Markdown.
+// Counts the located views of sheets that were not printed by dotpose. The views are cut from page
+// images at random positions and angles. Each view is located with the given code and with code
+// detection. Prints the rows of a table in docs/integrity.md, in Markdown.
 //
 //   dotpose_tables views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
 //
@@ -149,11 +149,11 @@ struct ViewCounts {
     // The next four counts include only the views counted in `given`. These views are located again
     // with code detection.
     int alone = 0;        ///< number of views located without evidence from other views
-    int ambiguous = 0;    ///< number of views refused as `ambiguous_code` without such evidence
+    int ambiguous = 0;    ///< number of views refused as `ambiguous_code` without that evidence
     int later_given = 0;  ///< number of views after the first kFirstViews
-    int later = 0;        ///< number of `later_given` views located with earlier evidence
+    int later = 0;        ///< number of views in `later_given` located with earlier evidence
     int wrong = 0;
-    double max_against_log2 = 0;  ///< maximum log2 evidence of a view against the given code
+    double max_against_log2 = 0;  ///< maximum evidence of one view against the given code, in bits
 };
 
 class ViewReader {

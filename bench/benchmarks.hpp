@@ -27,7 +27,7 @@ struct FrameTimes {
     double tracked_us = 0;
     double device_us = 0;  ///< `Effort::device`
     double floor_us = 0;
-    double tag_us[2] = {};  ///< libapriltag with `decimate` = 1 and 2
+    double tag_us[2] = {};  ///< libapriltag with `decimate` = 1, and with `decimate` = 2
 
     double megapixels() const { return 1e-6 * camera.width_px * camera.height_px; }
 };

@@ -20,7 +20,8 @@ const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 /// Returns true if the fix has a pose and that pose is correct.
 bool is_right(const Fix& fix, const Truth& truth);
 
-/// Returns the quantile of sorted values for the probability `share`, by the nearest-rank method.
+/// Returns the quantile at probability `share` of the values in `sorted`, by the nearest-rank
+/// method.
 double quantile(const std::vector<double>& sorted, double share);
 
 /// Calls `work(i)` for i from 0 to count - 1, on all cores.
@@ -29,7 +30,7 @@ void on_all_cores(int count, const std::function<void(int)>& work);
 /// Renders the frames frame_at(0) to frame_at(count - 1) on all cores.
 std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at);
 
-/// Results of timing each frame individually.
+/// Results of locating each frame several times and measuring the time of each call.
 struct TimedFrames {
     int located = 0;
     int by_first_attempt = 0;        ///< number of frames located by the first attempt

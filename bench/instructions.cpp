@@ -1,7 +1,8 @@
 // Locates nominal frames of 188 x 120 px. bench/instructions counts the instructions executed by
 // the functions that call the locator. Prints the number of frames, and the number of frames that
-// the first attempt locates if the code is not given. With a side and a spacing in px as arguments,
-// locates small square frames instead, and prints 1 for each located frame and 0 for the others.
+// the first attempt locates without a given code. If a side length and a spacing, both in px, are
+// given as arguments, locates small square frames instead, and prints 1 for each located frame and
+// 0 for the others.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>

@@ -5,8 +5,8 @@
 //
 // Writes tables.md, pixels.svg and dots.svg to FOLDER (default: bench-out). --update also replaces
 // the generated blocks in the document and its figures. --quick does a short run to test the
-// program. The numbers from such a run are inaccurate. With Google Benchmark options, runs and
-// prints only the selected benchmarks.
+// program. The numbers from such a run are inaccurate. If Google Benchmark options are given, runs
+// and prints only the selected benchmarks.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -96,8 +96,9 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
                               [](const FrameTimes& t) { return t.camera.width_px; });
 }
 
-/// Returns the minimum percentage of frames that the first attempt locates at any tilt, and the
-/// maximum ratio of the time at a tilt to the time at 0 degrees.
+/// Returns the percentage of frames that the first attempt locates, at the tilt with the lowest
+/// percentage. Also returns the median time per frame relative to a tilt of 0 degrees, at the tilt
+/// with the highest ratio.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     double share = 100;
     double ratio = 1;

@@ -30,7 +30,7 @@ void Results::ReportRuns(const std::vector<Run>& repetitions) {
     Run fastest = *std::ranges::min_element(repetitions, {}, us_of);
     fastest.run_name.repetitions.clear();
     ConsoleReporter::ReportRuns({fastest});
-    // A benchmark with a wrong result stops before its first iteration.
+    // A benchmark that finds a wrong result stops before its first iteration.
     if (std::ranges::any_of(repetitions, [](const Run& run) { return run.iterations == 0; })) {
         has_failed_ = true;
         return;

@@ -49,7 +49,8 @@ struct Located {
     static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 };
 
-/// A function that runs a stage and returns true if the result is the same as in the pipeline.
+/// Type of a function that runs one stage. Returns true if the result is the same as in the
+/// pipeline.
 using Stage = bool (*)(Located&);
 
 bool measure_light(Located& l) {
@@ -199,8 +200,8 @@ std::string name_of(const NamedStage& stage) {
     return fmt::format("stage/{}", stage.name);
 }
 
-/// Locates the frame again and copies the results that later stages overwrite. Returns false on
-/// failure.
+/// Locates the frame again, and saves a copy of the results that later stages overwrite. Returns
+/// false on failure.
 bool prepare(const KnownFrame& frame, Located& l) {
     l.image = &frame.image;
     if (!push_rows(frame.image, l.w)) return false;

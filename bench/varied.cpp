@@ -75,7 +75,7 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     return subject;
 }
 
-/// Returns a prediction for a frame: the frame's own fix, displaced by a random error.
+/// Returns a prediction for a frame: the frame's own fix, moved and rotated by a random error.
 Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory) {
     const Fix fix = Locator(memory, DeviceOptions{}).locate(frame.image.view());
     const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);
@@ -123,9 +123,9 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
     return subject;
 }
 
-/// Measures the time of every frame once. Each frame is first copied to the same memory, as with a
-/// real camera. All other frames are located between two measurements of a frame, so caches and
-/// branch prediction do not adapt to the frame.
+/// Measures the time of every frame once. Each frame is first copied to the same buffer, as if a
+/// real camera had written it there. All other frames are processed between two measurements of the
+/// same frame, so caches and branch prediction do not adapt to it.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;
     GreyImage camera = *subject.frames.front();

@@ -37,7 +37,7 @@ class PoseSender {
     dotpose::Tracker tracker_;
     dotpose::FramePacer pacer_;
     dotpose::Fix seen_;           ///< fix of the newest frame, initially not ok
-    dotpose::Sighting sighting_;  ///< sighting of the newest fix with status ok
+    dotpose::Sighting sighting_;  ///< sighting computed from the newest fix with status ok
     std::uint16_t sequence_ = 0;  ///< number of frames so far, modulo 2^16
     std::int64_t next_us_ = 0;    ///< earliest time of the next frame
 };

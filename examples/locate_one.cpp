@@ -1,4 +1,5 @@
-// Prints the position and angle of an image in the pattern: dotpose_locate_one FRAME.pgm
+// Locates one image, and prints its position and angle in the pattern frame: dotpose_locate_one
+// FRAME.pgm
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -9,8 +10,8 @@
 
 int main(int argc, char** argv) {
     if (argc != 2) return std::fputs("usage: locate_one FRAME.pgm\n", stderr), 2;
-    // Reads a binary PGM: width, height and maximum grey level as text, followed by one byte per
-    // pixel.
+    // Reads a binary PGM file: the width, the height and the maximum grey level as text, then one
+    // byte per pixel.
     std::ifstream file(argv[1], std::ios::binary);
     std::string kind;
     int width = 0;

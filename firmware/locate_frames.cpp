@@ -28,7 +28,8 @@ constexpr KnownRegion kSheets[] = {
 
 DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory;
 DeviceLocator locator(memory, program_options());
-// Rows are aligned to words, as with DMA from a camera, because aligned rows are copied faster.
+// One row of a frame. It is aligned to a word, like a row that a camera writes by DMA, because
+// aligned rows are copied faster.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
 
 struct FrameHeader {

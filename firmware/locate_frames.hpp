@@ -2,17 +2,17 @@
 
 #include <dotpose/locate.hpp>
 
-/// Returns the program's locator options. For small frames, the options accept dots of a single
-/// pixel.
+/// Returns the program's locator options. If the frames are small, the options also accept dots
+/// that consist of a single pixel.
 dotpose::DeviceOptions program_options();
 /// Passes a known sheet to the locator if the program's frames are so small that they can only be
 /// located on known sheets.
 void set_known_sheet(dotpose::DeviceLocator& locator);
 
 /// Locates the frames in the file at `path`. The file is a sequence of binary PGM images (P5, 8
-/// bits, no comments). An image that follows a prediction is tracked. A prediction is a line with
-/// the letter T and the integer members of Place (x, y, u, v), PlaneFromImage (centre, at_centre,
-/// du, dv) and displacement_q16, separated by spaces. Prints one line for each frame:
+/// bits, no comments). A prediction may precede an image, which is then tracked. A prediction is a
+/// line with the letter T and the integer members of Place (x, y, u, v), PlaneFromImage (centre,
+/// at_centre, du, dv) and displacement_q16, separated by spaces. Prints one line for each frame:
 ///
 ///     STATUS CELL_X CELL_Y FRACTION_X FRACTION_Y THETA SECTION_U SECTION_V SPACING SEEN USED
 ///     BIT_ERRORS P_WRONG

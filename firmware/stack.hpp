@@ -30,8 +30,8 @@ inline std::size_t high_water_bytes() {
     return static_cast<std::size_t>(stack_top - word) * sizeof *word;
 }
 
-/// Returns true if the stack was used completely, and may therefore have overflowed into the
-/// variables.
+/// Returns true if the stack was used completely, and may therefore have overflowed into the memory
+/// below it.
 inline bool has_overflown() {
     return *static_cast<volatile std::uint32_t*>(stack_bottom) != kPaint;
 }

@@ -31,7 +31,7 @@ enum class Adversary : std::uint8_t {
     mirrored,    ///< the mirrored pattern
     replaced,    ///< 30 to 60 % of the symbols are random
     flipped,     ///< 5 to 45 % of the bits are flipped
-    half_empty,  ///< a pattern that is printed on only one side of the frame
+    half_empty,  ///< only one side of the frame contains a pattern
     few_lines,   ///< 5 to 8 columns or rows on blank paper
     slip,        ///< one column or row of dots is missing or occurs twice
     other_code,  ///< a pattern printed in the code anoto but decoded as libdots, or vice versa
@@ -203,8 +203,8 @@ inline void render_part(Adversary adversary, Shot shot, Rng& rng, AdversarialFra
     const int reach = reach_cells(shot);
     const bool has_few = adversary == Adversary::few_lines;
     std::uint32_t lines = has_few ? 5 + rng.below(4) : kFar;
-    // A pattern of a few lines may be anywhere in the view. The border of a half-empty pattern is
-    // near the middle of the view.
+    // A pattern that consists of a few lines may be anywhere in the view. If half of the pattern is
+    // empty, the border between the two halves is near the middle of the view.
     const int spread = has_few ? reach : reach / 3;
     const auto offset = static_cast<int>(rng.below(static_cast<unsigned>(2 * spread + 1))) - spread;
     const bool is_vertical = rng.below(2) == 0;

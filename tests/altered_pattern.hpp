@@ -1,4 +1,4 @@
-/// Renders patterns with symbols that differ from the code. Everything else is rendered as in
+/// Renders patterns in which some symbols differ from the code. Everything else is rendered as in
 /// the simulator.
 #pragma once
 
@@ -19,8 +19,8 @@ inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }
 
-/// Returns the symbol that the code contains in a cell, but flips each of its two bits with the
-/// probability `probability`.
+/// Returns the symbol of a cell. Each of the two bits differs from the code with the probability
+/// `probability`.
 inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::uint64_t seed,
                              Cell cell) {
     Rng rng = rng_of(seed, cell);

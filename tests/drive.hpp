@@ -19,13 +19,13 @@
 namespace dotpose::test {
 
 inline constexpr double kDriveFps = 200;
-/// x coordinate of the seam between two adjacent A3 pages, which is in the middle of the path.
+/// x coordinate of the seam between two adjacent A3 pages. The seam is in the middle of the path.
 inline constexpr double kSeam_mm = 420;
 
 struct DriveState {
     double x_mm = 0;
     double y_mm = 0;
-    double yaw_rad = 0;  ///< angle of the image x axis, which is the driving direction
+    double yaw_rad = 0;  ///< angle of the image x axis, which points in the driving direction
     double vx_mm_s = 0;
     double vy_mm_s = 0;
     double turn_rad_s = 0;
@@ -77,7 +77,7 @@ class Drive {
     }
 
   private:
-    static constexpr double kRamp = 0.4;  ///< duration of acceleration and deceleration, in s
+    static constexpr double kRamp = 0.4;  ///< duration of each acceleration and deceleration, in s
 
     /// Returns the integral of a ramp from 0 to 1 that begins at t = 0 and is smooth at both ends.
     static double ramp_integral(double t) {

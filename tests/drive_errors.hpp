@@ -26,8 +26,8 @@ struct DriveReading {
     double turn_rad_s = 0;
 };
 
-/// Errors in position (per axis), heading and velocity. The rms errors exclude the frame of each
-/// event `fix` and the next two frames, because a new filter has not yet estimated the velocity.
+/// Errors in position (per axis), heading and velocity. A new filter needs some frames to estimate
+/// the velocity, so the rms errors exclude the frame of each event `fix` and the next two frames.
 class DriveErrors {
   public:
     void add(const DriveState& truth, const DriveReading& reading) {

@@ -7,7 +7,7 @@
 
 namespace dotpose::test {
 
-/// Tags in the EXIF directory, to which an entry of the first TIFF directory points.
+/// Tags in the EXIF directory. An entry of the first TIFF directory points to the EXIF directory.
 enum ExifTag : std::uint16_t {
     exposure_time = 33434,
     f_number = 33437,
@@ -49,8 +49,8 @@ inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endi
     add_entry(34665, kLong, kHeader + kFirst);
     add(0, 4);
     add(static_cast<std::uint32_t>(tags.size()), 2);
-    // All rational entries point to the eight bytes after the header, because their values do not
-    // matter.
+    // The values of the rational entries do not matter, so all of them point to the eight bytes
+    // after the header.
     for (const std::uint16_t tag : tags)
         add_entry(tag, tag == sensitivity ? kShort : kRational, kHeader);
     add(0, 4);

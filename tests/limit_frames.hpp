@@ -301,7 +301,7 @@ inline GreyImage white_on_black(const Shot& shot) {
 
 }  // namespace detail
 
-/// Returns all conditions in the order of the table in docs/limits.md.
+/// Returns all conditions, in the same order as in the table in docs/limits.md.
 inline std::vector<Limit> all_limits() {
     std::vector<Limit> limits{{"nominal", [](Shot&) {}}};
     detail::add_light(limits);

@@ -12,7 +12,8 @@
 
 namespace dotpose::test {
 
-/// A page whose dots have known offsets, and the dots measured in frames of the page.
+/// A page and frames of it. The offsets of all dots on the page are known, and the dots have been
+/// measured in the frames.
 struct SolverInput {
     calibrate::MapGrid grid;
     std::vector<Eigen::Vector2d> offsets_mm;  ///< true offsets

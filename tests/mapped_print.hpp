@@ -58,7 +58,7 @@ class MappedPrint {
     const MappedPrintOptions& options() const { return options_; }
 
     /// Returns the displacement of a dot due to the wave. The wave displaces dots along y, the
-    /// direction of paper feed, and by a tenth of that amplitude along x.
+    /// direction of paper feed. Along x, its amplitude is a tenth of the amplitude along y.
     Vec2 wave(Vec2 at_mm) const {
         const double phase = 2 * std::numbers::pi * at_mm.y / options_.wavelength_mm;
         return {0.1 * options_.wave_mm * std::cos(phase), options_.wave_mm * std::sin(phase)};
@@ -68,8 +68,8 @@ class MappedPrint {
         Vec2 at_mm;  ///< position under the image centre, in mm from the first intersection
         double theta_rad;
     };
-    /// Returns a random pose on the page. Its distance from the edges is at least 0.6 times half
-    /// the diagonal of the view.
+    /// Returns a random pose on the page. The distance of the position from the edges is at least
+    /// 0.6 times half the diagonal of the view.
     Pose pose(std::uint64_t series, std::uint64_t index) const {
         Rng rng(series, index);
         const double reach =

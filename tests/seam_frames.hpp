@@ -39,7 +39,7 @@ struct SeamShot {
     double shift_y_px = 0;
 
     double paper_level = 190;
-    double fall = 0.1;  ///< relative decrease in brightness from the left to the right side
+    double fall = 0.1;  ///< brightness at the right side is lower by this fraction
     double blur_px = 0.6;
     double noise = 3;
     double jitter_grid = 0.02;  ///< standard deviation of the printed dot positions, per axis

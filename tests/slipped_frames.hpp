@@ -29,8 +29,9 @@ inline double half_extent_grid(const Shot& shot, double direction_rad) {
            shot.camera.mm_per_px / (2 * shot.page.pattern.spacing_mm);
 }
 
-/// Draws a slip whose line is anywhere in view and has a random direction. The displacement is 0.05
-/// to 0.5 spacings in a random direction, and the rotation is at most one degree.
+/// Draws a slip whose line crosses the view at a random position and in a random direction. The
+/// displacement is 0.05 to 0.5 spacings in a random direction, and the rotation is at most one
+/// degree.
 inline Slip draw_slip(const Shot& shot) {
     Rng rng(shot.seed, 3);
     Slip slip;
@@ -58,8 +59,8 @@ inline void apply(const Slip& slip, Shot& shot) {
     };
 }
 
-/// Deforms the paper by three waves in random directions. Wavelengths are 16 to 60 spacings. Each
-/// wave displaces the dots by up to `amplitude_grid`.
+/// Deforms the paper by three waves in random directions. Their wavelengths are 16 to 60 spacings,
+/// and each wave displaces the dots by up to `amplitude_grid`.
 inline void wrinkle(double amplitude_grid, Shot& shot) {
     struct Wave {
         Vec2 per_grid;  ///< radians per spacing

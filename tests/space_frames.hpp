@@ -88,8 +88,8 @@ inline void expect_true_space_pose(std::size_t frame, const nlohmann::json& posi
     EXPECT_LT(error.dot(variances.ldlt().solve(error)), 30);
 }
 
-/// Expects the odometry to contain the true camera poses and, for the last image, the true
-/// velocities along and about the axes of the camera.
+/// Expects the odometry to contain the true camera poses. For the last image, also expects the true
+/// linear and angular velocities, in camera coordinates.
 inline void expect_true_camera_odometry(const std::vector<nlohmann::json>& odometry) {
     ASSERT_EQ(odometry.size(), kSpaceTilts_rad.size());
     for (std::size_t i = 0; i < odometry.size(); ++i) {

@@ -1,4 +1,4 @@
-/// A frame taken by a tilted camera with a known pose in space.
+/// A frame taken by a tilted camera. The pose of the camera in space is known.
 #pragma once
 
 #include <numbers>

@@ -1,5 +1,6 @@
-/// A minimal check for well-formed XML, for the subset that the drawings use: one root, matching
-/// tags, quoted attributes without repetition, and the five named entities. UTF-8 is not checked.
+/// A minimal check that a drawing is well-formed XML. It supports only the subset that the drawings
+/// use: one root, matching tags, quoted attributes without repetition, and the five named entities.
+/// UTF-8 is not checked.
 #pragma once
 
 #include <cctype>

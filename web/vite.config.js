@@ -51,7 +51,7 @@ function offline() {
 }
 
 export default defineConfig({
-    // Relative addresses let the page work in any folder on a server.
+    // Makes all addresses relative, so the page works in any folder on a server.
     base: "./",
     build: { target: "es2022", assetsInlineLimit: 0 },
     worker: { format: "es" },

@@ -13,10 +13,11 @@ class AlertPublisher {
     /// Throws Error if the broker rejects the connection.
     explicit AlertPublisher(publish::MqttOptions options);
 
-    /// Publishes an alert for each condition that has changed since the previous call.
+    /// Publishes an alert for each important change since the previous call (fleet_alerts.hpp).
     void check(const FleetRobots& robots, const Now& now);
 
-    /// Waits up to 2 s for all alerts to be sent, and reports how many were published and dropped.
+    /// Waits up to 2 s for all alerts to be sent, and reports how many alerts were published and
+    /// how many were dropped.
     void finish();
 
   private:

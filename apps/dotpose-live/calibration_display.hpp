@@ -1,6 +1,6 @@
-/// Display for `dotpose calibrate --live` while frames are being captured: a window or, if no
-/// window can be opened, the terminal. If standard error is not a terminal either, prints a line
-/// whenever the status changes.
+/// Displays the progress of `dotpose calibrate --live` in a window or, if no window can be opened,
+/// in the terminal. If standard error is not a terminal either, prints a line whenever the status
+/// changes.
 #pragma once
 
 #include <atomic>

@@ -225,8 +225,8 @@ void CalibrationGuide::take(const capture::Frame& frame, const Reading& reading,
     show_guided();
 }
 
-/// Updates the progress of a step other than `lens`, and ends the step when it is complete. The
-/// caller must hold `mutex_`.
+/// Updates the progress of a step other than `lens`. When enough frames have been collected, queues
+/// the computation of the result. The caller must hold `mutex_`.
 void CalibrationGuide::show_guided() {
     show(*guided_, state_);
     if (lost_ >= kManyLost)

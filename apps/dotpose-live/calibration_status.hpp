@@ -26,7 +26,7 @@ struct CalibrationStatus {
     /// the last finished calibration. nullopt if no calibration has finished or the last one
     /// failed.
     std::optional<double> corner_sigma_px;
-    std::optional<double> theta_rad;  ///< camera angle in the newest frame, if it was located
+    std::optional<double> theta_rad;  ///< theta of the newest frame, or nullopt if it was refused
     std::vector<FrameTilt> tilts;     ///< tilts of the collected frames
     std::string now;                  ///< message about the newest frame
     std::string remark;               ///< advice after the last calibration, or empty

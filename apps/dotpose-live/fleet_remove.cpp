@@ -55,7 +55,7 @@ std::set<std::string, std::less<>> retained_robots(const publish::MqttOptions& o
                                                found.emplace(sender->robot);
                                        });
     // The broker sends retained messages immediately after the subscription. If there are none, it
-    // sends nothing, so the wait ends after kPatience at the latest.
+    // sends nothing. The wait is therefore limited to kPatience.
     const auto end = std::chrono::steady_clock::now() + kPatience;
     const std::set<std::string> wanted(robots.begin(), robots.end());
     const auto has_all = [&] {

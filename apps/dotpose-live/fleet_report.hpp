@@ -48,7 +48,7 @@ void sort_by_attention(FleetRobots& robots, const FleetMap& map);
 /// Columns of the table. `narrow` fits in 80 characters and omits the message counts.
 enum class Layout { wide, narrow };
 
-/// Return the header and a row of the table, without a line break. The reason, the map and the
+/// Return the header or one row of the table, without a line break. The reason, the map and the
 /// sheet are not truncated, so a row may have any width.
 std::string table_header(Layout layout);
 std::string table_row(const std::string& name, const FleetRobot& robot, const FleetMap& map,

@@ -82,7 +82,8 @@ struct CameraTotals {
 
 class FleetState {
   public:
-    /// Maximum number of robots. If it is exceeded, the robot with the oldest message is removed.
+    /// Maximum number of robots. When a further robot appears, the robot that has sent no message
+    /// for the longest time is removed.
     static constexpr std::size_t kMaxRobots = 10'000;
 
     using Listener = std::function<void(std::string_view robot, const RobotState& state)>;
@@ -145,7 +146,8 @@ class FleetState {
     ConditionLimits limits_;
     mutable std::mutex mutex_;
     std::map<std::string, Robot, NaturalOrder> robots_;
-    std::list<const std::string*> by_age_;  ///< names of the robots, oldest message first
+    /// Names of the robots, in the order in which their last messages arrived.
+    std::list<const std::string*> by_age_;
     StateCounts of_removed_;
     std::uint32_t next_id_ = 1;
     std::vector<float> latencies_ms_;

@@ -61,7 +61,7 @@ std::string stored_name(std::string_view name) {
 
 store::State StoredStates::of(std::string_view robot, const RobotState& state,
                               std::int64_t received_us) {
-    constexpr std::int64_t kMaxDelay_us = 1'800'000'000;  // half an hour, which fits in 32 bits
+    constexpr std::int64_t kMaxDelay_us = 1'800'000'000;  // half an hour (fits in 32 bits)
     store::State stored;
     if (robots_.size() > kMaxNames) robots_.clear();
     if (places_.size() > kMaxNames) places_.clear();

@@ -154,8 +154,8 @@ nlohmann::json alert_json(const RobotAlert& alert) {
     return shown;
 }
 
-/// Returns the maps, each with the bounding box of its robots. The maps with the most robots come
-/// first.
+/// Returns the maps, each with the bounding box of its robots, in descending order of the number of
+/// robots.
 nlohmann::json maps_json(const FleetRobots& robots) {
     constexpr std::size_t kMaxMaps = 50;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();

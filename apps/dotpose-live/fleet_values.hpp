@@ -33,8 +33,8 @@ inline constexpr std::size_t kMaxAlerts = 200;
 std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
                         const std::string& device, bool has_history);
 
-/// Returns the number of robots in each condition and on each map, the message counts, and the
-/// alerts. `alerts` must be sorted by time.
+/// Returns the number of robots in each condition, the number of robots on each map, the message
+/// counts, and the alerts. `alerts` must be sorted by time.
 std::string summary_value(const FleetSnapshot& snapshot, const FleetState& fleet,
                           const FleetMap& map, const FleetServices& services, double states_per_s,
                           const std::deque<RobotAlert>& alerts);

@@ -24,12 +24,13 @@ class FleetView {
     /// the drawing cannot be written.
     FleetView(FleetMap map, std::string drawing, Delivery delivery);
 
-    /// Processes the pressed keys, and updates the table if there are any. Returns false if the
-    /// user wants to quit.
+    /// Processes the keys that were pressed since the previous call. If there are any, updates the
+    /// table. Returns false if the user wants to quit.
     bool take_keys(const FleetState& fleet, const Now& now);
 
-    /// Updates the table if standard output is a terminal. Also draws the map, but spends at most a
-    /// tenth of the time on it: after a drawing that took t seconds, waits at least 9 t seconds.
+    /// Updates the table if standard output is a terminal. Also draws the map, which may take at
+    /// most a tenth of the run time: if a drawing takes t seconds, the next one starts at least 9 t
+    /// seconds later.
     void refresh(const FleetState& fleet, const Now& now);
 
     /// Displays the final table and draws the final map. On a terminal, only the first page of the

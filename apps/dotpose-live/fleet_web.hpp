@@ -31,7 +31,7 @@ struct FleetWebOptions {
     std::function<void(const std::string& robot)> remove = nullptr;
 };
 
-/// Serves the page on its own threads.
+/// Serves the page. Uses separate threads, so the caller is not blocked.
 class FleetWeb {
   public:
     /// Starts the server and reports its address. `fleet` and `map` must outlive this object.
@@ -69,7 +69,7 @@ class FleetWeb {
     AlertWatch watch_;
     std::deque<RobotAlert> alerts_;
     Clock::time_point next_check_;
-    Snapshot snapshot_;  ///< robots in this tick, or null until a topic needs the robots
+    Snapshot snapshot_;  ///< robots in the current tick, or null if not needed yet
     std::int64_t counted_states_ = 0;
     Clock::time_point counted_at_;
 

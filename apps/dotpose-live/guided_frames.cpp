@@ -152,9 +152,9 @@ double ReadoutFrames::interval_ms() const {
     return static_cast<double>(seen_.back().time_us - seen_.front().time_us) / 1000 / steps;
 }
 
-/// Computes the tilt from the perspective of the dots. The relative change of the image scale per
-/// pixel is the tangent of the tilt divided by the focal length. The camera leans towards the side
-/// of the view on which the paper is closer.
+/// Computes the tilt from the perspective distortion of the grid. The relative change of the image
+/// scale per pixel is the tangent of the tilt divided by the focal length. The camera leans towards
+/// the side of the view on which the paper is closer.
 PenLean lean_in(const Fix& fix, double focal_px) {
     const FixedVec& perspective_q30 = fix.pattern_from_image.perspective_q30;
     const double u = std::ldexp(focal_px * perspective_q30.x, -30);

@@ -1,5 +1,5 @@
 /// Selects the frames for four calibration steps: a turn on the spot, a straight drive, a fast
-/// drive and a pivoting pen.
+/// drive, and pivoting a pen about its tip.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct GuidedFrame {
     Fix fix;
     double spacing_mm = 0;
     std::int64_t time_us = 0;
-    std::int64_t index = 0;  ///< frame number, including dropped frames
+    std::int64_t index = 0;  ///< number of the frame, counting dropped frames
     ImageView image;
 };
 
@@ -52,10 +52,10 @@ class GuidedFrames {
     Images images_;
 };
 
-/// Collects frames during a turn on the spot, one in each direction.
+/// Collects frames during a turn on the spot: one frame for each sector of headings.
 class SpinFrames : public GuidedFrames {
   public:
-    /// Number of sectors into which a full turn is divided. One frame is collected in each sector.
+    /// Number of sectors into which a full turn is divided.
     static constexpr int kDirections = 24;
 
     void take(const GuidedFrame& frame) override;
@@ -122,8 +122,8 @@ struct PenLean {
     double y = 0;
 };
 
-/// Returns the tilt of the camera in a frame, computed from the perspective of the dots. The status
-/// of `fix` must be ok.
+/// Returns the tilt of the camera in a frame, computed from the perspective distortion of the grid.
+/// The status of `fix` must be ok.
 PenLean lean_in(const Fix& fix, double focal_px);
 
 /// Collects frames with different tilts while a pen pivots about its tip.
@@ -141,7 +141,7 @@ class PivotFrames : public GuidedFrames {
     std::string advice() const override;
     std::vector<std::string> needs() const override;
 
-    /// Returns the tilts in the collected frames.
+    /// Returns the tilt of the pen in each collected frame.
     const std::vector<PenLean>& leans() const { return leans_; }
     /// Returns a flag for each direction: true if the pen is tilted in this direction in enough
     /// frames.

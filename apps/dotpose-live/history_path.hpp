@@ -39,9 +39,10 @@ class HistoryPath {
     bool begins_stroke_ = true;
     std::vector<std::vector<draw::Point>> strokes_mm_;
     std::size_t points_ = 0;
-    double step_mm_ = 0.1;                          ///< minimum distance between points
-    store::State newest_;                           ///< newest state on the map
-    std::map<std::string, std::size_t> elsewhere_;  ///< number of states on each of the other maps
+    double step_mm_ = 0.1;  ///< minimum distance between points
+    store::State newest_;   ///< newest state on the map
+    /// Number of states on each other map (20 maps at most).
+    std::map<std::string, std::size_t> elsewhere_;
 };
 
 }  // namespace dotpose::cli

@@ -122,9 +122,11 @@ class LensCollector {
     int height_px_ = 0;
     NewPlaces places_;
     ImageMotion motion_;
-    std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, initially the first frame
+    /// Time of the newest steady frame. If there is none, the time of the first frame, or 0 if the
+    /// first frame was not located.
+    std::int64_t steady_us_ = 0;
     Tally tally_;
-    GreyImage failed_;  ///< newest frame without a fix, not updated after the first fix
+    GreyImage failed_;  ///< newest frame that was refused before the first fix
     Status failure_ = Status::ok;
     double bits_per_px_ = 0;
 };

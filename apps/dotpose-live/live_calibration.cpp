@@ -56,8 +56,8 @@ class LiveCalibration {
     std::optional<FrameSaver> saver_;
 };
 
-/// Displays a frame and adds it to the calibration if it is suitable. Returns false if the user
-/// wants to stop.
+/// Displays a frame, and collects the frame if it is suitable for the calibration. Returns false if
+/// the user wants to stop.
 bool LiveCalibration::look(capture::Frame& frame) {
     // An unplugged camera delivers empty frames.
     if (frame.image.pixels.empty()) return display_.is_wanted();

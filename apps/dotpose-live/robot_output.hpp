@@ -29,9 +29,9 @@ struct RobotOutputOptions {
     bool is_wanted() const { return !mcap.empty() || dds; }
 };
 
-/// Computes the time stamps of messages, in ns. The time of a live frame is the end of its exposure
-/// on the monotonic clock. ROS expects the middle of the exposure on the system clock, so the time
-/// is converted. The times of recorded frames are not changed.
+/// Computes the time stamps of messages, in ns. The time of a live frame is taken at the end of the
+/// exposure, on the monotonic clock. ROS expects the time of the middle of the exposure, on the
+/// system clock, so the time is converted. The times of recorded frames are not changed.
 class Stamps {
   public:
     explicit Stamps(double exposure_us) : half_exposure_ns_(std::llround(exposure_us * 500)) {}
@@ -39,8 +39,9 @@ class Stamps {
 
   private:
     std::int64_t half_exposure_ns_;
-    std::optional<std::int64_t>
-        system_from_monotonic_ns_;  ///< clock difference, computed once to preserve frame intervals
+    /// System time minus monotonic time. Computed only once, to preserve the intervals between
+    /// frames.
+    std::optional<std::int64_t> system_from_monotonic_ns_;
 };
 
 class RobotOutput {

@@ -50,8 +50,9 @@ class SheetEdits {
     /// `undo_text`, such as "move". Returns the new entry.
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
 
-    /// Removes a sheet. Throws Error if it is the only sheet, because a run needs at least one.
-    /// Undoing the removal appends the sheet to the file, but keys unknown to dotpose are lost.
+    /// Removes a sheet. Throws Error if it is the only sheet in the file, because `dotpose watch`
+    /// needs at least one sheet. Undoing the removal appends the sheet to the file, without the
+    /// keys that dotpose does not recognise.
     void remove(const Target& target);
 
     /// Replaces the world poses and print scales of several sheets with the values in `measured`,

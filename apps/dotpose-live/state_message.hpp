@@ -56,7 +56,7 @@ inline constexpr std::string_view kNoPlace = "no_place";
 /// Numbers of refused frames, indexed by Status. The last element is for Status::other.
 using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
 
-/// Frame counts of a robot's camera since the program was started.
+/// Frame rate of a robot's camera, and its frame counts since the robot's program was started.
 struct CameraReport {
     double rate_hz = 0;  ///< mean frame rate since the previous report
     std::uint64_t frames = 0;

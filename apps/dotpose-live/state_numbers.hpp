@@ -43,7 +43,7 @@ class StateNumbers {
     };
     bool is_late(const Sent& sent);
 
-    /// Number of recent states that are checked for repetitions.
+    /// Number of recent states with which each new state is compared, to detect repetitions.
     static constexpr std::size_t kRemembered = 64;
 
     bool is_first_ = true;

@@ -101,8 +101,8 @@ Quaternion rotation_in(const object& values) {
     return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
 }
 
-/// Returns the pose of the tracked camera or, if it is missing, the pose of the camera in the
-/// newest frame. Returns nullopt if the message contains neither pose.
+/// Returns the pose of the tracked camera or, if it is missing, the camera pose that was computed
+/// from the newest frame. Returns nullopt if the message contains neither pose.
 std::optional<CameraInWorld> camera_pose_in(const object& message, double max_m) {
     object values;
     if (message["cameraTrack"].get(values) != simdjson::SUCCESS &&

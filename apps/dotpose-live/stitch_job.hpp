@@ -1,5 +1,5 @@
-/// Measures the relative positions of sheets in a separate thread, using frames from a running
-/// camera.
+/// Measures the relative positions of sheets, using frames from a running camera. The measurement
+/// runs in a separate thread.
 #pragma once
 
 #include <atomic>

@@ -21,8 +21,8 @@ class ThinnedHistory {
 
     std::int64_t states() const { return states_; }
 
-    /// Returns one array for each member of Point, and the number of states for each motion.
-    /// docs/fleet.md describes the value.
+    /// Returns an object with an array for each member of Point and with the number of states for
+    /// each kind of motion. docs/fleet.md describes the value.
     nlohmann::json value() const;
 
   private:
@@ -37,7 +37,7 @@ class ThinnedHistory {
     };
     /// Summary of the states in one time span.
     struct Point {
-        std::int64_t span = 0;       ///< index of the time span
+        std::int64_t span = 0;       ///< index of the time span, 0 for the first span
         std::int64_t time_us = 0;    ///< time of the first state
         std::optional<Place> place;  ///< first known position, or nullopt
         double speed_mm_s = 0;       ///< maximum speed

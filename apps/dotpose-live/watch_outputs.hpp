@@ -69,8 +69,8 @@ class WatchOutputs {
     /// Returns the sheets if the web page or another program has changed them since the previous
     /// call. Returns nullopt if the sheets have not changed or no web page is served.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
-    /// Displays the follower's new sheets. `was_in_world` is true if the earlier poses are in world
-    /// coordinates. If the plane of the poses changes, a new path is started.
+    /// Uses the follower's new sheets for the outputs. `was_in_world` is true if the earlier poses
+    /// are in world coordinates. If the plane of the poses has changed, starts a new path.
     void use_sheets(bool was_in_world);
 
     const WatchTally& tally() const { return tally_; }

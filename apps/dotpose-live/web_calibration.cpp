@@ -62,8 +62,8 @@ json json_of(const CalibrationStatus& status) {
             {"is_taken", status.is_taken}};
 }
 
-/// Returns the mean residuals in the image blocks before and after the calibration. Each list
-/// contains alternating u and v components.
+/// Returns the mean residuals of the image blocks, in one list for the lens before the calibration
+/// and one for the calibrated lens. In each list, u and v components alternate.
 json json_of(const ResidualField& field) {
     json before = json::array();
     json after = json::array();

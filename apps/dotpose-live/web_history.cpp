@@ -29,7 +29,7 @@ struct HistoryRequest {
     double last_s = 0;
     double from_s = 0;
     double to_s = 0;
-    double ask = 0;  ///< changed by the page to request the same time span again
+    double ask = 0;  ///< number that the page changes to repeat a request
     bool operator==(const HistoryRequest&) const = default;
 };
 
@@ -43,8 +43,8 @@ constexpr std::size_t kMaxRobotName = 400;
 constexpr double kMaxSpan_s = 31 * 86'400.0;
 /// Maximum time in a request, in seconds since 1970 (the end of 2099).
 constexpr double kMaxTime_s = 4.1e9;
-/// Maximum number of states that a query reads. At 10 Hz, a robot sends this number of states in 23
-/// days.
+/// Maximum number of states that a query reads. A robot that sends 10 states per second reaches
+/// this number in 23 days.
 constexpr std::int64_t kMaxReadStates = 20'000'000;
 
 double seconds_of(const serve::Command& request, std::string_view key, double max) {

@@ -1,5 +1,5 @@
-/// The topic `history` of the web page of `dotpose fleet --web --store`: the stored states of a
-/// robot.
+/// The topic `history`, which provides the stored states of a robot to the web page of `dotpose
+/// fleet --web --store`.
 ///
 /// A low-priority thread reads the database through its own connection, so the live values on the
 /// page are not delayed.

@@ -17,8 +17,8 @@ namespace dotpose::cli {
 
 class WebRecordings {
   public:
-    /// `messages` describes the robot. Its members `mcap` and `dds` are ignored. `empty` is a
-    /// record without a fix, whose fields determine the columns of the log.
+    /// `messages` describes the robot. Its members `mcap` and `dds` are ignored. The columns of the
+    /// log are the fields of `empty`, which is a record without a fix.
     WebRecordings(std::filesystem::path folder, RobotOutputOptions messages, Record empty);
 
     /// Starts a recording unless one is already running. Creates new files, which are named after

@@ -46,7 +46,8 @@ class WebSheets {
     /// Reads the sheet file. `server` must outlive this object. Throws Error if the file cannot be
     /// read.
     WebSheets(WebSheetsOptions options, serve::Server& server, const SheetTopics& topics);
-    /// Aborts running tasks, but completes a change to the sheet file that has already begun.
+    /// Aborts running tasks. If a change to the sheet file has already begun, completes the change
+    /// first.
     ~WebSheets();
     WebSheets(const WebSheets&) = delete;
     WebSheets& operator=(const WebSheets&) = delete;

@@ -29,7 +29,7 @@ struct WebOptions {
     std::vector<std::string> sources;  ///< names of the frame sources
     std::string recordings = ".";      ///< folder for recordings that are started on the page
     std::string log;                   ///< path of the log that clients may download, or empty
-    RobotOutputOptions messages;       ///< description of the robot for recordings
+    RobotOutputOptions messages;       ///< describes the robot in recordings
     WebSheetsOptions sheets;           ///< `sheets.path` is empty if there is no sheet file
     /// Options for calibration on the web page, or nullopt to disable calibration.
     std::optional<GuideOptions> calibration;
@@ -53,7 +53,7 @@ class WebView {
 
     /// Returns the sheets if they have changed since the previous call, and nullopt otherwise.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
-    /// Displays the follower's new sheets.
+    /// Uses the follower's new sheets for the page and for later calibrations.
     void use_sheets();
     /// Returns the camera that was calibrated on the web page since the previous call, or nullopt.
     std::optional<Camera> take_camera();

@@ -20,7 +20,7 @@ struct PrintMapArguments {
 };
 
 /// Reads all frames, creates or updates the map, and prints a report. After Ctrl-C, stops reading
-/// and makes the map from the frames read so far.
+/// and uses only the frames read so far.
 void make_print_map(const PrintMapArguments& arguments);
 
 }  // namespace dotpose::cli

@@ -11,8 +11,8 @@ namespace dotpose::cli {
 enum class SpacingSource { assumed, option, sheets };
 
 std::string lens_report(const LensCalibration& calibration, SpacingSource source);
-/// Returns one line of text for live calibration. It reports the standard deviation of the position
-/// of the farthest image corner after undistortion.
+/// Returns a one-line report for live calibration. It contains the standard deviation of the
+/// undistorted position of the farthest image corner.
 std::string corner_report(const Camera& camera);
 std::string spin_report(const SpinCalibration& calibration);
 std::string drive_report(const DriveCalibration& calibration);

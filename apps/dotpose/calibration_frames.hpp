@@ -13,8 +13,8 @@ namespace dotpose::cli {
 inline constexpr const char* kMirrored =
     "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
-/// The frames for a calibration: all given images, and up to 50 frames of different places from
-/// each video, camera or raw stream. Images are read on demand. All other frames are kept in
+/// The frames for a calibration: all given images and, from each video, camera or raw stream, up to
+/// 50 frames that show different places. Images are read on demand. The other frames are kept in
 /// memory.
 class CalibrationFrames {
   public:
@@ -29,8 +29,8 @@ class CalibrationFrames {
     /// Returns frame `index`. Throws Error if the image cannot be read.
     GreyImage at(int index) const;
 
-    /// Returns true if one of the first frames is mirrored. Throws Error if an image cannot be
-    /// read.
+    /// Returns true if at least one of the first three frames is mirrored. Throws Error if an image
+    /// cannot be read.
     bool are_mirrored(const CalibrateOptions& options) const;
 
   private:

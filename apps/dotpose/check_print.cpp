@@ -64,7 +64,8 @@ void require_svg(const std::string& path) {
 }
 
 /// Returns true if the scales along x and y are both within 25 % of 1. Printer drivers may cause
-/// such deviations. Larger deviations are probably due to an incorrect scan resolution or spacing.
+/// deviations of this size. Larger deviations are probably due to an incorrect scan resolution or
+/// spacing.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
@@ -100,8 +101,9 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Returns a remark about the maximum shift of the dots due to scaling by the printer driver. The
-/// actual shift cannot be measured, because the scan does not show the edges of the paper.
+/// Returns a remark about the maximum shift of the dots that scaling by the printer driver can
+/// cause. The actual shift cannot be measured, because the scan does not show the edges of the
+/// paper.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
     // Returns the maximum shift of the first dot along one axis. Assumes that the driver scales the
@@ -117,8 +119,8 @@ std::string offset_remark(const SheetEntry& entry) {
         shift_mm(entry.print_scale_y, sheet.origin_y_mm, sheet.height_mm));
 }
 
-/// Writes the measured print scale of each sheet in the scan to its entry in the sheet file, and
-/// returns a report. `PrintField::sheet` is an index into `sheets`.
+/// Writes the measured print scale of each sheet in the scan to the sheet's entry in the sheet
+/// file. Returns a report. `PrintField::sheet` is an index into `sheets`.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
     SheetFile file(system::path_of(path), {.tell = tell, .stop = interrupted});
@@ -189,8 +191,8 @@ void require_apart(const CheckPrintArguments& arguments) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns the part of the error message that explains how a scan with too many pixels can be
-/// checked.
+/// Returns advice on how to check a scan that has too many pixels. The advice is part of an error
+/// message.
 std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution>& resolution,
                        int max_megapixels) {
     const double megapixels = 1e-6 * scan.width_px * scan.height_px;

@@ -75,7 +75,7 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
 }
 
 /// Returns the prefix that identifies a field in the report. It has the form "sheet 'table': ", or
-/// "from cell X,Y on: " if the field is not on a known sheet. Returns an empty string if there is
+/// "from cell X,Y on: " if the sheet of the field is unknown. Returns an empty string if there is
 /// only one field or if `index` has no value.
 std::string about(const CheckedScan& scan, const PrintCheck& check,
                   std::optional<std::size_t> index) {

@@ -16,7 +16,7 @@ struct CheckedScan {
     int pages = 1;  ///< number of pages in the file
     int width_px = 0;
     int height_px = 0;
-    std::vector<SheetEntry> sheets;  ///< same order as in CheckPrintOptions::sheets
+    std::vector<SheetEntry> sheets;  ///< in the order of CheckPrintOptions::sheets
 };
 
 std::string text_report(const CheckedScan& scan, const PrintCheck& check);

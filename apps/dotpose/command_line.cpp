@@ -46,7 +46,8 @@ std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
 }
 
 /// Formats the help in two columns: the option with its value, and the description. The description
-/// ends with the default value and the required or excluded options, in parentheses.
+/// is followed, in parentheses, by the default value and by the options that the option requires or
+/// excludes.
 class HelpFormatter : public CLI::Formatter {
   public:
     HelpFormatter() {

@@ -1,4 +1,5 @@
-/// Commands and their options: a thin wrapper around CLI11 with the same names as in CLI11.
+/// Command-line commands and options: a thin wrapper around CLI11. The member functions have the
+/// same names as in CLI11.
 ///
 /// Only command_line.cpp includes the CLI11 header, because the header adds ten seconds to the
 /// compile time of a source file.
@@ -155,7 +156,7 @@ class Command {
     Command* command_of(CLI::App* app) const;
 
     std::shared_ptr<CLI::App> app_;
-    // Wrappers of CLI11 options and commands, created on first use.
+    // Wrappers around CLI11 options and commands, created on first use.
     mutable std::map<CLI::Option*, Option> options_;
     mutable std::map<CLI::App*, std::unique_ptr<Command>> commands_;
 };

@@ -53,8 +53,8 @@ std::string require_positive(const std::string& text) {
 }
 
 /// Rejects a spacing that was probably given in micrometres or metres instead of millimetres. The
-/// minimum is about ten printer dots at 25,000 dpi. At the maximum, the smallest view that
-/// determines a position, 8 x 8 dots, is 0.8 m wide.
+/// minimum spacing is about ten printer dots at 25,000 dpi. With the maximum spacing, the smallest
+/// view that determines a position, 8 x 8 dots, is 0.8 m wide.
 std::string require_spacing(const std::string& text) {
     constexpr double kMin_mm = 0.01;
     constexpr double kMax_mm = 100;

@@ -13,8 +13,8 @@ inline constexpr const char* kComplete = "__complete";
 
 /// Prints the completions of the last word: commands, options, or values of an option. Each line
 /// contains a completion, a tab and a description. Prints nothing if the word may be a file name or
-/// arbitrary text. For a command of dotpose-live, runs the callback of the command, which starts
-/// dotpose-live.
+/// arbitrary text. If dotpose-live implements the command, runs the callback of the command. The
+/// callback starts dotpose-live.
 void print_completions(Command& app, std::vector<std::string> words);
 
 }  // namespace dotpose::cli

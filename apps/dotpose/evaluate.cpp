@@ -56,8 +56,7 @@ const char* name(PaperProtocol) {
     return "paper";
 }
 
-/// The point to which the poses in truth.csv refer: the image centre, or the reference point of the
-/// robot.
+/// The point whose poses truth.csv contains: the image centre, or the reference point of the robot.
 enum class TruthOf : std::uint8_t { image, robot };
 constexpr std::array kTruths = {TruthOf::image, TruthOf::robot};
 const char* name(TruthOf truth) {
@@ -70,7 +69,7 @@ struct EvaluateArguments {
     std::optional<Preset> preset;
     std::optional<SweepKind> sweep;
     bool protocol = false;
-    ReportArguments report;  ///< with --sweep or --protocol, `out` is a folder
+    ReportArguments report;  ///< `out` is a file, or a folder with --sweep or --protocol
     std::optional<int> frames;
     Setup setup;
     DeviceOptions options;

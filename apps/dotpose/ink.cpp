@@ -72,7 +72,8 @@ InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
 
 /// Reads the pen tip from every row that contains one. Throws Error if there is no such row.
 std::vector<InkSample> read_samples(const InkArguments& arguments) {
-    // No column is required, because the output of `locate` has no time column.
+    // No column is required, not even the time column, because the output of `locate` does not
+    // contain times.
     LogReader log(system::path_of(arguments.log), {});
     std::vector<InkSample> samples;
     std::int64_t index = 0;

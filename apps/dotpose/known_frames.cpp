@@ -29,7 +29,7 @@ bool ends_with(const fs::path& path, const fs::path& end) {
     return last.size() <= all.size() && std::equal(last.rbegin(), last.rend(), all.rbegin());
 }
 
-/// Looks up the true poses of images in truth files. Reads each file only once.
+/// Reads the true poses of images from truth files. Each truth file is read only once.
 class Poses {
   public:
     Poses(std::string given, std::optional<double> spacing_mm)

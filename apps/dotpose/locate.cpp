@@ -211,7 +211,8 @@ class LocateRun {
                                       std::function<bool(Outcome)> pass_on) {
         capture::SourceOptions options = arguments.sources.options;
         // Without a camera file, images of up to kDefaultImagePixels pixels are accepted, because
-        // Follower downscales large images. With a camera file, the image size must match the file.
+        // Follower downscales large images. With a camera file, only images of the size in the file
+        // are accepted.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
         options.tell = tell;
         options.stop = interrupted;
@@ -235,7 +236,7 @@ class LocateRun {
         return true;
     }
 
-    /// Locates the images in several threads, each with its own source and locator.
+    /// Locates the images in several threads, each of which has its own source and locator.
     int in_threads() {
         const std::vector<std::string> images = sources_.all_images();
         const std::size_t threads = arguments_.threads > 0

@@ -1,4 +1,5 @@
-/// The result of `dotpose locate` for one image, and its output line.
+/// The result of `dotpose locate` for one image, and functions that convert the result to an output
+/// line.
 #pragma once
 
 #include <array>
@@ -83,8 +84,8 @@ std::string csv_header(const Follower& follower, Units units, Columns columns);
 /// has.
 Record empty_record(const Follower& follower);
 
-/// Returns one line of text: file, sheet, x, y and angle with their standard deviations, and the
-/// place in the world. If there is no fix, the line contains the reason.
+/// Returns one line of text: the file, the sheet, the pose (x, y and angle) with its standard
+/// deviations, and the place in the world. If there is no fix, the line contains the reason.
 std::string text_line(const Record& record, Units units);
 
 }  // namespace dotpose::cli

@@ -20,7 +20,7 @@ std::string with_deviation(double value, double sigma, int decimals, const std::
     return fmt::format("{}{} {}", decimal(value, decimals), deviation, unit);
 }
 
-/// Formats x, y and the angle of `pose`, which is in mm and rad, with their standard deviations.
+/// Formats x, y and the angle of `pose`, with their standard deviations. `pose` is in mm and rad.
 std::string pose_text(PlanePose pose, Units units) {
     const bool is_ros = units == Units::ros;
     if (is_ros) pose = with_other_y(pose);

@@ -60,8 +60,8 @@ std::optional<ros::PlanarCovariance> covariance_in(const LogCells& row,
     return covariance;
 }
 
-/// Returns the pose and the velocities in a row. The log contains a single standard deviation for
-/// the velocity, which is used for both components.
+/// Returns the pose and the velocities in a row. The log contains one standard deviation for the
+/// velocity. It is used for both components.
 ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
                             const PoseColumns& columns) {
     const auto value = [&row](const char* column) { return row.number(column).value_or(0); };
@@ -88,10 +88,10 @@ ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
 
 /// Column names of a camera pose in space, without their prefix.
 struct SpaceColumns {
-    std::string_view unit;  ///< suffix of the column names of x, y and z
+    std::string_view unit;  ///< unit of x, y and z, which is the suffix of their column names
     std::string_view rotation;
     std::string_view covariance;
-    double angle_rad;  ///< angle unit of the covariance, in radians
+    double angle_rad;  ///< size of the angle unit of the covariance, in radians
 };
 
 constexpr SpaceColumns kSpaceInWorld = {"m", "quaternion_world_xyzw", "covariance_m_rad", 1};
@@ -132,8 +132,8 @@ std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     return space_pose_in(row, "camera_", is_in_world);
 }
 
-/// Returns the motion of the tracked camera. The log contains a single standard deviation for the
-/// velocity and one for the angular velocity. Each of them is used for all three components.
+/// Returns the motion of the tracked camera. The log contains one standard deviation for the
+/// velocity, and one for the angular velocity. Each is used for all three components.
 std::optional<CameraMotion> camera_motion_in(const LogCells& row, bool is_in_world) {
     const auto pose = space_pose_in(row, "camera_track_", is_in_world);
     if (!pose) return std::nullopt;

@@ -1,4 +1,5 @@
-/// Converts the rows of a log written by `dotpose watch --log` to robot states for ROS messages.
+/// Converts log rows to robot states, from which ROS messages are made. The logs are written by
+/// `dotpose watch --log`.
 #pragma once
 
 #include "dotpose/tools/robot_messages.hpp"

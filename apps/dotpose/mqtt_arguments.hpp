@@ -1,4 +1,4 @@
-/// Command-line options for the MQTT broker in `watch`, `listen` and `fleet`.
+/// Command-line options of the commands `watch`, `listen` and `fleet` for the MQTT broker.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace dotpose::cli {
 
 struct MqttArguments {
-    std::string url;  ///< empty for no broker
+    std::string url;  ///< URL of the broker, or empty for none
     std::string ca_file;
     int qos = 0;
 

@@ -11,8 +11,8 @@ bool NewPlaces::take(const Fix& fix, ImageView image) {
     constexpr double kShareOfView = 0.25;
     constexpr double kTurn_rad = 15 * std::numbers::pi / 180;
     constexpr double kScale = 0.1;
-    // Minimum distance between the centres of two frames, in spacings. Frames that are closer show
-    // the same dots at almost the same pixels.
+    // Minimum distance between the centres of two frames, in spacings. Frames whose centres are
+    // closer show the same dots at almost the same pixels.
     constexpr double kMin_grid = 2;
     const Place here{fix.x_grid(), fix.y_grid(), fix.theta_rad(), fix.spacing_px(), fix.section};
     const double view_grid = std::min(image.width_px, image.height_px) / here.spacing_px;

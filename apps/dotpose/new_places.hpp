@@ -1,5 +1,5 @@
-/// Selects calibration frames that show new places on a sheet. Further frames of the same place add
-/// little information.
+/// Selects calibration frames that show new places on a sheet. Further frames of a place that is
+/// already covered add little information.
 #pragma once
 
 #include <cstddef>

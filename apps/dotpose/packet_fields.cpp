@@ -24,7 +24,7 @@ std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Un
 /// the standard deviations along x and y.
 Field deviation_field(const PosePacket& packet, double spacing_mm, Units units) {
     const double sigma_mm = packet.deviation_q12 * spacing_mm / 4096;
-    // 255 means that the deviation is unknown or too large for the packet.
+    // 255 means that the standard deviation is unknown, or too large for the packet.
     const bool is_known = packet.status == Status::ok && packet.deviation_q12 < 255;
     if (units == Units::ros) return {"sigma_m", is_known ? metres(sigma_mm) : ""};
     return {"sigma_mm", is_known ? decimal(sigma_mm, 6) : ""};

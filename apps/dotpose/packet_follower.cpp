@@ -25,7 +25,8 @@ Fix fix_of(const PosePacket& packet) {
     return fix;
 }
 
-/// Sets a diagonal covariance for a fix, based on the deviation in the packet.
+/// Sets the covariance of a fix to a diagonal matrix, computed from the standard deviation in the
+/// packet.
 void set_covariance(const PosePacket& packet, Fix& fix) {
     // For the smallest view, 8 x 8 dots, the standard deviation of the angle in rad is sqrt(6) / 8
     // times the standard deviation of the position in spacings. With more dots, the angle is more

@@ -1,4 +1,4 @@
-/// Tracks a robot from the pose packets that its device sends.
+/// Tracks a robot, using the pose packets that a device on the robot sends.
 #pragma once
 
 #include <cstdint>

@@ -68,8 +68,8 @@ GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     });
 }
 
-/// Returns the spacing of the dots in px if the pattern can only be read after enlarging the image,
-/// and none otherwise.
+/// Returns the spacing of the dots in px if the pattern can be read only in an enlarged image, and
+/// none otherwise.
 std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
@@ -114,8 +114,8 @@ GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& s
     });
 }
 
-/// Returns the tilt of the sheet in degrees if the pattern can only be read after stretching the
-/// image, and none otherwise.
+/// Returns the tilt of the sheet in degrees if the pattern can be read only in a stretched image,
+/// and none otherwise.
 std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& options,
                                          LargeMemory& scratch) {
     constexpr int kMiddle_px = 480;
@@ -157,8 +157,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
 }
 
 /// Returns the mean squared second difference of the grey levels. The second difference at a pixel
-/// is the difference between the pixel and the mean of its two neighbours at distance `step_px` on
-/// opposite sides. Noise contributes equally at all distances, and linear brightness gradients
+/// is its grey level minus the mean grey level of two pixels on opposite sides, at a distance of
+/// `step_px`. Noise contributes the same amount at any distance, and linear brightness gradients
 /// contribute nothing.
 double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
@@ -217,7 +217,8 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
-    blobs.effort = Effort::device;  // with this effort, the trace contains the blob grid
+    // Only with this effort does the trace contain the grid of blobs.
+    blobs.effort = Effort::device;
     blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
         if (std::min(image.width_px, image.height_px) / by < kMinFrameSide_px) break;
@@ -248,9 +249,9 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Returns the advice to specify the code if the position is certain in one of the codes.
-/// Otherwise, returns an empty string. If the code is not given, the only reason for the
-/// uncertainty may be that positions in other codes are also possible.
+/// If the position is certain when only one of the codes is tried, returns the advice to specify
+/// this code. Otherwise, returns an empty string. If the code is not given, a position may be
+/// uncertain only because positions in other codes are also possible.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
@@ -291,8 +292,8 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
             "the sheet is tilted too much, by about {:.0f} degrees: look straight down on it",
             *tilt_degrees);
     }
-    // In videos with sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel
-    // (docs/live.md). The limit below includes a margin.
+    // Minimum number of bits per pixel of a video, with a margin. If the frames are sharp, H.264
+    // and HEVC begin to lose dots at 0.1 bits per pixel (docs/live.md).
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(

@@ -93,7 +93,8 @@ std::vector<Field> fields(const Reading& reading, Units units) {
         {"frame", fmt::format("{}", reading.index)},
         {"t_s", decimal(static_cast<double>(reading.time_us) * 1e-6, 6)},
     };
-    all.insert(all.begin() + 1, time.begin(), time.end());  // `all` begins with the schema version
+    // Inserts the fields after the schema version, which is the first field.
+    all.insert(all.begin() + 1, time.begin(), time.end());
     append(all, track_fields(reading.track, reading.plane, units));
     if (!reading.record.has_space) return all;
     append(all, space_track_fields(reading.space_track.value_or(SpaceTrack{}),

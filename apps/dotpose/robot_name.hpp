@@ -1,5 +1,5 @@
-/// Options for the name of a robot, which appears in MQTT topics and ROS names, and for the prefix
-/// of its coordinate frames in ROS.
+/// The option --robot sets the name of a robot, which appears in MQTT topics and ROS names. The
+/// option --frame-prefix sets the prefix of the robot's coordinate frames in ROS.
 #pragma once
 
 #include <string>

@@ -46,10 +46,10 @@ class RunFiles {
     void reads(const std::string& option, const std::string& path);
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
-    /// Registers an output. Rejects the file extension of an image or video if it does not match
-    /// `content`. This check prevents a common mistake: in `-o frames/*.png` without an output
-    /// name, the shell expands the glob, and -o would overwrite the first frame. The path "-" means
-    /// standard output for `-o` and is rejected for other options.
+    /// Registers an output. Rejects a path with the file extension of an image or video, unless the
+    /// extension matches `content`. This check prevents a common mistake: if the output name is
+    /// missing, as in `-o frames/*.png`, the shell expands the glob, and -o would overwrite the
+    /// first frame. The path "-" means standard output for `-o` and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
     /// Registers the destination of the output lines: the file given to -o, or standard output if

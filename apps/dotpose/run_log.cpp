@@ -112,7 +112,8 @@ std::optional<LogCells> LogReader::next_row() {
     std::string line;
     if (!files::next_line(file_, line)) return std::nullopt;
     ++line_;
-    if (file_.eof()) return std::nullopt;  // a line without a line break is incomplete
+    // Ignores a last line without a line break, because it is incomplete.
+    if (file_.eof()) return std::nullopt;
     if (is_json_) return row_of_json(line);
     auto cells = cells_of(line);
     if (cells.size() != width_) {
@@ -199,7 +200,9 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const double step_s = row.t_s - before.t_s;
         if (row.state == "stationary") {
             run.stationary_s += step_s;
-            continue;  // the measured motion of a stationary robot is only noise
+            // Does not add the step to the path, because the measured motion of a stationary robot
+            // is only noise.
+            continue;
         }
         moving_s += step_s;
         run.distance_mm += std::hypot(*row.x_mm - *before.x_mm, *row.y_mm - *before.y_mm);

@@ -20,7 +20,7 @@
 
 namespace dotpose::cli {
 
-/// A row of a log, with access to its cells by column name.
+/// A row of a log. The cells are accessed by column name.
 class LogCells {
   public:
     /// Maps the name of each column to the index of its cell in a row.
@@ -91,7 +91,7 @@ struct LogRow {
     std::string plane;  ///< pattern or world, or empty if the robot is lost
     int dots_seen = 0;
     std::optional<double> p_wrong;
-    // Position and speed of the track. There is no position if the robot is lost.
+    // Position and speed of the robot, as tracked. There is no position while the robot is lost.
     std::optional<double> x_mm;
     std::optional<double> y_mm;
     double speed_mm_s = 0;
@@ -107,7 +107,7 @@ struct RunStatistics {
     std::int64_t fixes = 0;
     double duration_s = 0;
     std::map<std::string, std::int64_t> without_fix;  ///< number of frames without a fix, by status
-    std::map<std::string, std::int64_t> events;       ///< number of events by name
+    std::map<std::string, std::int64_t> events;       ///< number of events of each kind, by name
     std::map<std::string, std::int64_t> verdicts;
     std::int64_t gaps = 0;  ///< number of periods without a fix
     double longest_gap_s = 0;
@@ -121,8 +121,8 @@ struct RunStatistics {
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);
 
-/// Draws an SVG with the path and with plots of speed, dots and certainty over time. The plots mark
-/// periods without a fix.
+/// Draws an SVG with the path, and with plots of the speed, the number of dots and the certainty
+/// over time. Periods without a fix are marked in the plots.
 std::string draw_run(const std::vector<LogRow>& rows, const std::string& title);
 
 }  // namespace dotpose::cli

@@ -36,10 +36,11 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     return path;
 }
 
-/// Returns the offset in mm to subtract from the coordinates along an axis. If the axis is far from
-/// the origin compared with its length, as in the pattern frame, its labels would differ only in
-/// their last digits. In this case, the offset is the coordinate of the axis centre (`middle_mm`),
-/// rounded to whole mm. Otherwise, the offset is 0. `reach_mm` is half the length of the axis.
+/// Returns the offset in mm to subtract from the coordinates along an axis. If the coordinates
+/// along the axis are large compared with the length of the axis, as they are in the pattern frame,
+/// the labels of the axis would differ only in their last digits. In this case, the offset is the
+/// coordinate of the axis centre (`middle_mm`), rounded to whole mm. Otherwise, the offset is 0.
+/// `reach_mm` is half the length of the axis.
 double offset_mm(double middle_mm, double reach_mm) {
     constexpr double kMaxReaches = 1000;
     return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;

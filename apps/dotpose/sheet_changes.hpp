@@ -25,13 +25,13 @@ SheetEntry placed(SheetEntry entry, const std::optional<PagePose>& pose);
 /// Returns the world pose of an entry, or none if it is unknown.
 std::optional<PagePose> page_pose(const SheetEntry& entry);
 
-/// Option values for the directions in which a length on a page can be measured.
+/// Names of the directions in which a length on a page can be measured, as used in options.
 inline const std::vector<std::string> kDirections = {"x", "y", "both"};
 
 /// A length measured on a printed page.
 struct MeasuredLength {
     double measured_mm = 0;
-    double nominal_mm = 0;       ///< intended length
+    double nominal_mm = 0;       ///< length with a print scale of 1
     std::string along = "both";  ///< one of `kDirections`
 };
 

@@ -47,7 +47,8 @@ std::string pdf_name(const std::string& sheet) {
     for (std::size_t at = name.find_first_not_of(kPlain); at != std::string::npos;
          at = name.find_first_not_of(kPlain, at))
         name[at] = '_';
-    // A name that starts with a hyphen would be parsed as an option.
+    // Replaces a leading hyphen, because a name that starts with a hyphen would be parsed as an
+    // option.
     if (name.starts_with('-')) name.front() = '_';
     return name + ".pdf";
 }

@@ -12,7 +12,7 @@ namespace dotpose::cli {
 /// therefore wider than the margin in other formats, except on small pages.
 double default_margin_mm(PrintFormat format, const Paper& paper);
 
-/// Returns the file name for the PDF of a sheet, without special characters.
+/// Returns a file name for the PDF of a sheet. The name contains no special characters.
 std::string pdf_name(const std::string& sheet);
 
 /// A page to be printed as a PDF.

@@ -13,8 +13,8 @@ namespace dotpose::cli {
 /// printed over a document, because the entry does not contain the document.
 PrintOptions reprint_options(const SheetEntry& entry);
 
-/// Reprints the page of a sheet from its entry. Warns if the entry does not contain the print
-/// options. Throws the same errors as `reprint_options` and `write_sheet`.
+/// Reprints the page of a sheet, using the sheet's entry in the sheet file. Warns if the entry does
+/// not contain the print options. Throws the same errors as `reprint_options` and `write_sheet`.
 void reprint_sheet(const SheetEntry& entry, const std::string& out);
 
 }  // namespace dotpose::cli

@@ -148,7 +148,8 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
 
 /// True pose of a simulated frame, and the pattern that the frame shows.
 struct Truth {
-    std::optional<CameraPose> pose;  ///< none for a scene, or if the camera is between sheets
+    /// None if the frame shows a scene, or if the image centre is between sheets.
+    std::optional<CameraPose> pose;
     Pattern pattern;
 };
 

@@ -52,8 +52,8 @@ PageArea page_area(const SheetEntry& entry) {
             (last.x - first.x) / 2, (last.y - first.y) / 2, 0};
 }
 
-/// Returns the radius, in mm, of the circle around the image centre that encloses the field of
-/// view.
+/// Returns the radius, in mm on the paper, of the smallest circle around the image centre that
+/// contains the whole image.
 double reach_mm(const CameraModel& camera) {
     return std::hypot(camera.width_px, camera.height_px) / 2 * camera.mm_per_px;
 }
@@ -71,7 +71,8 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
         sheets_.push_back(sheets.front());
         sheets_.front().world = WorldPose{};
     }
-    // The robot moves along the x axis of the image, so the scene moves along -x.
+    // Sets the motion blur. The robot moves along the x axis of the image, so the scene moves along
+    // -x.
     imperfections_.motion_px = {-options.speed_mm_s * kExposure_s / camera.mm_per_px, 0};
     lay_path();
 }

@@ -1,4 +1,4 @@
-/// A simulated robot with a camera, which drives over the sheets in a sheet file.
+/// A simulated robot that carries a camera and drives over the sheets in a sheet file.
 #pragma once
 
 #include <cstdint>

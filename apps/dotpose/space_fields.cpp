@@ -58,7 +58,7 @@ void append_rotation(const std::string& name, const Quaternion& q, std::vector<F
     }
 }
 
-/// Appends the 36 fields of a covariance. `angle` is the number of output units per radian.
+/// Appends the 36 fields of a covariance. `angle` is the number of output angle units per radian.
 void append_covariance(const std::string& name, double angle, const SpaceCovariance& covariance,
                        std::vector<Field>& fields) {
     for (std::size_t i = 0; i < 6; ++i) {

@@ -13,9 +13,9 @@
 
 namespace dotpose::cli {
 
-/// Returns the fields for a pose in space and its second solution. All field names begin with
-/// `camera_`. If `has_sheets` is true, also returns the fields for the pose on the sheet and in the
-/// world. If there is no pose, the values are empty.
+/// Returns the fields for a pose in space, including those for the second solution. All field names
+/// begin with `camera_`. If `has_sheets` is true, also returns the fields for the pose on the sheet
+/// and in the world. If there is no pose, the values are empty.
 std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 const std::optional<SheetPlace>& place, bool has_sheets,
                                 Units units);

@@ -28,7 +28,7 @@ void tell_failure(std::string_view message);
 /// NO_COLOR (no-color.org) or TERM=dumb.
 bool wants_colour(std::FILE* stream);
 
-/// Colours the prefixes of report lines that contain a fault, a note, a warning or a verdict.
+/// Colours the prefix of each report line that states a fault, a note, a warning or a verdict.
 std::string in_colour(const std::string& report);
 
 /// Returns the report, with colours if standard output supports them.

@@ -36,7 +36,7 @@ std::vector<std::string> long_options(const Command& command) {
     return names;
 }
 
-/// Returns the unknown words on a command line, starting with the words that look like options.
+/// Returns the unknown words on a command line. The words that look like options come first.
 std::vector<std::string> unknown_words(const Command& command) {
     std::vector<std::string> words = command.remaining();
     std::erase(words, "--");
@@ -56,7 +56,7 @@ std::string unknown_to(const Command& command, const std::string& word) {
                        did_you_mean(option, long_options(command)));
 }
 
-/// Returns the parsed commands as text, such as "dotpose sheets list".
+/// Returns the name of the program and of the parsed commands, such as "dotpose sheets list".
 std::string parsed_commands(const Command& app) {
     std::string words = "dotpose";
     for (const Command* command = &app; !command->get_parsed_subcommands().empty();) {

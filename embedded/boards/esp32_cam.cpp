@@ -21,7 +21,8 @@ namespace {
 
 constexpr int kWidth_px = board::kMaxWidth_px;
 constexpr int kHeight_px = board::kMaxHeight_px;
-/// A short, fixed exposure avoids motion blur. Try 20 to 200 sensor rows.
+/// Exposure time, in units of sensor rows. A short, fixed exposure avoids motion blur. Try 20 to
+/// 200 rows.
 constexpr int kExposure_rows = 60;
 /// Approximate number of sensor rows per frame in CIF mode, which the driver uses for QVGA.
 /// Includes the blanking rows between frames.
@@ -29,7 +30,8 @@ constexpr int kRowsPerFrame = 336;
 
 camera_fb_t* frame = nullptr;
 const std::uint8_t* row = nullptr;
-std::int64_t middle_of_exposure_us = 0;  ///< relative to the driver's time stamp
+/// Time from the driver's time stamp of a frame to the middle of the exposure.
+std::int64_t middle_of_exposure_us = 0;
 
 camera_config_t wiring() {
     camera_config_t config{};
@@ -57,8 +59,8 @@ std::int64_t stamp_us(const camera_fb_t& of) {
     return of.timestamp.tv_sec * std::int64_t{1'000'000} + of.timestamp.tv_usec;
 }
 
-/// Returns the time from one frame to the next. This is the shortest of several measured times,
-/// because the driver may skip frames.
+/// Returns the time from one frame to the next. Measures several of these times and returns the
+/// shortest one, because the driver may skip frames.
 std::int64_t frame_period_us() {
     std::int64_t shortest_us = 1'000'000;
     std::int64_t last_us = 0;
@@ -83,9 +85,11 @@ void set_up() {
     config.pixel_format = PIXFORMAT_GRAYSCALE;
     config.frame_size = FRAMESIZE_QVGA;
     config.fb_count = 2;
-    // QVGA frames fit into the internal RAM, which is faster than external PSRAM.
+    // The frames are stored in the internal RAM, which is large enough for QVGA frames and faster
+    // than external PSRAM.
     config.fb_location = CAMERA_FB_IN_DRAM;
-    // After a pause, the driver returns the newest frame instead of the oldest queued frame.
+    // With this mode, the driver returns the newest frame after a pause, instead of the oldest
+    // queued frame.
     config.grab_mode = CAMERA_GRAB_LATEST;
     while (esp_camera_init(&config) != ESP_OK)
         vTaskDelay(pdMS_TO_TICKS(500));

@@ -80,8 +80,8 @@ void set_up() {
 }
 
 /// Reads the pixels of the captured frame, column by column from the lower left corner. Each byte
-/// contains six bits of the grey level. This order has not been verified on a real sensor. If
-/// frames have the status `mirrored`, reverse the columns.
+/// contains the upper six bits of a grey level. The order of the pixels has not been verified on a
+/// real sensor. If frames have the status `mirrored`, reverse the columns.
 void read_pixels() {
     gpio_put(kSelect, false);
     transfer(kPixelBurst);
@@ -93,7 +93,7 @@ void read_pixels() {
         }
     }
     gpio_put(kSelect, true);
-    sleep_us(4);  // minimum time to end the burst
+    sleep_us(4);  // minimum time for which the sensor must be deselected to end the burst
 }
 
 }  // namespace
@@ -108,8 +108,8 @@ Frame start_frame(std::int64_t not_before_us) {
         sleep_until(from_us_since_boot(static_cast<std::uint64_t>(not_before_us)));
     write(kFrameCapture, kCapture);
     sleep_us(kCapture_us);
-    // The sensor captures the third frame after the command. The exposure of that frame ends at
-    // about this point.
+    // The sensor captures the third frame after the command. The exposure of this frame has just
+    // ended.
     const auto time_us = static_cast<std::int64_t>(time_us_64());
     read_pixels();
     next = 0;

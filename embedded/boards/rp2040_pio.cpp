@@ -50,7 +50,7 @@ struct Setting {
 // 12.5 MHz clock, and a short, fixed exposure.
 constexpr Setting kSettings[] = {
     {0x12, 0x10},                                            // COM7: QVGA, YUV
-    {0x0C, 0x04}, {0x3E, 0x19}, {0x70, 0x3A}, {0x71, 0x35},  // scaling by 2, which also halves PCLK
+    {0x0C, 0x04}, {0x3E, 0x19}, {0x70, 0x3A}, {0x71, 0x35},  // halves the image size and PCLK
     {0x72, 0x11}, {0x73, 0xF1}, {0xA2, 0x02}, {0x17, 0x16}, {0x18, 0x04}, {0x32, 0x80},  // window
     {0x19, 0x02}, {0x1A, 0x7A}, {0x03, 0x0A}, {0x13, 0x84},  // COM8: automatic gain, fixed exposure
     {0x10, 0x08}, {0x07, 0x00},                              // exposure, in units of 4 rows
@@ -106,8 +106,8 @@ void set_up_pio() {
 void set_up_dma() {
     for (int& channel : channels)
         channel = dma_claim_unused_channel(true);
-    // The state machine shifts to the right, so each grey byte is the most significant byte of its
-    // FIFO word.
+    // The address of the grey byte in a FIFO word. The state machine shifts to the right, so this
+    // is the most significant byte.
     const volatile void* source = reinterpret_cast<volatile std::uint8_t*>(&pio0->rxf[machine]) + 3;
     for (int i = 0; i < 2; ++i) {
         const auto channel = static_cast<uint>(channels[i]);
@@ -161,7 +161,7 @@ Frame start_frame(std::int64_t not_before_us) {
         dma_channel_set_write_addr(static_cast<uint>(channels[i]), rows[i], false);
     if (not_before_us > 0)
         sleep_until(from_us_since_boot(static_cast<std::uint64_t>(not_before_us)));
-    // The frame begins when VSYNC falls.
+    // Waits until VSYNC falls, which marks the beginning of a frame.
     while (!gpio_get(kVsync))
         tight_loop_contents();
     while (gpio_get(kVsync))
@@ -170,8 +170,8 @@ Frame start_frame(std::int64_t not_before_us) {
     pio_sm_set_enabled(pio0, machine, true);
     for (int row = 0; row < kTop; ++row)
         next_row();
-    // A row arrives at about the end of its exposure. The time of the frame is the time of its
-    // middle row, which arrives half a frame after the first row.
+    // The time of the frame is the time at which its middle row will arrive, half a frame after the
+    // first row. A row arrives at about the end of its exposure.
     constexpr std::int64_t kRow_us = 66'667 / 510;
     return {kWidth_px, kHeight_px,
             static_cast<std::int64_t>(time_us_64()) + kRow_us * kHeight_px / 2};

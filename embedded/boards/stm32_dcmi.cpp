@@ -23,12 +23,12 @@ constexpr std::uint32_t kCameraWidth_px = 376;
 constexpr std::uint32_t kCameraHeight_px = 240;
 constexpr std::uint32_t kWidth_px = board::kMaxWidth_px;
 constexpr std::uint32_t kHeight_px = board::kMaxHeight_px;
-/// Time from the end of VSYNC to the middle of the exposure. Negative for global shutters, whose
+/// Time from the VSYNC interrupt to the middle of the exposure. Negative for global shutters, whose
 /// exposure precedes the readout.
 constexpr std::int64_t kMiddleOfExposure_us = -500;
 
 alignas(4) std::uint8_t rows[2][kWidth_px];
-volatile std::uint32_t rows_filled = 0;  // incremented by the interrupt callback
+volatile std::uint32_t rows_filled = 0;  // number of rows that DMA has written
 volatile bool has_begun = false;
 std::uint32_t rows_read = 0;
 
@@ -44,7 +44,7 @@ std::int64_t now_us() {
 }
 
 void set_up() {
-    // The HAL expects each size minus one.
+    // The HAL expects the width and the height of the crop minus one.
     HAL_DCMI_ConfigCrop(&hdcmi, (kCameraWidth_px - kWidth_px) / 2,
                         (kCameraHeight_px - kHeight_px) / 2, kWidth_px - 1, kHeight_px - 1);
     HAL_DCMI_EnableCrop(&hdcmi);
@@ -73,7 +73,8 @@ Frame start_frame(std::int64_t not_before_us) {
     has_begun = false;
     HAL_DCMI_Start_DMA(&hdcmi, DCMI_MODE_SNAPSHOT, reinterpret_cast<std::uint32_t>(rows),
                        sizeof rows / 4);
-    // The HAL disables these interrupts at the end of a snapshot.
+    // Enables the interrupts for each frame, because the HAL disables them at the end of a
+    // snapshot.
     __HAL_DCMI_ENABLE_IT(&hdcmi, DCMI_IT_LINE | DCMI_IT_VSYNC);
     while (!has_begun) {
     }

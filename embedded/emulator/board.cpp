@@ -22,7 +22,7 @@ std::int32_t camera = -1;
 std::int64_t frames_taken = 0;
 int width_px = 0;
 
-// Two row buffers, as with DMA: one is read while the other is filled.
+// Two row buffers, as on a board with DMA: the program reads one while the camera fills the other.
 alignas(4) std::array<std::array<std::uint8_t, board::kMaxWidth_px>, 2> rows;
 int filled = 0;
 

@@ -1,5 +1,6 @@
 // Runs the firmware program on a desktop. The devices must print the same lines. With --predict,
-// adds predictions to a file of frames. The devices then track these frames.
+// writes a file of frames in which each frame is preceded by a prediction, so the devices track the
+// frames.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -41,8 +42,8 @@ class Predictor {
   public:
     explicit Predictor(std::uint64_t seed) : rng_(seed) {}
 
-    /// Locates `image`. On success, writes a prediction with an error of up to half a spacing and 4
-    /// degrees, and then the image.
+    /// Locates `image`. If this succeeds, writes a prediction that is wrong by up to half a spacing
+    /// and 4 degrees, and then the image.
     void write(const dotpose::GreyImage& image) {
         using namespace dotpose;
         const DeviceOptions options = program_options();
@@ -73,7 +74,8 @@ class Predictor {
     dotpose::DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory_;
 };
 
-/// Writes the located frames from a file to standard output, each preceded by a prediction.
+/// Reads the frames in a file. If a frame can be located, writes a prediction and the frame to
+/// standard output.
 int predict(const char* path, std::uint64_t seed) {
     if (!host::open(path)) return 1;
     Predictor predictor(seed);

@@ -15,8 +15,8 @@ enum class Call : std::uint32_t {
     exit = 0x20,
 };
 
-/// File modes as in fopen. The file ":tt" is the console: standard output if it is opened for
-/// writing, and standard error if it is opened for appending.
+/// File modes, with the same meanings as in fopen. The file ":tt" is the console: standard output
+/// if it is opened for writing, and standard error if it is opened for appending.
 inline constexpr std::uint32_t kRead = 1;
 inline constexpr std::uint32_t kWrite = 4;
 inline constexpr std::uint32_t kAppend = 8;
@@ -27,7 +27,7 @@ inline std::int32_t call(Call number, const void* arguments) {
     register auto a0 asm("a0") = static_cast<std::int32_t>(number);
     register const void* a1 asm("a1") = arguments;
     // The instructions before and after the breakpoint mark it as a semihosting call. The alignment
-    // ensures that all three instructions are in one page.
+    // ensures that all three instructions are in the same page.
     asm volatile(
         ".balign 16\n .option push\n .option norvc\n"
         "slli x0, x0, 0x1f\n ebreak\n srai x0, x0, 7\n .option pop"

@@ -1,4 +1,4 @@
-/// Fix: the pose computed from one frame, with the evidence for it.
+/// Fix: the pose computed from one frame, and the evidence that the pose is correct.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// The attempt of `locate` that produced a fix. Each attempt is implemented in a file of its own in
-/// src/locate or src/device.
+/// The attempt of `locate` that produced a fix. src/locate and src/device contain one source file
+/// for each attempt.
 enum class Attempt : std::uint8_t {
     tracked,  ///< the dots were measured at their predicted positions
     first,    ///< the grid was found in patches of the image, without a prediction
@@ -37,7 +37,7 @@ enum class Surface : std::uint8_t {
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;
 
-/// The set of places that `p_wrong_log2` assumes to be possible.
+/// The set of places that are assumed to be possible when `p_wrong_log2` is computed.
 enum class Prior : std::uint8_t {
     plane,   ///< all places of the code
     sheets,  ///< places on the known sheets, after the bits of the frame ruled out other sheets
@@ -61,12 +61,12 @@ struct Fix {
 
     /// Nearest intersection above and to the left of the reference point.
     Cell cell;
-    std::uint16_t fraction_x_q16 = 0;  ///< distance from `cell` to the right, in 1/65536 spacing
-    std::uint16_t fraction_y_q16 = 0;  ///< distance from `cell` downwards, in 1/65536 spacing
+    std::uint16_t fraction_x_q16 = 0;  ///< x offset from `cell`, in units of 2^-16 spacings
+    std::uint16_t fraction_y_q16 = 0;  ///< y offset from `cell`, in units of 2^-16 spacings
     /// Angle `theta` as a binary angle in [-2^31, 2^31), where 2^31 is half a turn.
     std::int32_t theta_bam = 0;
     Section section;                  ///< section in which the position was read
-    std::int32_t spacing_px_q16 = 0;  ///< grid spacing in the image, in 2^-16 px
+    std::int32_t spacing_px_q16 = 0;  ///< grid spacing in the image, in units of 2^-16 px
     /// Spacing of the printed grid, from the options. 0 if unknown.
     std::int32_t spacing_nm = 508'000;
 
@@ -90,7 +90,7 @@ struct Fix {
     /// contains the same map.
     PlaneFromImage pattern_from_image;
     Place place;  ///< origin of `pattern_from_image`
-    /// Typical distance of a dot from its intersection, in 2^-16 spacing.
+    /// Typical distance between a dot and its intersection, in units of 2^-16 spacings.
     std::int32_t displacement_q16 = 0;
     /// Change of theta during the readout of a rolling shutter, from the first to the last row. 0
     /// if the frame shows no significant rotation. The pose and `pattern_from_image` refer to the

@@ -15,7 +15,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Printed rectangle of the code plane.
+/// A rectangle of the code plane that is printed on a sheet.
 struct KnownRegion {
     CodeVariant code = CodeVariant::anoto;
     Section section;

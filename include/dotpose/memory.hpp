@@ -1,6 +1,6 @@
-/// Fixed-size memory for a Locator or DeviceLocator, which reuses it for each frame. The caller
-/// owns the memory, unless a Locator allocates it. The memory may be static, on the heap, or on a
-/// sufficiently large stack. The contents are private to the core.
+/// Fixed-size memory for a Locator or DeviceLocator. The locator reuses the memory for each frame.
+/// The caller owns the memory, unless a Locator allocates it. The memory may be static, on the
+/// heap, or on a sufficiently large stack. The contents are private to the core.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct DeviceWorkspace;
 struct DesktopWorkspace;
 }  // namespace core
 
-/// Base class of DeviceMemoryFor, independent of the frame size.
+/// Base class of all DeviceMemoryFor classes. It does not depend on the frame size.
 class AnyDeviceMemory {
   public:
     AnyDeviceMemory(const AnyDeviceMemory&) = delete;
@@ -44,10 +44,11 @@ class AnyDeviceMemory {
     friend class DeviceLocator;
 };
 
-/// Memory for a DeviceLocator whose sensor has Width x Height px. The end of this header lists the
-/// supported sizes. Frames may be smaller. The memory for 36 x 36 px is intended for the sensors of
-/// optical mice, whose frames can be located only on known sheets (DeviceLocator::set_known).
-/// Memory for a width of 160 or 188 px also supports frames with more rows than Height.
+/// Memory for a DeviceLocator that processes frames of Width x Height px. The end of this header
+/// lists the supported sizes. Frames may be smaller. The memory for 36 x 36 px is intended for the
+/// sensors of optical mice, whose frames can be located only on known sheets
+/// (DeviceLocator::set_known). Memory for a width of 160 or 188 px also supports frames with more
+/// rows than Height.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:
@@ -60,8 +61,8 @@ class DeviceMemoryFor : public AnyDeviceMemory {
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory for a Locator whose images are up to 188 px wide, the width of the paper's sensor. Its
-/// size is about 330 KB.
+/// Memory for a Locator that processes images up to 188 px wide, the width of the sensor in the
+/// paper. The memory has a size of about 330 KB.
 class SmallMemory {
   public:
     SmallMemory();
@@ -75,7 +76,8 @@ class SmallMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory for a Locator whose images have up to 4096 x 4096 px. Its size is about 4.4 MB.
+/// Memory for a Locator that processes images of up to 4096 x 4096 px. The memory has a size of
+/// about 4.4 MB.
 class LargeMemory {
   public:
     LargeMemory();
@@ -89,11 +91,11 @@ class LargeMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-extern template class DeviceMemoryFor<36, 36>;    ///< 4.5 KB with 32-bit pointers
-extern template class DeviceMemoryFor<160, 120>;  ///< 11 KB with 32-bit pointers
-extern template class DeviceMemoryFor<188, 120>;  ///< 13 KB with 32-bit pointers
-extern template class DeviceMemoryFor<320, 240>;  ///< 23 KB with 32-bit pointers
-/// Memory for frames of the paper's sensor, 188 x 120 px.
+extern template class DeviceMemoryFor<36, 36>;    ///< size: 4.5 KB with 32-bit pointers
+extern template class DeviceMemoryFor<160, 120>;  ///< size: 11 KB with 32-bit pointers
+extern template class DeviceMemoryFor<188, 120>;  ///< size: 13 KB with 32-bit pointers
+extern template class DeviceMemoryFor<320, 240>;  ///< size: 23 KB with 32-bit pointers
+/// Memory for frames of 188 x 120 px, the size of the sensor in the paper.
 using DeviceMemory = DeviceMemoryFor<188, 120>;
 
 }  // namespace dotpose

@@ -32,8 +32,9 @@ inline constexpr int kPacketVersion = 1;
 /// The members of a fix that are sent in a packet. If `status` is not ok, only the members declared
 /// before `cell` are valid, and `make_packet` sets the other members to 0.
 struct PosePacket {
-    std::uint16_t sequence = 0;  ///< frame number; a missing number indicates a lost packet
-    std::uint32_t time_us = 0;   ///< frame time on the sender's clock; wraps every 71.6 minutes
+    std::uint16_t sequence = 0;  ///< frame number (a gap indicates lost packets)
+    /// Frame time on the sender's clock, which wraps around every 71.6 minutes.
+    std::uint32_t time_us = 0;
     Status status = Status::not_run;
     CodeVariant code = CodeVariant::anoto;
 

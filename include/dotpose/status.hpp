@@ -44,7 +44,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     ambiguous_code,  ///< places of two codes explain the dots about equally well; name the code, or
                      ///< show more dots
     // Occurs only in packets that a newer version of dotpose has sent.
-    other = 255,  ///< a newer version of dotpose has added this status
+    other = 255,  ///< an unknown status, which a newer version of dotpose has added
 };
 
 /// Number of status values, excluding `other`.

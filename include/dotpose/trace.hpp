@@ -1,6 +1,6 @@
-/// Trace: results of each stage of `Locator::locate` for the last frame, for drawing, evaluation
-/// and calibration. The trace is read-only. Its members follow the implementation of the stages, so
-/// it is not a stable interface.
+/// Trace: the results of each stage of `Locator::locate` for the last frame. Intended for drawing,
+/// evaluation and calibration. The trace is read-only. Its members follow the implementation of the
+/// stages, so it is not a stable interface.
 ///
 ///     DeviceOptions options;
 ///     options.show_stages = true;  // otherwise the first and the tracked attempt store little

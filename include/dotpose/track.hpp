@@ -86,7 +86,7 @@ struct TrackOptions {
     /// accepted.
     int confirmations = 3;
 
-    /// Time without an accepted sighting or a measured motion after which the robot is lost.
+    /// The robot is lost if the latest accepted sighting or measured motion is at least this old.
     std::int64_t lost_after_us = 70'000;
     /// Maximum standard deviation of the position along either axis while only measured motions
     /// update the pose. Above this limit, the robot is lost.
@@ -138,11 +138,11 @@ struct TrackedPose {
 /// The tracker's verdict on the sighting in a frame.
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
-    /// The sighting is certain enough without the prior, and its pose is possible or confirmed. A
-    /// pose is possible if it is inside the gate. While the robot is lost, a pose is also possible
-    /// if the robot could have reached it. The pose of the first sighting is always possible. A
-    /// pose is confirmed after TrackOptions::confirmations sightings that are consistent with each
-    /// other.
+    /// The sighting is certain enough without the prior, and its pose is possible or confirmed.
+    /// While the robot is tracked, a pose is possible if it is inside the gate. While the robot is
+    /// lost, a pose is possible if the robot could have reached it. The pose of the first sighting
+    /// is always possible. A pose is confirmed after TrackOptions::confirmations sightings that are
+    /// consistent with each other.
     accepted,
     /// The sighting is weak, but certain enough together with the prior.
     with_prior,
@@ -222,11 +222,11 @@ class Tracker {
     /// not newer than the previous frame only clears the events.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
-    /// Updates the state with a frame and the motion since the previous update, measured by
-    /// odometry. `right_mm` is measured along the direction given by the theta of the sightings.
-    /// This is the image x axis, or the robot's heading if a camera file is used. The motion
-    /// advances the pose, and the uncertainty of the motion increases the covariance of the pose.
-    /// An accepted sighting then corrects the pose and reduces its covariance.
+    /// Updates the state with a frame and with the motion that odometry has measured since the
+    /// previous update. `right_mm` is measured along the direction given by the theta of the
+    /// sightings. This is the image x axis, or the robot's heading if a camera file is used. The
+    /// motion advances the pose, and the uncertainty of the motion increases the covariance of the
+    /// pose. An accepted sighting then corrects the pose and reduces its covariance.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 

@@ -47,7 +47,7 @@ struct DotImage {
     bool is_valid = false;
 };
 
-/// Illumination of the paper, modelled as a second-degree polynomial of the image position. The
+/// Illumination of the paper, modelled as a quadratic polynomial in the image coordinates. The
 /// polynomial is fitted to the paper levels around the dots. Without this model, the fitted centres
 /// would be biased towards the darker side.
 class Light {

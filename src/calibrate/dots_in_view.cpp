@@ -20,7 +20,8 @@ Vector2d vector_of(PixelPoint point) {
     return {point.u, point.v};
 }
 
-/// Returns the distorted pixel of a point on the paper. The point must be in front of the camera.
+/// Returns the pixel at which a point on the paper is seen, including lens distortion. The point
+/// must be in front of the camera.
 Vector2d pixel_of(const PatternView& view, const SpaceState& state, const Vector2d& place_mm) {
     const Vector3d seen =
         state.rotation.transpose() * (Vector3d(place_mm.x(), place_mm.y(), 0) - state.position_mm);

@@ -42,7 +42,7 @@ MatrixXd mean_of(int frames, const FrameAt& frame_at, const std::optional<Camera
 }
 
 /// Returns a matrix that interpolates the values of a flat field linearly along one axis, with one
-/// row per pixel. The values are equidistant, from the first to the last pixel.
+/// row per pixel. The positions of the values are equidistant, from the first to the last pixel.
 MatrixXd interpolation(Index pixels, Index longer_side) {
     const double distance_px = std::max(static_cast<double>(longer_side - 1) / kIntervals, 1.0);
     const auto values = std::max(

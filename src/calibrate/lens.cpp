@@ -37,8 +37,8 @@ class Series {
     Series(int frames, const FrameAt& frame_at, const CalibrateOptions& options)
         : frame_at_(frame_at), options_(options), total_(2 * frames) {}
 
-    /// Returns frame `index` for the first round, or an empty optional if an earlier frame is
-    /// identical.
+    /// Loads frame `index` for the first round. Returns an empty optional if the frame is identical
+    /// to an earlier frame.
     std::optional<GreyImage> new_frame(int index) {
         GreyImage image = frame_at_(index);
         if (width_px == 0) {
@@ -316,7 +316,8 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
         places.push_back(frame.place);
     result.spacing_mm = printed_spacing_mm(options, reader.code(), places);
     const FitSetting setting{series.width_px, series.height_px, result.spacing_mm};
-    // The reader finds dots in the corners of the image only if the lens is known.
+    // Sets the lens before the second round, because the reader finds dots in the corners of the
+    // image only if the lens is known.
     reader.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
     auto located = read_again(first, series, reader);
     take_all_dots(fit_all(located, setting).after, setting, reader.code(), located);

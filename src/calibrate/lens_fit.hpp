@@ -1,4 +1,5 @@
-// Least-squares fit to the dots in all frames, with one camera and one pose per frame.
+// Least-squares fit to the dots in all frames. All frames share the camera parameters, and each
+// frame has its own pose.
 #pragma once
 
 #include <array>

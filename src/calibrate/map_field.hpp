@@ -39,9 +39,9 @@ class MapField {
     /// Returns, for each node of this field, the four surrounding nodes of a coarser field.
     std::vector<Around> nodes_in(const MapField& coarse) const;
 
-    /// Prior standard deviation of the second differences between adjacent nodes, in mm. The value
-    /// is approximately the maximum second difference of a feed wave with an amplitude of 40 µm and
-    /// a wavelength of 50 mm.
+    /// Prior standard deviation of the second differences of adjacent nodes, in mm. The value is
+    /// approximately the maximum second difference of a feed wave with an amplitude of 40 µm and a
+    /// wavelength of 50 mm.
     static constexpr double kDifference_mm = 0.016;
     /// Weight of a squared second difference.
     static constexpr double kDifferenceWeight = 1 / (kDifference_mm * kDifference_mm);

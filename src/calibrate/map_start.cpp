@@ -55,8 +55,8 @@ FixPlane median_view(const std::vector<FixPlane>& views) {
     return view;
 }
 
-/// Returns true if the views differ so much that the camera was hand-held: the median relative
-/// difference between `linear` of a view and `typical.linear` exceeds kMaxMedianChange.
+/// Returns true if the views differ so much that the camera must have been hand-held: the median
+/// relative difference between `linear` of a view and `typical.linear` exceeds kMaxMedianChange.
 bool differ(const std::vector<FixPlane>& views, const FixPlane& typical) {
     constexpr double kMaxMedianChange = 0.01;
     return median_of(views, [&](const FixPlane& view) {

@@ -31,10 +31,10 @@ bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::
                   std::vector<MapSighting>& frames, std::vector<MapObservation>& observations);
 
 /// Converts the observations to positions on the paper in the camera frame, and adds the frames
-/// with their approximate poses to `solution`. The frames use the view in the camera file. If the
-/// file has no view, they use their median view. If, in addition, the camera was hand-held, each
-/// frame uses its own view instead. Scales all positions so that the median scale between the
-/// frames and the page is 1. The positions of the dots on the page include their offsets in the
+/// with their approximate poses to `solution`. All frames use the view in the camera file or, if
+/// the file has no view, the median of their views. If the file has no view and the camera was
+/// hand-held, each frame uses its own view. Scales all positions so that the median scale between
+/// the frames and the page is 1. The positions of the dots on the page include their offsets in the
 /// earlier map. Returns the maximum distance between a dot and the origin of the camera frame, in
 /// mm.
 double start_map(const MapGrid& grid, const EarlierOffsets& earlier,

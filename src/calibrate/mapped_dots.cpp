@@ -39,12 +39,12 @@ void add_map_error(const MapPage& page, Fix& fix) {
 }
 
 bool is_same_print(double variance_with_map, double variance_without, double noise) {
-    // Maximum ratio of the variance with the map to the variance without it. With the map of a
-    // different print, the ratio is about 2.
+    // Maximum ratio of the residual variance with the map to the residual variance without it. With
+    // the map of a different print, the ratio is about 2.
     constexpr double kMaxRatio = 0.8;
-    // Maximum ratio of the variance with the map to the noise variance. This limit is for prints
-    // without jitter: their residuals contain only noise, so even the correct map hardly reduces
-    // the variance.
+    // Maximum ratio of the residual variance with the map to the noise variance. This limit is for
+    // prints without jitter: their residuals contain only noise, so even the correct map hardly
+    // reduces the variance.
     constexpr double kMaxNoise_2 = 2;
     return variance_with_map <= kMaxRatio * variance_without ||
            variance_with_map <= kMaxNoise_2 * noise * noise;

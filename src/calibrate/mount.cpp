@@ -148,8 +148,8 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
 }
 
 /// Returns the standard deviation, per axis, of a point's position due to errors in the lens
-/// calibration. The result includes the errors of the position and direction of the image centre.
-/// `offset_mm` is relative to the image centre.
+/// calibration: the errors of the position of the image centre and of the direction of the image x
+/// axis. `offset_mm` is relative to the image centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
         const auto found = camera.sigma.find(key);

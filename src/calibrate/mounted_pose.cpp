@@ -147,7 +147,8 @@ std::uint32_t to_bam(double angle_rad) {
     return static_cast<std::uint32_t>(std::llround(angle_rad * kBam_per_rad));
 }
 
-/// Sets the cell, section and fraction of `fix` to the position (x, y), in spacings from `place`.
+/// Sets the cell, section and fraction of `fix` to the position that is (x, y) spacings from
+/// `place`.
 void write_place(double x, double y, CodeVariant code, const Place& place, Fix& fix) {
     const auto x_q16 = std::llround(x * 65536);
     const auto y_q16 = std::llround(y * 65536);
@@ -159,9 +160,9 @@ void write_place(double x, double y, CodeVariant code, const Place& place, Fix& 
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
 }
 
-/// Sets the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. The
-/// variance of the angle on the paper is also used for the nominal angle, because the two variances
-/// are nearly equal.
+/// Sets the covariance of `out` to the covariance of the pose at the reference point. (`x`, `y`) is
+/// the reference point, in mm from the middle of the dots. The variance of the angle on the paper
+/// is also used for the nominal angle, because the two variances are nearly equal.
 void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& print, Fix& out) {
     const double c = fit.parameters[2];
     const double s = fit.parameters[3];

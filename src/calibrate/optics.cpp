@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr double kRadPerS_per_rpm = 2 * std::numbers::pi / 60;
-/// Limits on the spacing in the image for `locate`: minimum, recommended minimum, and maximum.
+/// Spacing in the image for which `locate` is designed: minimum, recommended minimum, and maximum.
 constexpr double kMinSpacing_px = 6;
 constexpr double kGoodSpacing_px = 8;
 constexpr double kMaxSpacing_px = 60;
@@ -52,8 +52,9 @@ void set_field(const Optics& o, OpticsReport& r) {
 void set_block(const Optics& o, OpticsReport& r) {
     const double side_mm = o.spacing_mm * (7 + 2.0 / 6) + o.dot_mm;
     r.block_diagonal_mm = std::numbers::sqrt2 * side_mm;
-    // The centre of the nearest block is at most half the diagonal of a cell from the image centre.
-    // If the pattern is rotated by 45 degrees, this distance is along an image axis.
+    // For any position of the grid, the centre of some block of 8 x 8 dots is at most half the
+    // diagonal of a cell from the image centre. If the pattern is rotated by 45 degrees, this
+    // offset may be parallel to an image axis.
     r.block_anywhere_mm = r.block_diagonal_mm + std::numbers::sqrt2 * o.spacing_mm;
     const double shorter_mm = std::min(r.field_width_mm, r.field_height_mm);
     r.block_fits = shorter_mm >= r.block_diagonal_mm;
@@ -74,8 +75,8 @@ void set_motion(const Optics& o, OpticsReport& r) {
     r.blur_px = motion_mm_s * o.exposure_s / r.mm_per_px;
 }
 
-/// Computes the limits of the depth of field: the distances at which the blur of a point is one
-/// pixel wide on the sensor.
+/// Computes the limits of the depth of field: the distances at which the image of a point is
+/// blurred to the width of one pixel.
 void set_depth(const Optics& o, OpticsReport& r) {
     const double squared = o.focal_mm * o.focal_mm;
     const double spread = o.f_number * o.pixel_um / 1000 * (o.distance_mm - o.focal_mm);

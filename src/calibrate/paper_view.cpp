@@ -150,8 +150,8 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
 }
 
 void describe_centre(const LensFit& fit, double reach_px, Camera& camera) {
-    // Finite-difference step, in standard deviations. The step is small enough to approximate the
-    // derivatives with respect to all parameters.
+    // Finite-difference step, in standard deviations of a parameter. The step is small enough that
+    // the derivatives with respect to all parameters are accurate.
     constexpr double kStep_sigmas = 0.01;
     const CentrePose here = centre_pose(camera, camera);
     Eigen::MatrixXd derivative(3, 8);

@@ -25,7 +25,8 @@ using calibrate::PivotFit;
 using calibrate::PivotView;
 
 constexpr int kMinPivotFrames = 6;
-/// Minimum pivot angle. At smaller angles, the tip error exceeds about 10 times the pose error.
+/// Minimum pivot angle. At smaller angles, the error of the tip is more than about 10 times the
+/// error of the pose.
 constexpr double kMinPivot_rad = 3 / kDegrees;
 constexpr double kMinUsed = 2.0 / 3;
 

@@ -102,7 +102,8 @@ struct Step {
     Points points;
     Matrix6d covariance;  ///< covariance of `points`, assuming independent pose errors
     std::vector<bool> is_used;
-    double squares = 0;  ///< sum of the normalised squared residuals of `start`
+    /// Sum of the normalised squared residuals of the used views before the step.
+    double squares = 0;
 };
 
 Step improved(const std::vector<PivotView>& views, const Points& start) {

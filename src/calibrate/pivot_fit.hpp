@@ -28,18 +28,18 @@ struct PivotFit {
     Eigen::Vector3d tip_mm;   ///< tip in the camera frame
     Eigen::Vector3d rest_mm;  ///< resting point on the paper, in the frame of the views
     /// Covariance of the tip and of the resting point. Frames that show the same dots have
-    /// correlated errors, because the print errors of these dots shift all poses. The covariance is
-    /// therefore computed from the residuals of each dot in all frames. The covariance is increased
-    /// if the tip moved by more than the pose errors explain.
+    /// correlated errors, because the printing errors of these dots shift all poses. The covariance
+    /// is therefore computed from the residuals of each dot in all frames. The covariance is
+    /// increased if the tip moved by more than the pose errors explain.
     Eigen::Matrix<double, 6, 6> covariance;
     std::vector<bool> is_used;  ///< indexed by view
     double residual_mm = 0;     ///< rms residual per axis
     double error_ratio = 1;  ///< rms residual, relative to the value expected from the pose errors
 };
 
-/// Returns the rms rotation angle about the axis with the smallest rotations. If all rotations are
-/// about the same axis, returns 0, because the position of the tip along this axis is then not
-/// determined.
+/// Returns the rms change in the direction of an axis of the camera frame, for the axis whose
+/// direction changes least. The result is 0 if all rotations are about the same axis. The position
+/// of the tip along this axis is then not determined.
 double pivot_angle_rad(const std::vector<PivotView>& views);
 
 /// Fits the tip by weighted least squares. Views that contradict the majority are not used.

@@ -12,8 +12,8 @@ using Eigen::Vector2d;
 
 /// Minimum fraction of correct dots among the measured cells in an outer line of a field.
 constexpr double kMinLineShare = 0.5;
-/// Minimum number of correct dots in an outer column or row, relative to the column or row with the
-/// most correct dots.
+/// Minimum number of correct dots in an outer column or row, as a fraction of the maximum number in
+/// any column or row.
 constexpr double kMinLength = 0.15;
 
 /// Minimum fraction of correct dots among the dots in an outer line. A quarter of the dots are
@@ -82,7 +82,7 @@ CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     return grid;
 }
 
-/// Numbers of measured cells, cells with a dot, and correct dots in a column or row.
+/// Counts for one column or row: measured cells, cells with a dot, and correct dots.
 struct Coverage {
     int seen = 0;
     int dots = 0;
@@ -135,8 +135,8 @@ class Trimmer {
         double worst_share = 1;
         for (const Outer& one : outer) {
             if (is_enough(one.line, one.longest)) continue;
-            // Lines with few correct dots are removed first, because their fraction of correct dots
-            // is not significant.
+            // Lines with too few correct dots are removed first. Their fraction of correct dots is
+            // treated as 0, because it is not significant.
             const double share =
                 is_long(one.line, one.longest) ? double(one.line.right) / one.line.seen : 0;
             if (worst != nullptr && share >= worst_share) continue;

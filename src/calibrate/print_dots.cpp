@@ -18,8 +18,8 @@ constexpr double kMinShare = 0.35;
 /// Level, relative to the darkness of a dot, that is subtracted before the centroid is computed.
 /// The subtraction suppresses noise and JPEG ringing.
 constexpr double kFloorShare = 0.15;
-/// Radius for sums over the pixels of a dot, in spacings: half the distance to the nearest possible
-/// dot.
+/// Radius, in spacings, within which the pixels of a dot are summed. It is half the minimum
+/// distance between two dots.
 constexpr double kReach = 1.0 / 3;
 /// The border of a cell is considered covered by other print, such as text or pictures, if its
 /// darkness exceeds both of these limits. The first limit is relative to the darkness of a dot. The
@@ -27,8 +27,8 @@ constexpr double kReach = 1.0 / 3;
 /// darkness of a dot.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
-/// Displacement assumed for the measurement of levels, in spacings. An approximate value is
-/// sufficient.
+/// Displacement, in spacings, that is assumed when the grey levels are measured. An approximate
+/// value is sufficient.
 constexpr double kUsualDisplacement = 1.0 / 6;
 constexpr int kCentrings = 4;
 constexpr double kCentred_px = 0.01;
@@ -160,10 +160,10 @@ class Meter {
         return offset;
     }
 
-    /// Returns true if the darkness on the border of a cell differs from that of the paper by more
-    /// than `min_darkness`. The border may be lighter than `paper_`, because `paper_` is too dark
-    /// if grey print fills most of the tile. The middles of the four sides are not checked, because
-    /// swollen dots may merge there.
+    /// Returns true if the border of a cell is darker or lighter than `paper_` by more than
+    /// `min_darkness`. It may be lighter because `paper_` is too dark if grey print fills most of
+    /// the tile. The middles of the four sides are not checked, because swollen dots may merge
+    /// there.
     bool is_covered(const Vector2d& intersection_px, double min_darkness) const {
         const Vector2d x = map_.px_per_cell.col(0);
         const Vector2d y = map_.px_per_cell.col(1);

@@ -1,4 +1,4 @@
-// Converts the measurements of a print to messages for the user.
+// Converts the measurements of a print into messages for the user.
 #pragma once
 
 #include "dotpose/tools/check_print.hpp"

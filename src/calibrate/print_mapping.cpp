@@ -54,9 +54,9 @@ std::int16_t to_q14(double spacings) {
     return static_cast<std::int16_t>(std::clamp(std::lround(spacings * 16384), -32767L, 32767L));
 }
 
-/// Converts the covariances from mm to spacings. For an update, adds the errors of the earlier map,
-/// because its slowly varying errors remain in the result. The equations do not include these
-/// errors: they assume that the errors of the earlier offsets are independent.
+/// Converts the covariances from mm to spacings. If an earlier map is updated, adds the covariances
+/// of its errors, because its slowly varying errors remain in the result. The equations do not
+/// include these errors: they assume that the errors of the earlier offsets are independent.
 MapErrors errors_of(const MapGrid& grid, const MapErrorGrid& found, const EarlierOffsets& earlier,
                     const MapPage& page) {
     if (!earlier.views.empty() && page.errors.nodes.empty()) return {};

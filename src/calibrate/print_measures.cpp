@@ -15,12 +15,13 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kInch_mm = 25.4;
-/// Minimum darkness between two merged dots, relative to the darkness of the dots.
+/// Two dots are considered merged if the darkness halfway between them exceeds this fraction of the
+/// darkness of the paler dot.
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a distortion bin. Bins with fewer dots are not reported.
 constexpr int kMinBinDots = 60;
-/// Quantile of the dots' darkness. The darkness of ink is the value at this quantile or the
-/// expected darkness of ink, whichever is greater.
+/// Quantile of the darkness of the dots that is used as the darkness of solid ink, unless the
+/// expected darkness of the ink is greater.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 

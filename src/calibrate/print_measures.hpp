@@ -1,4 +1,4 @@
-// Measures a print from the cells of a field.
+// Computes the measurements of a print from the cells of a field.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@ struct Measuring {
     double ink_reflectance = 0;
 };
 
-/// Returns the correctly read dots: the nominal position in mm from the first cell of the grid, and
-/// the measured position in px.
+/// Returns, for each correctly read dot, its nominal position in mm relative to the first cell of
+/// the grid, and its measured position in px.
 std::vector<Match> matches_of(const CellGrid& grid, const Field& field, const Pattern& pattern);
 
 /// Measures a field and sets all members of `result` except `pattern`, `is_patch` and `sheet`.

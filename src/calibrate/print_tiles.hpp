@@ -36,7 +36,7 @@ class TileLocator {
     TileLocator(const ImageView& scan, std::optional<CodeVariant> code, TileDone done);
 
     /// Locates all tiles. A tile has about 24 x 24 cells and is located together with a margin.
-    /// Returns an empty optional if neither the whole scan nor a crop of any size shows a pattern.
+    /// Returns an empty optional if the pattern is found neither in the whole scan nor in any crop.
     std::optional<LocatedTiles> locate();
 
     /// Locates a sample of the tiles again, without assuming a code. Returns the evidence for each

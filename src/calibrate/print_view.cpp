@@ -20,7 +20,7 @@ constexpr double kMaxResidual = 0.8;
 
 /// Plane of the paper as seen by a camera with a given focal length and principal point.
 struct Plane {
-    double x_over_y = 1;   ///< ratio of lengths along the two axes of the paper
+    double x_over_y = 1;   ///< scale along the x axis divided by the scale along the y axis
     double cos_angle = 0;  ///< cosine of the angle between the axes
 };
 

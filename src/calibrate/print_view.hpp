@@ -14,9 +14,9 @@ namespace dotpose::calibrate {
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Eigen::Vector2d& middle_px);
 
-/// Returns the ratio of the scales along the two axes of a page, measured in a photo with square
-/// pixels. `fit` is a fit of ViewModel::camera with the middle of the image as `lens_centre`.
-/// Returns an empty optional if the ratio is too uncertain.
+/// Returns the ratio of the scales along the two axes of a page, computed from a photo. The pixels
+/// are assumed to be square. `fit` must be a fit of ViewModel::camera whose `lens_centre` is the
+/// middle of the image. Returns an empty optional if the ratio is too uncertain.
 std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side_px);
 
 }  // namespace dotpose::calibrate

@@ -29,8 +29,8 @@ struct Moving {
     Vector2d motion;  ///< motion of the camera during the readout
 };
 
-/// Locates all frames. Returns one element for each frame, in frame order. The element is empty if
-/// the frame has no fix.
+/// Locates all frames. Returns one element for each frame, in frame order. An element is empty if
+/// the velocity cannot be computed from its frame.
 std::vector<std::optional<Moving>> locate_drive(int frames, const FrameAt& frame_at,
                                                 const Camera& camera,
                                                 const CalibrateOptions& options) {
@@ -87,8 +87,8 @@ ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const 
     const auto drive = locate_drive(frames, frame_at, result.camera, options);
     double products = 0;
     double squares = 0;
-    // One element for each frame that is used: the motion during the readout, and the mean motion
-    // per frame interval.
+    // For each frame used: the motion during the readout, and the motion per frame interval,
+    // averaged over the intervals before and after the frame.
     std::vector<std::array<Vector2d, 2>> used;
     for (std::size_t i = 0; i < drive.size(); ++i) {
         result.located += drive[i] ? 1 : 0;

@@ -24,7 +24,7 @@ constexpr int kFieldsPerSide = 8;
 /// contains only the dots of one sheet.
 constexpr int kNearlyAllFields = 58;
 
-/// Part of the image along one axis: begin and length, as fractions of the side.
+/// Interval along one side of the image: begin and length, as fractions of the side.
 struct Stretch {
     double begin;
     double length;
@@ -32,8 +32,8 @@ struct Stretch {
 constexpr std::array kStretches = {Stretch{0, 1}, Stretch{0, 0.5}, Stretch{0.5, 0.5},
                                    Stretch{0, 0.66}, Stretch{0.34, 0.66}};
 
-/// Returns the fix with its position replaced by the intersection at the offset `step` from
-/// `trace.decoding.place`, in spacings.
+/// Returns a copy of the fix, moved to the intersection that is `step` spacings from
+/// `trace.decoding.place`.
 Fix moved_to(const Fix& fix, const Trace& trace, FixedVec step) {
     const Place place = moved(trace.options.code, trace.decoding.place, step.x, step.y);
     Fix result = fix;
@@ -89,8 +89,8 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, CodeVariant co
 }
 
 /// Sets the place, axes and errors of `view` by fitting an affine map to the dots. `camera` must
-/// contain the view of the paper. `first` is the position of the intersection with
-/// `LocatedDot::step` (0, 0) on the sheet, in nominal mm.
+/// contain the view of the paper. `first` is the position on the sheet, in nominal mm, of the
+/// intersection whose `LocatedDot::step` is (0, 0).
 void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
     std::vector<Eigen::Vector2d> points;

@@ -24,14 +24,14 @@ struct SheetView {
     Eigen::Vector2d place = Eigen::Vector2d::Zero();
     Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
     /// Transforms the errors of place and axes (column by column) into errors with standard
-    /// deviation 1. Rows with an index of `rows` or more are 0, because the corresponding
-    /// combinations of place and axes are not known.
+    /// deviation 1. Only the first `rows` rows are set. The other rows are 0, because the
+    /// corresponding combinations of place and axes are not known.
     Eigen::Matrix<double, 6, 6> whitening = Eigen::Matrix<double, 6, 6>::Zero();
     int rows = 0;
     /// Cells of the dots: column in the upper 32 bits, row in the lower 32 bits.
     std::vector<std::uint64_t> dots;
-    /// Fields of the image that show dots of the sheet. The image is divided into 8 x 8 fields, and
-    /// bit 8 j + i is the field in column i and row j.
+    /// Bit mask of the fields of the image that show dots of the sheet. The image is divided into 8
+    /// x 8 fields. Bit 8 j + i represents the field in column i and row j.
     std::uint64_t fields = 0;
 
     bool has_scale() const { return rows == 6; }

@@ -22,8 +22,8 @@ constexpr double kRobust_sigmas = 4;
 constexpr double kPinned = 1e-7;
 /// Prior relative standard deviation of the camera scale.
 constexpr double kCameraPrior = 0.03;
-/// Prior standard deviation of the aspect and the skew of a camera whose file contains no standard
-/// deviations for them. The value is small, because sensor pixels are square.
+/// Prior standard deviation of the aspect and of the skew, for a camera file that contains no
+/// standard deviations for them. The value is small because sensor pixels are nearly square.
 constexpr double kSquarePrior = 0.002;
 
 /// Vector in the plane. T is double or an automatic differentiation type.
@@ -42,8 +42,8 @@ Vector<T> turned(const T& angle, const Vector<T>& v) {
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-/// Residual of a view, in standard deviations. The parameters are those of the camera, the frame
-/// and the sheet.
+/// Computes the whitened residuals of a view from the parameters of the camera, the frame and the
+/// sheet.
 struct ViewResidual {
     const SheetView& view;
     /// Position of the sheet's first intersection relative to the corner of the page.
@@ -295,8 +295,8 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
         }
         if (i == fixed_ && !has_scale()) {
             // Fixes the aspect to its value in the sheet file. Views computed from parts of frames
-            // contain information about the aspect, but their errors are all the same and would not
-            // average out.
+            // contain information about the aspect, but all of them have the same error, which
+            // would not average out.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {
@@ -318,7 +318,7 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     const Camera& camera = *camera_;
     const double x = relative_sigma(camera, "mm_per_px_x", camera.paper->mm_per_px_x);
     const double y = relative_sigma(camera, "mm_per_px_y", camera.paper->mm_per_px_y);
-    // The mean of the two scales and half their difference both have this standard deviation.
+    // Standard deviation of the mean of the two scales, and also of half their difference.
     const double half = std::hypot(x, y) / 2;
     const double skew = relative_sigma(camera, "skew", 1);
     const bool is_true = reference_.by == ScaleReference::By::camera;
@@ -327,9 +327,9 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
 }
 
-/// Returns the DotShare of each dot, for an affine map fitted to all dots. The derivatives are
-/// scaled so that dot errors with standard deviation 1 cause whitened residuals with standard
-/// deviation 1.
+/// Returns the DotShare of each dot. Assumes that the view was computed by fitting an affine map to
+/// all dots. The derivatives are scaled so that dot errors with standard deviation 1 cause whitened
+/// residuals with standard deviation 1.
 std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;
@@ -394,8 +394,9 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
     const int parameters =
         problem.NumParameters() - (has_scale() ? 0 : static_cast<int>(camera_scale_.size()));
     if (has_scale()) shared.push_back(camera_scale_.data());
-    // Multiplies the print variances by the misfit between frames. The misfit includes the effect
-    // of bent sheets, which the residuals within a single frame do not show.
+    // Factor by which the print variances are multiplied: the sum of squared residuals divided by
+    // the number of degrees of freedom, but at least 1. The sum includes the effect of bent sheets,
+    // which the residuals within a single frame do not show.
     const double misfit = std::max(2 * cost / std::max(residuals - parameters, 1), 1.0);
     const Eigen::MatrixXd gain = normal_gain(problem, shared);
     const auto pins = gain.rightCols(gain.cols() - 6 * static_cast<Eigen::Index>(views_.size()));
@@ -408,7 +409,8 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
             ++row;
         }
         if (has_scale()) continue;
-        // Adds the print error of the fixed sheet, because all scales are relative to this sheet.
+        // Adds the variance of the fixed sheet's print scale, because all scales are relative to
+        // this sheet.
         for (const std::size_t scale : {3, 4})
             variances_[i][scale] += kUsualPrintError * kUsualPrintError;
     }

@@ -1,5 +1,5 @@
-// Graph of sheets and frames (images), with an edge from each frame to each sheet in the frame. The
-// graph is used to compute the relative poses and the print scales of the sheets.
+// Graph of sheets and frames (images). An edge connects a frame to each sheet that it shows. The
+// relative poses and the print scales of the sheets are computed from this graph.
 #pragma once
 
 #include <array>
@@ -56,8 +56,8 @@ class SheetGraph {
     /// logarithms of the two print scales.
     using Node = std::array<double, 5>;
     using FramePose = std::array<double, 3>;
-    /// Derivative of the whitened residuals of a view with respect to the position of one of its
-    /// dots, along the x and y axes of the sheet.
+    /// Derivative of the six whitened residuals of a view with respect to the position of one dot.
+    /// The columns are x and y on the sheet.
     using DotShare = Eigen::Matrix<double, 6, 2>;
 
     Eigen::Vector2d centre_in_camera(const SheetView& view) const;
@@ -82,8 +82,8 @@ class SheetGraph {
     std::vector<Node> variances_;
     /// Poses of the camera's coordinate system, indexed by frame number.
     std::map<int, FramePose> frames_;
-    /// Scale of the camera relative to the fixed sheet. The elements are the logarithm of the mean
-    /// scale, the aspect and the skew.
+    /// Scale of the camera relative to the fixed sheet: the logarithm of the mean scale, then the
+    /// aspect, then the skew.
     std::array<double, 3> camera_scale_{};
 };
 

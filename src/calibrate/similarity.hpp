@@ -1,4 +1,4 @@
-// Fits the position, angle and scale of a frame to its dots.
+// Fits the position, angle and scale of the camera frame on the page to the dots in an image.
 #pragma once
 
 #include <vector>

@@ -241,8 +241,8 @@ class NoiseModel {
     std::vector<Vector2d> residuals_;
 };
 
-/// The one or two local minima of the pose fit. `dots` and their weights are determined with the
-/// first solution.
+/// The one or two local minima of the pose fit. Both solutions use the same dots and weights, which
+/// are determined from the first solution.
 struct Solutions {
     std::vector<WeightedDot> dots;
     Minimum first;
@@ -265,7 +265,7 @@ bool is_same(const SpaceState& a, const SpaceState& b) {
            kSame_rad;
 }
 
-/// Returns the solutions for a subset of at most 300 dots. The subset saves time.
+/// Returns rough solutions, which are fitted to at most 300 of the dots to save time.
 Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
                           const std::vector<WeightedDot>& all, const Vector2d& focal_px) {
     constexpr std::size_t kDots = 300;
@@ -330,7 +330,8 @@ std::optional<SpaceFit> fit_space(const std::vector<SpaceDot>& dots, const Vecto
     fit.covariance = first.sums.squares / (count - kParameters) * inverse.topLeftCorner<6, 6>();
     if (solutions.second && std::isfinite(solutions.second->sums.squares)) {
         fit.second = solutions.second->state;
-        // Likelihood ratio of the two solutions, for Gaussian errors with an unknown variance.
+        // If the errors are Gaussian with an unknown variance, the likelihood of a solution is
+        // proportional to squares^(-count / 2).
         const double ratio = solutions.second->sums.squares / first.sums.squares;
         fit.second_odds_log2 = std::min(-count / 2 * std::log2(ratio), 0.0);
     }

@@ -1,5 +1,5 @@
-// Maximum-likelihood pose of a camera over a plane of dots. If the pose is ambiguous, there is a
-// second solution.
+// Computes the maximum-likelihood pose of a camera above a plane of dots. If the pose is ambiguous,
+// also computes a second solution.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace dotpose::calibrate {
 
-/// A dot on the paper and in the image.
+/// A dot: its place on the paper and its measured image point.
 struct SpaceDot {
-    /// Undistorted pixel minus the pixel on the optical axis.
+    /// Undistorted image point relative to the principal point, in px.
     Eigen::Vector2d pixel;
     Eigen::Vector2d intersection_mm;  ///< position of the dot's intersection on the paper
-    Eigen::Vector2d direction_mm;     ///< shift of the dot for a displacement of 1 spacing
-    /// Covariance of the measured pixel, up to a factor common to all dots.
+    Eigen::Vector2d direction_mm;  ///< offset from the intersection for a displacement of 1 spacing
+    /// Covariance of the measured image point, up to a factor common to all dots.
     Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Identity();
 };
 
@@ -24,7 +24,8 @@ struct SpaceDot {
 struct SpaceState {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
-    double displacement = 1.0 / 6;  ///< displacement of the dots in the image, in spacings
+    /// Displacement of the dots from their intersections, in spacings.
+    double displacement = 1.0 / 6;
 };
 
 struct SpaceFit {
@@ -33,9 +34,9 @@ struct SpaceFit {
     /// rotation * exp(vector).
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     std::vector<SpaceDot> used;  ///< dots that are not outliers
-    /// Shift of the pose caused by the residual of each dot in `used`, in the same coordinates as
-    /// `covariance`. These shifts determine how the errors of frames that show the same dots are
-    /// correlated.
+    /// For each dot in `used`, the shift of the pose that its residual causes, in the same
+    /// coordinates as `covariance`. These shifts determine how the errors of frames that show the
+    /// same dots are correlated.
     std::vector<Eigen::Matrix<double, 6, 1>> influences;
     double residual_px = 0;  ///< rms residual of the dots in `used`, per axis
     std::optional<SpaceState> second;

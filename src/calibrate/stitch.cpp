@@ -48,7 +48,7 @@ std::vector<SheetView> views_of(int frames, const FrameAt& frame_at,
     return all;
 }
 
-/// Compares each view with the view that contains the most dots in the same frame.
+/// Compares each view with the view of the same frame that contains the most dots.
 void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph,
                     Stitching& result) {
     struct Sums {
@@ -132,8 +132,8 @@ void require_reference(const ScaleReference& reference, const std::vector<SheetE
     }
 }
 
-/// Throws Error if the mean print scale deviates from 1 by more than a printer can cause. In this
-/// case, the view in the camera file or the spacing in the sheet file is wrong.
+/// Throws Error if the mean print scale deviates from 1 by more than the error of any printer. In
+/// this case, the view in the camera file or the spacing in the sheet file is wrong.
 void require_plausible(const AxisScale& scale, const SheetEntry& entry) {
     constexpr double kMaxScaleError = 0.25;
     const double mean = std::sqrt(scale.x * scale.y);

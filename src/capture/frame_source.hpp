@@ -19,7 +19,7 @@ namespace dotpose::capture {
 struct Frame {
     GreyImage image;           ///< empty while the camera delivers no frames
     std::int64_t time_us = 0;  ///< time on the source's clock; increases with each frame
-    std::int64_t index = 0;    ///< frame number, starting at 0 and including dropped frames
+    std::int64_t index = 0;    ///< number of preceding frames, including dropped frames
     std::string file;          ///< path of the image file, or empty for other sources
     bool is_live = false;      ///< true if `time_us` is on the monotonic clock of this computer
 };
@@ -63,8 +63,8 @@ struct SourceOptions {
     /// Frame rate requested from a camera. For other sources, frame timestamps are computed from
     /// this rate, even if a video file contains timestamps.
     std::optional<double> fps;
-    std::optional<double> exposure;  ///< in the driver's unit
-    std::optional<double> gain;      ///< in the driver's unit
+    std::optional<double> exposure;  ///< exposure of a camera, in the driver's unit
+    std::optional<double> gain;      ///< gain of a camera, in the driver's unit
     /// True to flip frames left to right. Frames are flipped before they are cropped to `region`.
     bool flip = false;
     std::optional<Region> region;  ///< part of each frame to keep, or empty for the whole frame

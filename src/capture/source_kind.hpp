@@ -26,8 +26,8 @@ bool needs_video_libraries(SourceKind kind);
 /// folder cannot be read or there are no images.
 std::vector<std::string> images_at(const std::string& name);
 
-/// Returns the files of a source: images, a video, or "-". Returns an empty list for a camera.
-/// Throws Error in the same cases as `images_at`.
+/// Returns the files of a source: images, a video, or "-" for standard input. Returns an empty list
+/// for a camera. Throws Error in the same cases as `images_at`.
 std::vector<std::string> files_of(const std::string& name);
 
 }  // namespace dotpose::capture

@@ -11,7 +11,7 @@
 
 namespace dotpose::capture {
 
-/// Concatenates sources. The numbers and times of frames continue from one source to the next.
+/// Concatenates sources. Frame numbers and times continue from one source to the next.
 class SourceList : public FrameSource {
   public:
     /// `next_name` returns the name of the next source (source_kind.hpp), or an empty optional
@@ -54,7 +54,7 @@ class SourceList : public FrameSource {
     std::unique_ptr<FrameSource> source_;
     std::string name_;
     Frame newest_;            ///< newest frame without its image; `index` is relative to its source
-    double bits_per_px_ = 0;  ///< bits per pixel of the latest source that returned a frame
+    double bits_per_px_ = 0;  ///< `bits_per_px` of the latest source that returned a frame
     std::int64_t dropped_before_ = 0;
     std::int64_t next_index_ = 0;
     std::int64_t next_time_us_ = 0;

@@ -14,7 +14,7 @@
 namespace dotpose::code {
 
 /// Returns the roll of a column or row, in [0, 62]. `position` and `section` identify the line.
-/// `cross` is the position of the line's first bit on the other axis.
+/// `cross` is the position, on the other axis, of the line's first bit.
 int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross);
 
 /// Returns the roll of a position in the code `other`, minus the roll of the same position in the

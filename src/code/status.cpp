@@ -53,7 +53,7 @@ constexpr std::array<Text, kStatusCount + 1> kTexts{{
     {Status::ambiguous_code, "ambiguous_code",
      "places of two codes explain the dots about equally well; name the code, or show more dots"},
     {Status::other, "other",
-     "a newer version of dotpose has added this status"},
+     "an unknown status, which a newer version of dotpose has added"},
 }};
 // clang-format on
 

@@ -42,12 +42,12 @@ struct Patch {
     int width_px = 0;
     int height_px = 0;
     int stride = 0;
-    /// Darkness of a typical dot after smoothing, in 1/256 of the paper level.
+    /// Contrast of a typical dot after smoothing, in 1/256 of the paper level.
     int dot_contrast_q8 = 0;
     alignas(64) std::array<std::uint8_t, kMaxPixels> pixels;
     alignas(64) std::array<std::uint8_t, kMaxPixels> smoothed;
     alignas(64) std::array<std::uint8_t, kTiles> brightest;
-    alignas(64) std::array<std::uint8_t, kTiles> darkness;  ///< 255 minus the darkest level
+    alignas(64) std::array<std::uint8_t, kTiles> darkness;  ///< 255 minus each tile's darkest level
     alignas(64) std::array<std::uint8_t, kTiles> thresholds;
     PatchDots dots;
 

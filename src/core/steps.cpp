@@ -26,8 +26,9 @@ bool are_valid(const DeviceOptions& options) {
 
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
-    // The second attempt requires sides of at least kMinFrameSide_px. Decoder::window uses only the
-    // second attempt, unless the effort is `device`.
+    // Refuses small images if only the second attempt would be made, because this attempt requires
+    // sides of at least kMinFrameSide_px. With Decoder::window, only the second attempt is made,
+    // unless the effort is `device`.
     const bool may_be_small = options.effort == Effort::device || options.decoder == Decoder::all;
     if (std::min(width_px, height_px) < (may_be_small ? w.min_side_px : kMinFrameSide_px))
         return Status::image_too_small;
@@ -76,7 +77,8 @@ void threshold_bands(int ready, const DeviceOptions& options, Workspace& w) {
     for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
         const int before = w.threshold.max_contrast;
         measure_levels(band, threshold, w.threshold);
-        // All earlier bands have less contrast than the new minimum, so their dots are noise.
+        // If the contrast of all earlier bands is below the new minimum, discards their dots as
+        // noise.
         if (before < min_tile_contrast(threshold, w.threshold)) w.dot_count = 0;
         for (int v = band_begin(w.threshold, band); v < band_end(w.threshold, band); ++v) {
             grow_blobs(v, w.threshold, w.open, dot_list(w));

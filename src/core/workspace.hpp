@@ -1,6 +1,6 @@
 // Workspace: the memory of a locator. After a frame, the workspace contains the results of the
-// stages. All capacities are fixed. The workspace is in a DeviceMemory, SmallMemory or LargeMemory,
-// whose constructor creates the workspace. A locator reuses the workspace for each frame.
+// stages. All capacities are fixed. The constructor of a DeviceMemory, SmallMemory or LargeMemory
+// creates the workspace in this memory. A locator reuses the workspace for each frame.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ struct Workspace {
     std::span<ScoredLine> line_scores;
     Decoding decoding;
     // Stage `pose`.
-    PlaneFromImage pattern_from_image;  ///< in spacings relative to `Decoding::place`
+    PlaneFromImage pattern_from_image;  ///< pattern points are relative to `Decoding::place`
     Fix fix;
 
     std::span<const DetectedDot> found_dots() const {

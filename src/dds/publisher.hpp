@@ -1,5 +1,5 @@
-// Publishes the messages of a robot to ROS 2 directly over DDS. Uses the topics, types and
-// quality-of-service settings of ROS nodes, but does not require ROS. Requires Eclipse Cyclone DDS
+// Publishes the messages of a robot to ROS 2 directly over DDS. Uses the same topics, types and
+// quality-of-service settings as ROS nodes, but does not require ROS. Requires Eclipse Cyclone DDS
 // at build time.
 #pragma once
 
@@ -13,8 +13,9 @@ namespace dotpose::dds {
 
 struct PublisherOptions {
     int domain = 0;  ///< ROS_DOMAIN_ID
-    /// True to resend poses that a subscriber did not receive. A subscriber that requests reliable
-    /// delivery (the default in ROS) receives nothing from a best-effort publisher.
+    /// True to resend poses that a subscriber did not receive. If false, the publisher is
+    /// best-effort, and subscribers that request reliable delivery (the default in ROS) receive no
+    /// poses.
     bool is_reliable = false;
     /// True to limit discovery to this computer, like ROS with
     /// ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST.
@@ -27,14 +28,14 @@ class Publisher {
     /// `robot` must be valid as part of a ROS topic name. Throws BadArgument if this program was
     /// built without DDS, and Error if DDS cannot be set up.
     Publisher(const std::string& robot, const PublisherOptions& options);
-    /// Waits briefly for reliable readers to receive all messages.
+    /// Waits up to 1 s until all subscribers have received the messages on reliable topics.
     ~Publisher();
     Publisher(const Publisher&) = delete;
     Publisher& operator=(const Publisher&) = delete;
 
-    /// Publishes the messages for a frame. If `waits` is true, waits up to 10 s for slow
-    /// subscribers of reliable messages. Otherwise, keeps the newest 100 messages on each topic for
-    /// slow subscribers.
+    /// Publishes the messages for a frame. Each reliable topic keeps its newest 100 messages for
+    /// slow subscribers. If `waits` is true, waits up to 10 s for slow subscribers before newer
+    /// messages replace messages that have not been received.
     void publish(const ros::RobotMessages& messages, bool waits);
     /// Publishes the mount of the camera. Subscribers that connect later also receive the mount.
     void publish(const ros::TransformStamped& mount);

@@ -48,8 +48,8 @@ bool AffineFitInt32::solve(int bits, PlaneFromImage& plane) {
                                           myy >> shift};
     const std::int64_t determinant = spread.determinant();
     const std::int64_t trace = spread.xx + spread.yy;
-    // The points are considered collinear if their standard deviation across the best line is less
-    // than about 1/32 of their standard deviation along it.
+    // The points are considered collinear if their standard deviation across the best-fitting line
+    // is less than about 1/32 of their standard deviation along it.
     if (determinant <= 0 || determinant >> 8 < trace * trace >> 18) return false;
 
     const auto solve_one = [&](std::int32_t sum, std::int64_t of_x, std::int64_t of_y,

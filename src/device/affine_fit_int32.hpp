@@ -83,7 +83,7 @@ class AffineFitInt32 {
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t changes_ = 0;
-    std::int32_t unused_ = 0;  ///< number of changes minus number of points
+    std::int32_t unused_ = 0;  ///< `changes_` minus the number of points in the fit
     FixedVec p_;
     FixedVec target_;
     Products<std::int32_t> recent_;

@@ -9,8 +9,7 @@ namespace dotpose::core {
 
 /// Finds the dots whose darkest pixels are in the two outermost columns or rows on any side of the
 /// image, and adds them to `Tracking::found`. All rows of the image must be stored. The centre of a
-/// dot on the border may be wrong by a quarter of a pixel. This is accurate enough to read its
-/// bits.
+/// dot on the border may be wrong by up to a quarter of a pixel, but its bits can still be read.
 void find_border_dots(Tracking& tracking);
 
 }  // namespace dotpose::core

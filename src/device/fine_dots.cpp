@@ -45,7 +45,7 @@ DOTPOSE_NOINLINE void measure_dot(const std::uint8_t* at, int u, int v, Tracking
     const std::uint8_t* const first = at - kHalf_px * (stride + 1);
     const std::uint8_t* const last = first + 2 * kHalf_px * stride;
     // A neighbouring dot can cover at most one of the two corners on each diagonal, so the brighter
-    // corner has the level of the paper.
+    // corner is at the paper level.
     const int paper = (std::max<int>(first[0], last[2 * kHalf_px]) +
                        std::max<int>(first[2 * kHalf_px], last[0])) >>
                       1;

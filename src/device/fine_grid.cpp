@@ -256,10 +256,10 @@ bool agrees(const Tracking& tracking, FixedVec shift) {
 /// Returns false if there is no such place. `phase_q8` is the shift of the grid relative to the
 /// prediction.
 DOTPOSE_NOINLINE bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
-    // The phase determines the shift of the pattern only modulo one cell. A shift that differs from
-    // the phase by one cell is also possible if its magnitude is at most 3/5 of a cell, the maximum
-    // accepted error of a prediction. This is the case if the magnitude of the phase is at least
-    // kLarge_q8.
+    // The phase determines the shift of the pattern only modulo one cell. The maximum accepted
+    // error of a prediction is 3/5 of a cell. If the magnitude of the phase is at least kLarge_q8,
+    // a shift in the opposite direction, which differs from the phase by one cell, is therefore
+    // also possible.
     constexpr int kLarge_q8 = 256 * 2 / 5;
     const auto other = [](int phase) {
         return magnitude(phase) < kLarge_q8 ? 0 : phase > 0 ? 1 : -1;

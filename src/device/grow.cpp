@@ -31,9 +31,9 @@ Square cells_within(int limit) {
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Returns the set of offsets from the nearest intersection with both components at most
-/// `limit_q16` in magnitude. Each component is encoded as the lower 16 bits of the same component
-/// of `rounding_plane_point_q16`, shifted left by 16 bits.
+/// Returns the set of offsets whose components are both at most `limit_q16` in magnitude. Offsets
+/// are relative to the nearest intersection. Each component is encoded as the lower 16 bits of the
+/// same component of `rounding_plane_point_q16`, shifted left by 16 bits.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
@@ -43,8 +43,8 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
-/// Maximum distance of a dot from cell (0, 0) along each axis, in cells. Dots farther away do not
-/// belong to the grid.
+/// Maximum distance of a cell from cell (0, 0) along each axis, in cells. Dots in farther cells are
+/// ignored.
 constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. c is the `rounding_plane_point_q16` of the
@@ -110,9 +110,9 @@ class Fits {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
 
-    /// Fits the plane to the dots that are within reach and near an intersection of the given
-    /// `plane`, which is replaced by the result. Sets `found` to the statistics of the dots.
-    /// Returns false if the dots do not determine the plane, or if its cells are not nearly square.
+    /// Fits a plane to the dots that are within reach and near an intersection of `plane`. Replaces
+    /// `plane` with the result. Sets `found` to the statistics of the dots. Returns false if the
+    /// dots do not determine the plane, or if its cells are not nearly square.
     bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
         const Cells cells(plane);
         found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);

@@ -87,7 +87,7 @@ template class DeviceMemoryFor<320, 240>;
 
 DeviceLocator::DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options)
     : RowLocator(memory.workspace_, options) {
-    // Another locator may have used this memory and set known sheets.
+    // Clears the known sheets, because another locator that used this memory may have set them.
     workspace().forget_known();
 }
 

@@ -52,9 +52,9 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
     return (top[0] + top[side_px] + bottom[0] + bottom[side_px]) >> 2;
 }
 
-/// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads, and the size of the square
-/// around an intersection that contains these pixels. Returns false if any of these pixels is
-/// outside the square with half-width kHalf_px.
+/// Sets `Tracking::dot_pixels` to the offsets of the pixels that `read_symbol` reads. Also sets the
+/// half-width of the square around an intersection, so that the square contains these pixels.
+/// Returns false if any of these pixels is outside the square with half-width kHalf_px.
 bool lay_dot_pixels(Tracking& tracking);
 
 /// The symbol read at an intersection and the threshold of its dot, packed into one register.

@@ -38,8 +38,8 @@ bool OffsetFit::correct(PlaneFromImage& plane) const {
     const std::int32_t b = xy >> excess;
     const std::int32_t c = yy >> excess;
     const std::int32_t determinant = a * c - b * b;
-    // The dots are considered collinear if their standard deviation across the best line is less
-    // than about 1/16 of their standard deviation along it.
+    // The dots are considered collinear if their standard deviation across the best-fitting line is
+    // less than about 1/16 of their standard deviation along it.
     if (determinant <= (a + c) * ((a + c) >> 8)) return false;
 
     const int own = excess_bits(std::max(larger_component(of_x), larger_component(of_y)));

@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Least-squares fit of an affine function of the image coordinates to the offsets. Rounding causes
-/// a relative error of about 1 %, which is acceptable because the offsets are small.
+/// Fits an affine function of the image coordinates to the offsets, by least squares. Rounding
+/// causes a relative error of about 1 %, which is acceptable because the offsets are small.
 class OffsetFit {
   public:
     /// Adds a dot and its offset, in 2^-24 cells. The offset must be at most 2^21, an eighth of a
@@ -34,7 +34,7 @@ class OffsetFit {
 
   private:
     std::int32_t count_ = 0;
-    // Coordinates p = (x, y) are in 1/4 px, and offsets r in 2^-12 cells.
+    // Units of the sums: coordinates p = (x, y) are in 1/4 px, offsets r are in 2^-12 cells.
     FixedVec p_;
     FixedVec r_;
     std::int32_t xx_ = 0;

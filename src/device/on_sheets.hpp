@@ -19,7 +19,7 @@ struct SheetFunctions {
     /// Returns true if the predicted place of a tracked frame is on the known sheets and the bits
     /// of the frame make it certain (see `is_certain_place`).
     bool (*verify)(const DeviceOptions& options, DeviceWorkspace& w);
-    /// Prepares for storing the rows of a small frame (see `begin_small_frame`).
+    /// Prepares the workspace to store the rows of a small frame (see `begin_small_frame`).
     bool (*begin_small)(int width_px, int height_px, const DeviceOptions& options,
                         DeviceWorkspace& w);
     /// Finds the dots of a small frame (see `find_dots_of_small_frame`).

@@ -5,8 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum distance from `near_q8`, along each axis, of the dots that determine the origin. At
-/// larger distances, the first grid may be wrong by a third of a cell.
+/// Maximum distance between `near_q8` and the dots that determine the origin, in cells along each
+/// axis. At larger distances, the first grid may be wrong by a third of a cell.
 constexpr int kReach_cells = 4;
 
 /// Circular mean of dot offsets along one axis: the angle of a sum of unit vectors.

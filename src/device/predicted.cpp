@@ -19,7 +19,7 @@ constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
 
 /// Returns true if all values of the prediction are in the ranges that can be tracked. Within these
-/// ranges, no stage overflows.
+/// ranges, no later computation overflows.
 bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;

@@ -12,7 +12,7 @@ namespace dotpose::core {
 /// Number of rows that are collected before their dots are read.
 inline constexpr int kRowsAtOnce = 12;
 
-/// Prepares the tracking of a frame from its prediction. Sets `plane` to the predicted map from the
+/// Prepares to track a frame, using its prediction. Sets `plane` to the predicted map from the
 /// image to the cells, relative to cell (0, 0). In `tracking`, sets the corner, the cells, and the
 /// members that depend on the spacing. The memory and the image size must already be set. The image
 /// must have at most 4096 px per side. The prediction may contain arbitrary values. Returns

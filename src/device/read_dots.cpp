@@ -24,7 +24,7 @@ RowDirection row_direction(const Tracking& tracking) {
 }
 
 TrackedView view_of(const Tracking& tracking) {
-    // The whole square around the pixel of an intersection must be in the image.
+    // An intersection is in view if the whole square around its pixel is in the image.
     const int half_px = tracking.half_side_px;
     const std::int32_t min_q16 = half_px * 65536;
     const auto extent_q16 = [&](int side_px) {

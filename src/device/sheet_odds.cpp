@@ -38,7 +38,7 @@ std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_acros
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
 
-/// Sum of the odds of alternatives to a given place. The alternatives are the other places on the
+/// Sums the odds of all alternatives to a given place. The alternatives are the other places on the
 /// known sheets that have the same lines as the given place on one axis. Only the lines of the
 /// other axis distinguish them from the given place.
 class OddsOfOthers {
@@ -98,9 +98,9 @@ int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int
 }
 
 /// Returns an upper bound on the probability of an accidental match with an unknown sheet, as log2
-/// in units of 2^-8. Such a sheet has the columns or the rows of a known sheet, and agrees on the
-/// other axis by chance. On the other axis, only one position in 63 is possible, because the rolls
-/// of the matching lines determine this position modulo 63.
+/// in units of 2^-8. Such a sheet has the same columns or the same rows as a known sheet, and
+/// agrees with the bits on the other axis by chance. On the other axis, only one position in 63 is
+/// possible, because the rolls of the matching lines determine this position modulo 63.
 int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const PlacedLines& x,
                           const PlacedLines& y, int bits, int odds_per_bit_q8) {
     std::uint32_t columns = 0;

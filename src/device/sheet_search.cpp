@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kTurns = 4;
 /// Maximum number of pairs of lines that the search tries on each axis. The pairs are disjoint, so
-/// a bit error affects at most one pair on each axis.
+/// a wrong bit affects at most one pair.
 constexpr int kMaxPairs = 3;
 
 /// The rolls at which all bits of a line agree with the main sequence. Empty if there are more than
@@ -51,7 +51,7 @@ struct LinePair {
 
 /// Returns the first line of the best pair of adjacent lines. Pairs are ranked by the number of
 /// bits in the line with fewer bits. Skips pairs with a line in the bit set `tried`, and adds both
-/// lines of the result to this set. Returns nullopt if no pair with bits is left.
+/// lines of the result to this set. Returns nullopt if no remaining pair has bits in both lines.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -100,7 +100,8 @@ class PairsOfLines {
     std::array<LinePair, kTurns> pairs_{};
 };
 
-/// The range of positions that a region covers on one axis, and its section on this axis.
+/// The range of positions that a region covers on one axis, and the section of the region on this
+/// axis.
 struct RegionAxis {
     std::uint32_t first;
     std::uint32_t size;
@@ -143,8 +144,8 @@ class SheetSearch {
 
     const HardBlock& block_;
     CodeVariant code_;
-    /// Maximum number of wrong bits, summed over both axes. Once a place is found, this is one less
-    /// than that place's number of wrong bits.
+    /// Maximum number of wrong bits, summed over both axes. Once a place has been found, the
+    /// maximum is one less than the number of wrong bits at this place.
     int max_wrong_;
     std::optional<SheetPlace> best_;
 };

@@ -12,9 +12,9 @@
 namespace dotpose::core {
 
 struct SheetPlace {
-    int quarters = 0;            ///< quarter turns from the block to the pattern
+    int quarters = 0;            ///< number of quarter turns from the block to the pattern
     Place corner;                ///< place where the first column and the first row cross
-    std::array<int, 2> wrong{};  ///< number of x bits and of y bits that disagree with the code
+    std::array<int, 2> wrong{};  ///< number of wrong x bits, and number of wrong y bits
 };
 
 /// Finds the place and the orientation of the block in the regions whose code variant is `code`.

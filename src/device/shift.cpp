@@ -29,8 +29,8 @@ Shifts::Shifts(const Tracking& tracking) {
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
     measure_paper(tracking);
-    // Level below which pixels are dark. It is close to the paper level, because the dots of
-    // blurred frames are pale.
+    // Level below which pixels are dark. It is close to the paper level, because dots in blurred
+    // frames are pale.
     cut_ = paper_ - paper_ / 16;
     add_dots(tracking);
     divide_by_dots();
@@ -58,9 +58,9 @@ void Shifts::measure_paper(const Tracking& tracking) {
 
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
-    // Maximum distance of a visited cell from the middle cell, in cells along each axis. The
-    // distance is sufficient at any rotation of the grid. Within it are all dots near the middle
-    // column that are in the first rows, or that a shift can move into the first rows.
+    // Maximum distance of a visited cell from the middle cell, in cells along each axis. At any
+    // rotation of the grid, the visited cells include all dots near the middle column that are in
+    // the first rows or that a shift can move into the first rows.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -138,7 +138,8 @@ bool Shifts::next(FixedVec& shift_q8) {
     }
     if (best == 0) return false;
     constexpr int kStep_q8 = kStep_px * 256;
-    // Interpolates the maximum between the steps, using the neighbours on both sides.
+    // Interpolates the position of the maximum along one axis: the centroid of the mean at the best
+    // step and the means at the two adjacent steps.
     const auto between = [](int before, int here, int after) {
         return (after - before) * kStep_q8 / std::max(before + here + after, 1);
     };

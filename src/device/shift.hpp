@@ -1,4 +1,4 @@
-// Shift: measures the error of the predicted position from the first rows of a tracked frame.
+// Shift: uses the first rows of a tracked frame to measure the error of the predicted position.
 #pragma once
 
 #include <array>
@@ -7,24 +7,24 @@
 
 namespace dotpose::core {
 
-/// Mean darkness of the pixels at the predicted dots near the middle column of the image, for each
-/// shift in the search range. The mean is largest at the correct shift, because all dots then
-/// coincide with their predicted centres. If few dots are in view, the mean may be nearly as large
-/// at a shift that is wrong by one spacing.
+/// For each shift in the search range, the mean darkness of the pixels at the shifted predicted
+/// centres of the dots near the middle column of the image. The mean is largest at the correct
+/// shift, because all shifted centres then coincide with dots. If few dots are in view, the mean
+/// may be nearly as large at a shift that is wrong by one spacing.
 class Shifts {
   public:
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Finds the shift with the largest mean darkness. Sets `shift_q8` to this shift, in 2^-8 px
-    /// from the predicted to the measured position, and returns true. Excludes shifts that are
-    /// within two steps of an earlier result along both axes. Returns false if the darkness of all
-    /// remaining shifts is 0.
+    /// Finds the shift with the largest mean darkness. Sets `shift_q8` to this shift, which is the
+    /// vector from the predicted to the measured position in 2^-8 px, and returns true. Excludes
+    /// shifts that are within two steps of an earlier result along both axes. Returns false if the
+    /// darkness of all remaining shifts is 0.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
-    /// Returns the contrast in grey levels between the paper and the middles of dots, at the shift
-    /// that `next` returned most recently.
+    /// Returns the contrast between the paper and the centres of the dots, in grey levels, at the
+    /// shift that `next` returned most recently.
     int depth() const { return depth_; }
 
   private:
@@ -51,7 +51,8 @@ class Shifts {
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;
-    std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots in the sums of each row
+    /// Number of dots in the sums of each row of the search range.
+    std::array<std::uint8_t, kMaxPerSide> dots_{};
     /// Sums of darkness, which `divide_by_dots` turns into means.
     std::array<std::uint16_t, kPerRow * kPerRow> sums_{};
 };

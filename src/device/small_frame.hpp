@@ -1,7 +1,7 @@
-// Small frame: finds the dots of a small frame on known sheets. Such a frame has only a few more
-// dots than necessary, so dots close to the border or to each other must also be found. Blob
-// detection (core/detect/blobs.hpp) misses these dots. The search for darkest pixels finds them,
-// but requires that the rows are stored.
+// Small frame: finds the dots of a small frame on known sheets. Such a frame contains only a few
+// more dots than are needed to locate it, so dots close to the border or to each other must also be
+// found. Blob detection (core/detect/blobs.hpp) misses these dots. The search for darkest pixels
+// finds them, but requires that the rows are stored.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -15,8 +15,8 @@ struct DeviceWorkspace;
 /// enough dots for blob detection.
 inline constexpr int kMaxSmallSide_px = 80;
 
-/// Prepares for storing the rows of a frame. Returns false if the frame is not small, or if the
-/// memory has no room for all of its rows.
+/// Prepares the workspace to store the rows of a frame. Returns false if the frame is not small, or
+/// if the memory has no room for all of its rows.
 bool begin_small_frame(int width_px, int height_px, const DeviceOptions& options,
                        DeviceWorkspace& w);
 

@@ -64,7 +64,8 @@ Status read_rows(DeviceWorkspace& w) {
 }
 
 /// Verifies the predicted place against the bits of the dots. If sheets are known, first tests
-/// whether the place is certain on these sheets. Error: not_certain.
+/// whether the place is certain on these sheets. If it is not, and if other sheets are possible,
+/// verifies it in the whole code. Error: not_certain.
 Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->verify(options, w)) return Status::ok;
@@ -133,7 +134,7 @@ Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w) {
     const bool is_tracked =
         static_cast<unsigned>(t.rows_taken) < static_cast<unsigned>(t.height_px);
     if (t.status != Status::ok || !is_tracked) {
-        // Ignores the row, which is outside the tracked part or follows a failure.
+        // Ignores rows outside the tracked part, and all rows after a failure.
         if (t.rows_taken < 0) ++t.rows_taken;
         return t.status;
     }

@@ -199,8 +199,8 @@ bool find_turn(Tracking& tracking) {
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
         agree = rounds.seen() < kMinMeasured ||
                 8 * rounds.agreeing() >= kMinFraction_q3 * rounds.seen();
-        // Moves the cells only after rings 1, 2 and 4. `recentre` has already used ring 0, the
-        // middle dot. After ring 3, too few dots are new for another fit.
+        // Moves the cells only after rings 1, 2 and 4. Ring 0, the middle dot, was already used by
+        // `recentre`. Ring 3 alone adds too few dots for another fit.
         const bool moves_cells = round % 2 == 0 ? round > 0 : round == 1;
         if (moves_cells && rounds.agreeing() > before) rounds.lay_cells();
     }

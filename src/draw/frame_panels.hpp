@@ -10,8 +10,8 @@ namespace dotpose::draw {
 /// paper.
 void draw_detection(const FrameView& view, Svg& svg);
 
-/// Draws all edges from a common origin, as in figure 4 of the paper. `side` is the side of the
-/// square plot.
+/// Draws all edges from a common origin, as in figure 4 of the paper. `side` is the side length of
+/// the square plot.
 void draw_edges(const FrameView& view, double side, Svg& svg);
 
 /// Draws the grid and the symbols on a faded frame, as in figure 9 of the paper.

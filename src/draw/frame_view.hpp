@@ -38,7 +38,7 @@ class Plane {
     Point dv_;
     Point perspective_;
     double lens_;
-    double area_;  ///< area of a pixel in the plane, in squared spacings
+    double area_;  ///< area that a pixel covers in the plane, in squared spacings
 };
 
 /// Maps pixel coordinates to the drawing. Image coordinates refer to the captured image. Ideal

@@ -1,5 +1,5 @@
 // Draws the sheets in a sheet file. On the left is a map of the sheets in the world. On the right
-// are the sheets without a world pose, each as large as possible.
+// are the sheets without a world pose, each scaled so that its longer side has a fixed length.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -11,7 +11,7 @@
 
 namespace dotpose::draw {
 
-/// A page, given by its four corners in order.
+/// A sheet, given by its name and its four corners. Each corner is adjacent to the previous one.
 struct MapSheet {
     std::string name;
     std::array<Point, 4> corners_mm;

@@ -70,7 +70,7 @@ Score score_of(std::span<const Outcome> outcomes) {
         }
     }
     for (double& sum : score.normalised)
-        sum /= score.located;  // NaN if there are no fixes, like the quantiles
+        sum /= score.located;  // NaN if there are no fixes, as for the quantiles
     score.position_um = quantiles_of(std::move(distances_um));
     score.angle_deg = quantiles_of(std::move(angles_deg));
     score.elapsed_us = quantiles_of(std::move(times_us));

@@ -63,8 +63,8 @@ void cover(GreyImage& image, double share, double direction_rad) {
 
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index) {
     Shot shot = draw_shot(setup, index);
-    // The random values of the condition come from a separate generator. Otherwise, they would
-    // change the other random values of the shot.
+    // The random values of the condition come from a separate generator. If they came from the
+    // generator of the shot, they would change the other random values of the shot.
     Rng rng(setup.seed ^ shot.seed);
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     switch (kind) {

@@ -20,7 +20,7 @@ constexpr double kHeight = 690;
 constexpr double kLeft = 80;
 constexpr double kPlotWidth = kWidth - kLeft - 40;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Errors are drawn only at values of the condition with at least this number of fixes.
+/// Minimum number of fixes for drawing the errors at a value of the condition.
 constexpr int kMinFixes = 5;
 
 struct Words {
@@ -75,7 +75,8 @@ void draw_head(Svg& svg, const Sweep& sweep) {
     legend_entry(svg, {x, 39}, {style::kWindow, false, false, true}, "8 x 8 window (paper)");
 }
 
-/// Marks each point that has wrong fixes with a red disc and the number of wrong fixes.
+/// Draws a red disc above each point that has wrong fixes. The disc contains the number of wrong
+/// fixes.
 void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder) {
     for (const SweepPoint& point : sweep.points) {
         const Score& score = decoder == Decoder::window ? point.window : point.all;

@@ -141,7 +141,7 @@ double fit_division_model(const PlumbBob& lens, Camera& camera) {
     camera.k_per_px2 = 0;
     camera.centre_px = {lens.cx, lens.cy};
     camera.pinhole = Pinhole{lens.fx, lens.fy, camera.centre_px};
-    // If the lens has no distortion, its distortion centre is arbitrary.
+    // No fit is needed for a lens without distortion. Its distortion centre is arbitrary.
     if (lens.is_straight()) return 0;
     constexpr int kSteps = 16;
     const double reach_px = std::hypot(camera.width_px, camera.height_px) / 2;

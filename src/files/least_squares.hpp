@@ -27,7 +27,7 @@ class LeastSquares {
         }
     }
 
-    /// Returns the unknowns with the minimum sum of squared residuals. The added rows must
+    /// Returns the solution that minimises the sum of squared residuals. The added rows must
     /// determine all unknowns.
     Vector solve() const {
         Vector x{};

@@ -19,7 +19,8 @@ using follow::AxisSample;
 /// smoothed height exceeds the limit by more than two standard deviations.
 constexpr double kRest_mm = 0.02;
 
-/// Consecutive samples on the same page. Neighbouring samples are at most kMaxInkGap_s apart.
+/// Consecutive samples on the same page. The time from each sample to the next is at most
+/// kMaxInkGap_s.
 using Run = std::span<const InkSample>;
 
 std::vector<Run> runs_of(std::span<const InkSample> samples) {

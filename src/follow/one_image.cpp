@@ -10,7 +10,8 @@ using namespace follow_detail;
 Located Follower::locate(const GreyImage& image) {
     use_options_for(image.width_px, image.height_px);
     image_ = as_located(image.view());
-    // A camera file is valid for one image size, so images are reduced only without a camera file.
+    // A camera file is valid for only one image size, so images are not reduced if there is a
+    // camera file.
     const int by = options_.camera ? 1 : reduction_of(image.width_px, image.height_px);
     if (by > 1) {
         used_ = reduced(used_, image_, by);
@@ -24,9 +25,8 @@ Located Follower::locate(const GreyImage& image) {
     return result;
 }
 
-/// Tries each code variant, and returns the first fix that is on a sheet of its variant. If there
-/// is none, returns the first fix in any variant. If there is no fix, returns the result for the
-/// first variant.
+/// Tries each code variant, and returns the first fix that is on one of the sheets. If no fix is on
+/// a sheet, returns the first fix. If there is no fix, returns the result for the first variant.
 Follower::Found Follower::read() {
     if (codes_.empty()) {
         const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);

@@ -77,9 +77,8 @@ std::optional<Prediction> Follower::predict(std::int64_t time_us) const {
     return tracker_.predict(time_us, seen_->fix, *seen_->sighting, used_);
 }
 
-/// Tries each code variant, and returns the first fix that is on a sheet of its variant. If there
-/// is none, returns the first fix in any variant. If there is no fix, returns the result for the
-/// last variant.
+/// Tries each code variant, and returns the first fix that is on one of the sheets. If no fix is on
+/// a sheet, returns the first fix. If there is no fix, returns the result for the last variant.
 Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Prediction>& expected) {
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
     if (codes_.empty()) return look_in_any_code(expected);
@@ -139,13 +138,13 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
 }
 
 /// If an image shows more than the page of the fix, masks everything outside this page and locates
-/// the image again. Returns `found` if the second attempt does not find the same sheet as the
-/// first.
+/// the image again. Returns `found` if the fix in the masked image is not on the same sheet, or if
+/// there is no such fix.
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {
-        // The image may show two patterns. This fix is used only to find the edge of the page, so a
-        // fix on the clearer pattern is sufficient.
+        // The image may show two patterns. An uncertain fix on the clearer pattern is sufficient
+        // here, because it is used only to find the edge of the page.
         DeviceOptions any = used_;
         any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};
         guess = look(image_, any, {});

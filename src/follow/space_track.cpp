@@ -113,8 +113,8 @@ Matrix6 matrix_of(const SpaceCovariance& covariance) {
 
 /// Returns the matrix that converts from the agility axes to position and rotation. In a view of a
 /// plane, the point in front of the camera is measured more accurately than the camera position.
-/// The position error is therefore mostly the rotation error multiplied by a lever. The lever is
-/// the regression of the position on the rotation. `noise` is the covariance of a sighting.
+/// The position error is therefore mostly the rotation error multiplied by a lever arm. The lever
+/// arm is the regression of the position on the rotation. `noise` is the covariance of a sighting.
 Matrix6 lever_of(const Matrix6& noise) {
     Matrix6 result = Matrix6::Identity();
     const Matrix3d rotation = noise.bottomRightCorner<3, 3>();
@@ -343,9 +343,9 @@ void SpaceTracker::start(const SpaceSighting& sighting) {
     track_.verdict = SpaceVerdict::accepted;
 }
 
-/// Corrects the track with the pose of the sighting that is consistent with the track. Returns
-/// false if neither pose is consistent, or if the track does not decide between the two poses of an
-/// ambiguous sighting.
+/// Corrects the track with the more likely pose of the sighting. Returns false if this pose is not
+/// consistent with the track, or if neither pose of an ambiguous sighting is much more likely than
+/// the other.
 bool SpaceTracker::take(const SpaceSighting& sighting) {
     const double first = squared_innovation(motion_, sighting, sighting.camera, options_);
     SpaceVerdict verdict = SpaceVerdict::accepted;
@@ -376,8 +376,8 @@ bool SpaceTracker::take(const SpaceSighting& sighting) {
     return true;
 }
 
-/// Counts rejected sightings that are consistent with each other. After enough of them, starts a
-/// new track.
+/// Counts rejected sightings, each of which is consistent with the previous one. Starts a new track
+/// when `SpaceTrackOptions::confirmations` sightings have been counted.
 void SpaceTracker::reject(const SpaceSighting& sighting) {
     update(sighting.time_us);
     track_.verdict = SpaceVerdict::rejected;

@@ -60,7 +60,7 @@ struct Content {
     Bytes bytes;
 };
 
-/// Returns advice for the user if the file has a known type that is not an image. Otherwise,
+/// Returns advice for the user if the file is of a known type other than an image. Otherwise,
 /// returns an empty string.
 std::string advice_for(const Bytes& bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

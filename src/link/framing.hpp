@@ -14,8 +14,8 @@ inline constexpr std::size_t kPlainBytes = 27;
 /// Number of bytes after COBS encoding (Cheshire and Baker, 1999). COBS adds a single byte if there
 /// are at most 254 plain bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
-/// Number of bytes that encode the CRC. Each byte contains up to 7 bits of the CRC. Its top bit is
-/// set, so the byte is never zero.
+/// Number of bytes that encode the CRC. Each of these bytes contains up to 7 bits of the CRC. The
+/// top bit is set to make the byte nonzero.
 inline constexpr std::size_t kCheckBytes = 3;
 inline constexpr std::size_t kFramedBytes = kCodedBytes + kCheckBytes;
 

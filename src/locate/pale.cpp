@@ -34,7 +34,8 @@ bool is_pale(const ImageView& image, const DeviceOptions& options, CodeVariant c
             const FixedVec cell_q16{i * kSpacing_q16, j * kSpacing_q16};
             const FixedVec dot_q16 = cell_q16 + FixedVec{dx(symbol) * fix.displacement_q16,
                                                          dy(symbol) * fix.displacement_q16};
-            // No dot covers the point midway between four intersections.
+            // The grey level of the paper is sampled midway between four intersections, where there
+            // is no dot.
             const FixedVec paper_q16 = cell_q16 + FixedVec{kSpacing_q16 / 2, kSpacing_q16 / 2};
             const int ink = level_at(image, options.lens, plane, dot_q16);
             const int paper = level_at(image, options.lens, plane, paper_q16);

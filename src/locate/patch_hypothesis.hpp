@@ -31,7 +31,7 @@ bool place_patch(const ImageView& image, FixedVec around_px, int scale, Patch& p
 bool place_patch_in_middle(const ImageView& image, int scale, Patch& patch);
 
 /// Finds the dots of the patch. Sets the status of the fix to too_few_dots if no patch so far has
-/// at least `Frame::min_dots` dots, and to no_grid otherwise. A later fix replaces this status.
+/// had at least `Frame::min_dots` dots, and to no_grid otherwise. A later fix replaces this status.
 /// Returns false without setting the status if the patch has no contrast.
 bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix, DotTiles tiles = DotTiles::median);
 

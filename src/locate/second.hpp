@@ -36,7 +36,7 @@ class SecondAttempt {
     DesktopWorkspace& w_;
     /// True if the workspace contains the dots and cells of the filtered image.
     bool is_seen_ = false;
-    Fix seen_;  ///< the fix after the bits were read, before decoding
+    Fix seen_;  ///< copy of the fix, made after reading the bits and before decoding
 };
 
 }  // namespace dotpose::core

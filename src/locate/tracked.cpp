@@ -106,7 +106,8 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
             return true;
         }
     }
-    // Uses windows around intersections, which can measure larger offsets than centroid windows.
+    // Measures the dots in windows around intersections, because these windows can measure larger
+    // offsets than centroid windows.
     kernels.list_cells(view, dots);
     kernels.measure_windows(
         image, view, {spacing, 0.3F, hypothesis.dot_contrast_q8 * kContrastCut_q8 >> 8}, dots);
@@ -157,8 +158,8 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Fr
     return hypothesis;
 }
 
-/// Tries the image points kPoints in turn: corrects the hypothesis with the dots near the point,
-/// and tests the corrected hypothesis (see `confirm`). Returns true as soon as a corrected
+/// For each of the image points kPoints in turn, corrects the hypothesis with the dots near the
+/// point, and tests the corrected hypothesis (see `confirm`). Returns true as soon as a corrected
 /// hypothesis is confirmed.
 bool confirm_corrected(const Frame& frame, const Hypothesis& hypothesis, int max_px,
                        const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {

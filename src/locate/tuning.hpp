@@ -67,7 +67,8 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F, 0.85F, 0.65F};
 /// Search for a rotation of the scene during the readout (locate/turning).
 namespace turning {
 /// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum distance, in
-/// rows, by which the rotation moves the left or right image border down while a row is read.
+/// rows, by which the rotation moves the scene at the left or right image border down while a row
+/// is read.
 inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
 /// Maximum drift of the scene while a row is read, in rows.
@@ -90,9 +91,9 @@ inline constexpr float kMinGain = 3;
 /// Maximum number of grids for which the search looks for a place in the code. If none of these
 /// grids has a place, the search ends, because further rotations usually lead to the same grids.
 inline constexpr int kMaxClimbs = 3;
-/// The image is measured again if the correction of the rotation moves the dots in its corners by
-/// at least kSettled_px. Smaller corrections are applied to the measured dots. kMaxRounds is the
-/// maximum number of measurements.
+/// If the correction of the rotation moves the dots in the image corners by at least kSettled_px,
+/// the image is measured again. Smaller corrections are applied to the measured dots. kMaxRounds is
+/// the maximum number of measurements.
 inline constexpr float kSettled_px = 0.5F;
 inline constexpr int kMaxRounds = 5;
 /// The search for a rotation is skipped if `keep_isolated` keeps less than this fraction of the
@@ -171,7 +172,7 @@ inline constexpr float kOutlier = 8.3F;
 /// axis. If the distance is larger, the dots are measured again, because small centroid windows do
 /// not measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
-/// An exact hypothesis is implausible if its plane moves by more than kFar in this number of fits.
+/// An exact hypothesis is implausible if this number of fits each move its plane by more than kFar.
 /// docs/accuracy.md, "Dots with the same sub-pixel phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Windows are dropped if their paper level is less than kTable times the mean paper level. Such
@@ -212,8 +213,8 @@ inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// cache. Larger areas would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// If the image contains fewer cells than this, bits are also read from dots that are cut off by
-/// the image border. With more cells, the position is certain without these dots.
+/// If the image contains fewer than this number of cells, bits are also read from dots that are cut
+/// off by the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
 /// Maximum number of pixels in a small view. A view is small only if it also contains fewer than
 /// kMaxCellsWithCutDots cells. Larger images rarely contain so few cells, except if a rolling
@@ -252,10 +253,9 @@ inline constexpr float kRough = 0.027F;
 /// Views of known sheets (locate/hypothesis, locate/on_sheets).
 namespace known {
 /// If the shorter image side is less than kSmallView spacings, the margin at the image border is
-/// reduced to kMargin_px: dots closer than this to the border are not read. The usual margin is at
-/// least 1.7 px. Of 300 views of 36 x 36 px at 6 px per spacing, 97 % are located with a margin of
-/// 1.0 px, and 88 % with the usual margin. The pose errors are equal in both cases
-/// (`dotpose_tables known`).
+/// reduced to kMargin_px. Dots in the margin are not read. The usual margin is at least 1.7 px. Of
+/// 300 views of 36 x 36 px at 6 px per spacing, 97 % are located with a margin of 1.0 px, and 88 %
+/// with the usual margin. The pose errors are equal in both cases (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of a bit, in units of 1/127. The second attempt uses a cell only if each of its

@@ -34,8 +34,8 @@ FloatVec axis_of(const FixedLens& lens) {
 }
 
 /// Returns the maximum rotation, in rad per row. The rotation during the whole readout is at most
-/// kMaxTurn_rad. While a row is read, the left and right image borders move down by at most
-/// kMaxFall rows, because the readout must be faster than the scene.
+/// kMaxTurn_rad. While a row is read, the scene at the left or right image border moves down by at
+/// most kMaxFall rows, because the readout must be faster than the scene.
 float max_rad_per_row(const ImageView& image) {
     return std::min(tuned::kMaxTurn_rad / static_cast<float>(image.height_px),
                     tuned::kMaxFall / (static_cast<float>(image.width_px) / 2));
@@ -162,7 +162,7 @@ void store_turning(const Frame& frame, const ReadoutTurn& turn, const Measuremen
 /// Returns true if the rotation explains a significant fraction of the squared residuals of a fit
 /// without rotation: at least about a fifth, or three fifths if the remaining residuals are
 /// correlated (see kMinGainIfEven and kMinGain). Correlated residuals need the larger fraction,
-/// because the residuals of a wrinkled sheet may be similar to those of a rotation.
+/// because a wrinkled sheet may cause residuals similar to those of a rotation.
 bool is_significant(const TurnFit& fit, int dots, Surface surface) {
     const float min_gain = surface == Surface::even ? tuned::kMinGainIfEven : tuned::kMinGain;
     return fit.turn.rad_per_row * fit.turn.rad_per_row >=
@@ -235,9 +235,9 @@ std::optional<Hypothesis> search_patch(const Frame& frame, const PlaceEvidence& 
     return {};
 }
 
-/// Finds the isolated dots of a patch. Returns false if the patch has no contrast, or if less than
-/// kMinIsolated of its dots are isolated. If fewer dots are isolated, the first attempt probably
-/// failed because of noise and dirt, not because of a rotation.
+/// Finds the isolated dots of a patch. Returns false if the patch has no contrast, or if the
+/// fraction of isolated dots is less than kMinIsolated. In the latter case, the first attempt
+/// probably failed because of noise and dirt, not because of a rotation.
 bool find_isolated_dots(const Frame& frame, Patch& patch, Fix& fix) {
     if (!find_patch_dots(frame, patch, fix)) return false;
     const int seen = patch.dots.count;

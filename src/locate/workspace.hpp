@@ -22,8 +22,8 @@
 namespace dotpose::core {
 
 /// Memory of a Locator, and results of its attempts. Only the entry points and the attempts access
-/// the whole workspace. They pass parts of it to the stages. The base class is the memory of a
-/// DeviceLocator, which `Effort::device` uses.
+/// the whole workspace. They pass parts of it to the stages. The base class, which is the memory of
+/// a DeviceLocator, is used by the attempt of `Effort::device`.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;   ///< used by the first attempt and the search for a rotation
     Smoothing smoothing;      ///< used by the second attempt
@@ -110,8 +110,9 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
 
   private:
-    // Maximum height of a threshold tile in this workspace. Only images whose shorter side exceeds
-    // kMaxSideWithLowTiles_px have high tiles, which need more memory. See `begin_threshold`.
+    // Maximum height of a threshold tile in this workspace. Tall tiles, which need more memory, are
+    // used only for images whose shorter side exceeds kMaxSideWithLowTiles_px. See
+    // `begin_threshold`.
     static constexpr int kBand_px =
         MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
@@ -134,7 +135,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
     // The blocks of the PaperMap are squares. Their side is a tenth of the shorter image side,
-    // rounded down, and therefore at least 6 px. There are at most 11 x 683 blocks.
+    // rounded down. It is at least 6 px, because the shorter image side is at least 60 px. There
+    // are at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};

@@ -27,8 +27,8 @@ struct CardGrid {
 CardGrid card_grid(Paper paper, Paper card);
 
 /// Converts the sheet of a card to page coordinates. `slot` is the index of the card on the page,
-/// counted row by row. The card is shifted by less than a pixel at 300 dpi to align its dots with
-/// the printer pixels, as on a page of its own.
+/// counted row by row. Shifts the card by less than a pixel at 300 dpi, to align its dots with the
+/// printer pixels. The dots of a card on a separate page are aligned in the same way.
 Sheet on_page(const CardGrid& grid, int slot, Sheet card);
 
 /// Returns the cut marks as PDF content, in points from the bottom left corner of the page.

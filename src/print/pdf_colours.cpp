@@ -84,8 +84,8 @@ bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle s
 }
 
 /// Replaces the grey colour space of an image with a palette of converted colours, so the pixel
-/// data need not be changed or decompressed. If the pixels do not have 1 to 8 bits, returns false
-/// and changes nothing.
+/// data need not be changed or decompressed. If the number of bits per pixel is missing or not
+/// from 1 to 8, returns false and changes nothing.
 bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     QPDFObjectHandle depth = dict.getKey("/BitsPerComponent");
     if (!depth.isInteger() || depth.getIntValue() > 8 || depth.getIntValue() < 1) return false;
@@ -115,8 +115,8 @@ QPDFObjectHandle cmy_space(QPDF* pdf) {
     return space;
 }
 
-/// Converts the colours of an image by changing its /Decode array, which maps samples to colour
-/// values, and if necessary its colour space. The pixel data do not change. Returns false and
+/// Converts the colours of an image by changing its /Decode array and, if necessary, its colour
+/// space. /Decode maps samples to colour values. The pixel data do not change. Returns false and
 /// changes nothing if the image is in CMYK and its black is to be converted, because /Decode cannot
 /// express this conversion.
 bool convert_decode(InkChange change, QPDFObjectHandle dict, ColourKind kind, QPDF* pdf) {

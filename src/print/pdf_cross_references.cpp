@@ -19,8 +19,9 @@ namespace {
 
 using Token = QPDFTokenizer::Token;
 
-/// Reads the cross-reference tables and streams of a document. `startxref` near the end of the file
-/// contains the offset of the newest table or stream. /Prev and /XRefStm contain further offsets.
+/// Reads the cross-reference tables and streams of a document. The number after `startxref`, near
+/// the end of the file, is the offset of the newest table or stream. The values of /Prev and
+/// /XRefStm are further offsets.
 class CrossReferences {
   public:
     CrossReferences(const std::filesystem::path& path, UnpackedBytes& unpacked)

@@ -1,4 +1,5 @@
-/// Limits the size of the cross-reference streams of a PDF, which list its objects.
+/// Limits the size of the cross-reference streams of a PDF. These streams list the objects of the
+/// PDF.
 #pragma once
 
 #include <filesystem>

@@ -18,7 +18,7 @@ namespace dotpose::print {
 
 inline constexpr double kPointsPerMm = 72 / 25.4;
 
-/// Name of the creator in the documents that dotpose prints.
+/// Name of the creator in the metadata of documents that dotpose prints.
 inline constexpr const char* kCreator = "dotpose";
 /// Prefix of the names of the page resources that draw the dots.
 inline constexpr const char* kDotsName = "/Dots";

@@ -37,7 +37,7 @@ constexpr double kArrow_mm = 6;  // length by which an arrow extends beyond the 
 constexpr double kArrowHead_mm = 1.3;
 constexpr double kNoteAway_mm = 3;  // distance from the x arrow to the note
 
-// Widths of the characters from the space to '~' in thousandths of the font size (Adobe font
+// Widths of the characters from the space to '~', in thousandths of the font size (Adobe font
 // metrics for Helvetica).
 constexpr std::array<int, 95> kHelveticaWidths = {
     278,  278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,  //

@@ -77,7 +77,7 @@ double predictor_row_bytes(QPDFObjectHandle parameters) {
 }
 
 /// Throws Error if a stream has more than kMaxFilters filters, because each filter can multiply the
-/// size of the data. Also throws if the rows of a predictor need more than kMaxRowBytes of memory.
+/// size of the data. Also throws if a predictor needs more than kMaxRowBytes of memory for a row.
 void require_few_filters(QPDFObjectHandle dict) {
     constexpr int kMaxFilters = 8;
     constexpr double kMaxRowBytes = 1 << 24;

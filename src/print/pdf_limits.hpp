@@ -42,8 +42,8 @@ class UnpackedBytes {
     void start_page() { page_ = 0; }
 
     /// Counts the bytes of a stream, and ignores objects that are not streams. Throws Error if a
-    /// limit is exceeded, or if the stream has too many filters or needs too much memory for a row
-    /// of a predictor.
+    /// limit is exceeded, if the stream has too many filters, or if the predictor of a filter needs
+    /// too much memory for a row.
     void count(QPDFObjectHandle stream);
 
     /// Counts the bytes of all object streams (streams that contain other objects). Each object

@@ -39,8 +39,8 @@ struct PageScan {
     PageContent found;
 };
 
-/// Maximum number of stored operands. No operator has more than 33 operands: the 32 components of a
-/// colour and a name.
+/// Maximum number of stored operands. No operator has more than 33 operands: a name, and the 32
+/// components of a colour.
 constexpr std::size_t kMaxOperands = 64;
 
 struct Operand {

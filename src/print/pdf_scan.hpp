@@ -1,4 +1,4 @@
-/// Determines what a page paints, before dots are added above or below its content.
+/// Determines what a page paints, before dots are drawn over or under its content.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ namespace dotpose::print {
 struct PageContent {
     bool paints_black = false;   ///< true if the page has text or drawings that need black ink
     bool paints_images = false;  ///< true if the page has images, whose colours are not examined
-    /// True if the page has filled shapes, shadings or images, which cover dots below them.
+    /// True if the page has filled shapes, shadings or images, which hide dots that are drawn under
+    /// them.
     bool paints_areas = false;
     int unclosed_saves = 0;  ///< number of operators q (save) without a matching Q
     int extra_restores = 0;  ///< number of operators Q (restore) without a preceding q

@@ -48,8 +48,8 @@ std::string escaped(const std::string& text) {
     throw Error(fmt::format("the label '{}' cannot be set", text));
 }
 
-/// Returns a drawing of the text, in points. librsvg selects the fonts, and joins and orders the
-/// letters according to the rules of their script.
+/// Returns a drawing of the text. The unit of the drawing is a point. librsvg selects the fonts,
+/// and joins and orders the letters according to the rules of their script.
 Drawing drawing_of(const std::string& text, double size_pt, double width_pt) {
     const std::string svg = fmt::format(
         R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}">)"

@@ -30,7 +30,7 @@ class ScriptText {
     /// line cannot be typeset.
     std::string draw(const std::string& utf8, double size_pt, double x_pt, double y_pt);
 
-    /// Adds to a page's resources all lines that were drawn since the last call.
+    /// Adds all lines drawn since the last call to the resources of a page.
     void add_to(QPDFObjectHandle resources);
 
   private:

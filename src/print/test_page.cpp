@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxSetting = 80;
 constexpr double kLabelHeight_mm = 2.5;
-/// Width of the blank paper around a label and between patches.
+/// Width of the blank space around a label and between patches.
 constexpr double kGap_mm = 2;
 void validate(const std::vector<int>& settings) {
     if (settings.empty()) throw BadArgument("a test page needs spacings and dot sizes");

@@ -1,4 +1,4 @@
-// Addresses at which a server listens.
+// Addresses on which a server listens.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ Address parse_address(const std::string& text);
 /// Returns "IP:PORT", with IPv6 addresses in brackets.
 std::string text_of(const Address& address);
 
-/// Throws Error with the reason if a server cannot listen at the address, for example because
+/// Throws Error with the reason why a server cannot listen on the address, for example because
 /// another program is already listening there.
 void require_free(const Address& address);
 

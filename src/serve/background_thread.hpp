@@ -3,8 +3,8 @@
 
 namespace dotpose::serve {
 
-/// Blocks all signals in this thread, because the main thread handles them. Also lowers the
-/// priority of this thread, because frames are more urgent than the page.
+/// Blocks all signals in the calling thread, because the main thread handles signals. Also lowers
+/// the priority of the calling thread, because frames are more urgent than the page.
 void run_in_background();
 
 }  // namespace dotpose::serve

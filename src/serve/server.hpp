@@ -60,9 +60,10 @@ enum class Format { text, binary };
 
 struct ServerOptions {
     Address address;
-    /// Token that clients must send. It may be empty at a loopback address.
+    /// Token that clients must send. May be empty only if `address` is a loopback address.
     std::string token;
-    /// Files of the web page, which must outlive the server. The page "/" is the start page.
+    /// Files of the web page. They must outlive the server. The file with the path "/" is the start
+    /// page.
     std::span<const Page> pages;
     /// Called with messages for the user, such as reports of refused clients. Called on the
     /// server's thread.
@@ -71,8 +72,8 @@ struct ServerOptions {
 
 class Server {
   public:
-    /// Throws BadArgument if the address requires a token or if this program was built without
-    /// libwebsockets.
+    /// Throws BadArgument if `token` is empty and the address is not a loopback address, or if this
+    /// program was built without libwebsockets.
     explicit Server(ServerOptions options);
     /// Closes all connections.
     ~Server();

@@ -44,7 +44,7 @@ class Topic {
     /// the client subscribed. It is not validated. If `encode` throws, the value is empty.
     void publish_for_each(EncodeFor encode);
 
-    // The following functions are for the server's thread.
+    // The server calls the following functions on its own thread.
 
     const std::string& name() const { return name_; }
     bool is_binary() const { return is_binary_; }

@@ -50,9 +50,9 @@ Vec2 shift_of(const Page& page, Cell cell) {
     return page.shift_mm({static_cast<double>(cell.x), static_cast<double>(cell.y)});
 }
 
-/// Returns the reflectance of a dot. If `palest_ink` is less than 1, each direction of displacement
-/// is printed with its own ink. The order of the inks, from the darkest to the palest, is right,
-/// down, left, up.
+/// Returns the reflectance of a dot. If `palest_ink` is less than 1, the reflectance depends on the
+/// direction in which the dot is displaced. From the darkest to the palest dots, the order is
+/// right, down, left, up.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
     const double paleness = displacement.x > 0   ? 0
                             : displacement.y > 0 ? 1
@@ -72,8 +72,8 @@ View::View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperf
                 std::hypot(blurred.motion_px.x, blurred.motion_px.y) / 2) {}
 
 OffsetBox visible_offsets(const View& view) {
-    // Number of steps along each side of the image. With lens distortion, the extreme offsets may
-    // be anywhere on a side.
+    // Number of intervals into which each side of the image is divided. The corners are not
+    // sufficient, because lens distortion may move the extreme offsets to any point of a side.
     constexpr int kSteps = 16;
     OffsetBox box{{1e300, 1e300}, {-1e300, -1e300}};
     const auto include = [&](double along_u, double along_v) {

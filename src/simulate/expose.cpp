@@ -19,9 +19,9 @@ namespace {
 // Number of pixels that are processed together with vector instructions.
 constexpr std::size_t kLanes = 4;
 
-// Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. The
-// convolution with the kernel covers only the sub-pixels with ink, which are a few percent of all
-// sub-pixels.
+// Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. For
+// the absorbed light, only the sub-pixels with ink are convolved with the kernel. They are a few
+// percent of all sub-pixels.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)
@@ -260,8 +260,8 @@ class ImageRows {
     }
 
   private:
-    // Returns the image coordinate of the centre of a sub-pixel, in px. Sub-pixel 0 is the
-    // outermost sub-pixel of the border.
+    // Returns the image coordinate of the centre of a sub-pixel, in px. Sub-pixel 0 is the first
+    // sub-pixel of the left or top border.
     double pixel_of(int sub_pixel) const {
         return (sub_pixel + 0.5) / kernel_.per_pixel - 0.5 - kernel_.border_px;
     }

@@ -1,4 +1,5 @@
-/// Shapes of ink in an image before blur, and the functions that create and expose them.
+/// Ink shapes in the sharp image, before blur and motion are applied. Functions that create the
+/// shapes and expose frames.
 #pragma once
 
 #include <functional>

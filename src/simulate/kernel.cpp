@@ -65,9 +65,9 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     Kernel kernel;
     kernel.per_pixel =
         imperfections.sub_pixels > 0 ? imperfections.sub_pixels : sub_pixels_for(dot_px);
-    // Drawing ink as the covered fractions of sub-pixels blurs it like a triangle filter that is
-    // two sub-pixels wide and has a variance of 1/6 sub-pixel^2. The Gaussian provides the
-    // remaining blur.
+    // Ink is drawn as the covered fraction of each sub-pixel. This blurs the ink like a triangle
+    // filter that is two sub-pixels wide and has a variance of 1/6 sub-pixel^2. The Gaussian
+    // provides the remaining blur.
     const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);
     const double sigma_px = std::sqrt(
         std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));

@@ -94,8 +94,8 @@ class Texture {
     std::vector<double> nodes_;
 };
 
-/// The table under the paper, which is visible beyond the edge of the paper. Pixels on this edge
-/// show a mix of paper and table.
+/// The table under the paper. It is visible beyond the edge of the paper. Pixels on the edge show a
+/// mix of paper and table.
 class Table {
   public:
     Table(const Page& page, const View& view)

@@ -42,7 +42,7 @@ double intersections(const Shot& shot) {
     return shot.camera.width_px * shot.camera.height_px / (spacing_px(shot) * spacing_px(shot));
 }
 
-/// Draws a random direction, in rad, that is parallel to an axis of the pattern or of the image.
+/// Returns a random direction, in rad, that is parallel to an axis of the pattern or of the image.
 double draw_direction(const Shot& shot, Rng& rng) {
     const double of_image = rng.uniform() < 0.5 ? shot.pose.theta_rad : 0;
     return of_image + static_cast<double>(rng.below(4)) * std::numbers::pi / 2;
@@ -54,7 +54,7 @@ double endless(const Shot& shot) {
     return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
 }
 
-/// Draws a random sheet whose edge or corner is in view. The sheet covers the fraction `share` of
+/// Returns a random sheet whose edge or corner is in view. The sheet covers the fraction `share` of
 /// the view.
 PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     const std::vector<Vec2> points = sample_points(shot);
@@ -84,9 +84,9 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     return area;
 }
 
-/// Draws a random rectangular island of pattern that contains enough dots. Its centre is far enough
-/// from the border of the image that most of the rectangle is in view. The caller checks that the
-/// whole rectangle is in view.
+/// Returns a random rectangular island of pattern that contains enough dots. Its centre is far
+/// enough from the border of the image that most of the rectangle is in view. The caller checks
+/// that the whole rectangle is in view.
 PageArea draw_island(const Shot& shot, Rng& rng) {
     constexpr double kMinDots = PartialView::kMinIslandDots * 1.05;
     PageArea area;

@@ -1,4 +1,4 @@
-// Simulates frames from a camera in a pen, and paths of handwriting.
+// Simulates handwriting: the path of a pen, and the frames from the camera in the pen.
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -56,8 +56,8 @@ Imperfections draw_hard(Rng& rng) {
     return drawn;
 }
 
-/// Draws the imperfections of an optical mouse: a simple lens with strong vignetting, and a sensor
-/// whose pixels have different offsets.
+/// Returns random imperfections that are typical of an optical mouse, which has a simple lens with
+/// strong vignetting, and a sensor whose pixels have different offsets.
 Imperfections draw_mouse(Rng& rng) {
     Imperfections drawn;
     drawn.paper_level = rng.uniform(140, 200);

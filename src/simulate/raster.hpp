@@ -68,7 +68,7 @@ class Raster {
     };
     float* row(int row_in_band);
     std::vector<float> band_;
-    std::vector<std::vector<Span>> spans_;  // spans of each row in the band, which may overlap
+    std::vector<std::vector<Span>> spans_;  // spans of each row in the band, possibly overlapping
     std::vector<double> coverage_;          // covered fraction of each sub-pixel in the current row
     Span touched_{};                        // range of non-zero elements of coverage_
     std::vector<Spot> spots_;

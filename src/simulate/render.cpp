@@ -40,17 +40,18 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
             "the rotation during the readout is too fast for this image: the scene would overtake "
             "the rows");
     const double corner_square = half_u * half_u + half_v * half_v;
-    // The lens model (paper, equation 2) is valid only if |k| r^2 is less than 1. At 1, a positive
-    // k folds the image over itself, and a negative k makes the undistorted position infinite.
+    // The lens model (paper, equation 2) is valid only if |k| r^2 is less than 1. At 1, the image
+    // folds over itself if k is positive, and the undistorted position is infinite if k is
+    // negative.
     require(within(camera.k * corner_square, -0.9, 0.9),
             "the distortion k is too strong for this image: |k| r^2 must stay below 0.9 in the "
             "corners");
     require(within(pose.theta_rad, -1e6, 1e6) && within(pose.fraction_x, -1e6, 1e6) &&
                 within(pose.fraction_y, -1e6, 1e6),
             "the pose is not a number");
-    // In the direction of the tilt, the depth of the paper increases by `slope` mm per mm. The ray
-    // of an image corner moves sideways by `widest` mm per mm of depth. The ray meets the paper
-    // only if slope * widest is less than 1.
+    // In the direction of the tilt, the depth of the paper increases by `slope` mm per mm of
+    // sideways distance. The viewing ray of an image corner moves sideways by at most `widest` mm
+    // per mm of depth. The ray meets the paper only if slope * widest is less than 1.
     const double widest = std::sqrt(corner_square) / std::min(1.0, 1 + camera.k * corner_square) *
                           camera.mm_per_px / camera.working_distance_mm;
     const double slope = std::hypot(std::tan(pose.tilt_x_rad),

@@ -22,8 +22,9 @@ struct QueueOptions {
     /// Maximum number of states in the queue. If the queue is full, a new state replaces the oldest
     /// one that is not in the current transaction. A state takes 96 bytes.
     std::size_t max_states = 1'000'000;
-    /// Time between two transactions. PostgreSQL stores the states of a transaction together,
-    /// sorted by robot. A longer period therefore makes reading the states of one robot faster.
+    /// Maximum time for which states are collected before they are written in one transaction.
+    /// PostgreSQL stores the states of a transaction together, sorted by robot. The states of one
+    /// robot can therefore be read faster if the period is longer.
     std::chrono::milliseconds period{5000};
     int keep_days = 0;  ///< number of days to keep, or 0 to keep all days
     /// Called with messages for the user, for example when the database is not available. May be
@@ -52,8 +53,8 @@ class Queue {
 
     QueueStatus status() const;
 
-    /// Writes all states in the queue. Gives up when an attempt fails after `patience` has elapsed.
-    /// Returns false if some states were not stored. No states may be added afterwards.
+    /// Writes all states in the queue. Gives up if an attempt fails more than `patience` after the
+    /// call. Returns false if some states were not stored. No states may be added afterwards.
     bool finish(std::chrono::milliseconds patience);
 
   private:
@@ -67,7 +68,7 @@ class Queue {
     QueueOptions options_;
     std::vector<State> batch_;  ///< states of the current transaction, used only by `thread_`
     bool is_removal_reported_ = false;
-    std::int64_t kept_from_ = 0;  ///< first day that was kept when old days were last removed
+    std::int64_t kept_from_ = 0;  ///< first day kept by the last removal of old days
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<State> waiting_;

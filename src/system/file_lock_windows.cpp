@@ -19,8 +19,8 @@ std::error_code FileLock::try_lock() {
     if (error == ERROR_SHARING_VIOLATION || error == ERROR_DELETE_PENDING) {
         return std::make_error_code(std::errc::resource_unavailable_try_again);
     }
-    // Converts the error to an errno value, because the messages of errno values are the same on
-    // all systems.
+    // Converts the error to an errno value if there is a corresponding one. The messages of errno
+    // values are the same on all systems.
     const std::error_code code(static_cast<int>(error), std::system_category());
     const std::error_condition condition = code.default_error_condition();
     if (condition.category() != std::generic_category()) return code;

@@ -71,7 +71,7 @@ bool close_descriptor(int descriptor) {
 }
 
 std::optional<FileNumbers> numbers_of(const fs::path& path) {
-    // With FILE_FLAG_BACKUP_SEMANTICS, folders can be opened too.
+    // FILE_FLAG_BACKUP_SEMANTICS is required for opening folders.
     const HANDLE handle =
         CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
                     nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);

@@ -25,8 +25,8 @@ void make_streams_binary() {
     for (std::FILE* const stream : {stdin, stdout, stderr}) {
         _setmode(_fileno(stream), _O_BINARY);
     }
-    // Windows has no line buffering. With full buffering, lines written to a pipe would not arrive
-    // until the buffer is full or the program exits.
+    // Disables buffering, because Windows has no line buffering. With full buffering, lines written
+    // to a pipe would not arrive until the buffer is full or the program exits.
     std::setvbuf(stderr, nullptr, _IONBF, 0);
 }
 
@@ -79,7 +79,7 @@ std::filesystem::path program_folder() {
 }
 
 bool is_terminal(std::FILE* stream) {
-    // _isatty also returns true for NUL and serial devices.
+    // Uses GetConsoleMode because _isatty also returns true for NUL and serial devices.
     DWORD mode = 0;
     return GetConsoleMode(reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(stream))), &mode) != 0;
 }

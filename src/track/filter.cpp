@@ -65,7 +65,8 @@ float kept(float dt_s) {
 }
 
 /// Advances a state, or one row or column of its covariance, by `dt_s`. `at(i)` must return a
-/// reference to element i. The acceleration first decays and is then constant over the interval.
+/// reference to element i. Applies the decay of the acceleration first, and then treats the
+/// acceleration as constant over the interval.
 template <typename State>
 void advance(const State& at, float dt_s) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -376,7 +377,7 @@ MotionEstimate corrected(const MotionEstimate& predicted, const Sighting& sighti
 
     MotionEstimate motion = predicted;
     Vector9 step{};
-    float distance = 0;  // squared Mahalanobis distance, with expected value 3
+    float distance = 0;  // squared Mahalanobis distance of the innovation, expected value 3
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < 9; ++i)
             step[i] += weighted[k][i] * found.difference[k];

@@ -12,7 +12,7 @@ namespace dotpose::track {
 
 inline constexpr float kRad_per_bam = 1.46291808e-9F;  // pi / 2^31
 
-/// Returns the pose of a sighting. The velocities and the covariance are 0.
+/// Converts a sighting to a pose. The velocities and the covariance of the pose are 0.
 TrackedPose pose_of(const Sighting& sighting);
 
 /// Returns the state after the first sighting. The velocities are 0, with a standard deviation of

@@ -42,8 +42,8 @@ std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max
 
 /// Returns the standard deviation of the predicted pose along an axis: the combined standard
 /// deviation of the filter and the fix, plus a third of `unforeseen`. `unforeseen` is the largest
-/// motion that the filter cannot predict. The search covers three standard deviations, and must
-/// include this motion.
+/// motion that the filter cannot predict. The locator searches within three standard deviations, so
+/// its search includes this motion.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

@@ -16,9 +16,9 @@ constexpr int kHypotheses_log2 = 36;
 static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
               "the number of hypotheses is rounded down to a power of two");
 
-/// Period of the shortest sequence that encodes the position. Two positions whose distance is less
-/// than this period have different places in all sequences, so their bits resemble each other only
-/// by chance (docs/tracking.md).
+/// Period of the shortest sequence that encodes the position. Two positions that are closer
+/// together than this period have different places in all sequences, so their bits agree only by
+/// chance (docs/tracking.md).
 constexpr int kMinSequencePeriod = 31;
 
 float seconds(std::int64_t from_us, std::int64_t to_us) {
@@ -203,7 +203,8 @@ bool Tracker::is_confirmed(const Sighting& sighting) {
 void Tracker::restart(const MotionEstimate& motion) {
     track_.events.fix = track_.is_lost;
     track_.is_lost = false;
-    // A robot that was lifted and put down elsewhere has moved, even if it is now at rest.
+    // If the robot was at rest before it was lost, reports that it moved. A robot that was lifted
+    // and put down elsewhere has moved, even if it is now at rest.
     track_.events.moving = track_.is_stationary;
     track_.is_stationary = false;
     was_seen_ = true;

@@ -58,7 +58,7 @@ void for_each_entry(const Device& device, unsigned long request, Entry entry,
     }
 }
 
-/// Returns the string in an array from a driver, even if the terminating zero is missing.
+/// Converts a character array from a driver to a string. The terminating zero may be missing.
 template <std::size_t size>
 std::string text_of(const std::uint8_t (&bytes)[size]) {
     const char* text = reinterpret_cast<const char*>(bytes);
@@ -87,8 +87,8 @@ std::vector<double> rates_at(const Device& device, std::uint32_t format, std::ui
     for_each_entry<v4l2_frmivalenum>(
         device, VIDIOC_ENUM_FRAMEINTERVALS, asked, [&rates](const v4l2_frmivalenum& found) {
             const bool is_one = found.type == V4L2_FRMIVAL_TYPE_DISCRETE;
-            // If the driver reports a range of intervals, only the rate of the shortest one is
-            // added.
+            // If the driver reports a range of frame intervals, only the rate for the shortest
+            // interval is added.
             rates.push_back(rate_of(is_one ? found.discrete : found.stepwise.min));
         });
     return rates;
@@ -134,7 +134,7 @@ std::vector<CameraSize> sizes_of(const Device& device) {
     return sizes;
 }
 
-/// Returns the name of the camera in sysfs. Used for devices that cannot be opened.
+/// Reads the name of the camera from sysfs. Used for devices that cannot be opened.
 std::string name_in_sysfs(int number) {
     std::ifstream file(fmt::format("/sys/class/video4linux/video{}/name", number));
     std::string name;

@@ -6,7 +6,8 @@
 
 namespace dotpose::video {
 
-/// A frame size that a camera supports, with its frame rates and pixel formats.
+/// A frame size that a camera supports, and the frame rates and pixel formats that are available
+/// for it.
 struct CameraSize {
     std::string size;           ///< for example "640x480", or a range of sizes
     std::vector<double> rates;  ///< frames per second in descending order, or empty if unknown

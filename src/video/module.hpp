@@ -1,6 +1,6 @@
-// Cameras, videos and windows. They are implemented in the module dotpose-video.so in the program's
-// folder. The module is loaded on first use, because loading OpenCV and FFmpeg takes a third of a
-// second.
+// Interface of the module dotpose-video.so, which implements cameras, videos and windows. The
+// module is in the program's folder. It is loaded on first use, because loading OpenCV and FFmpeg
+// takes a third of a second.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// Shows the picture of `dotpose watch` or `calibrate --live` in a window, records it to a video
-// file, or both.
+// Shows the live picture of `dotpose watch` or `dotpose calibrate --live` in a window, records it
+// in a video file, or both.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct PathMark {
 struct Gauge {
     std::string label;
     std::string text;
-    double share = 0;  ///< fraction of the goal that was reached, at most 1
+    double share = 0;  ///< progress towards the goal, from 0 to 1
     bool is_reached = false;
 };
 
@@ -48,9 +48,9 @@ struct CalibrationScene {
 struct Scene {
     ImageView image;
     Trace trace;
-    bool is_good = false;            ///< false to show captions and position in a warning colour
-    std::vector<std::string> lines;  ///< captions: pose, rate, quality
-    std::span<const PathMark> path;  ///< the path up to this frame
+    bool is_good = false;  ///< false to use a warning colour for the text and the position
+    std::vector<std::string> lines;          ///< captions: pose, rate, quality
+    std::span<const PathMark> path;          ///< the path of the robot up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
     bool y_up = false;                       ///< true if y points up in the plane
     /// Calibration gauges, which are shown instead of the sheets and the path.
@@ -61,7 +61,8 @@ struct ScreenOptions {
     bool has_window = false;
     std::string record;  ///< path of the video file, or empty for none
     double fps = 30;     ///< frame rate of the video file
-    /// Called with a message for the user if H.264 is not available and the file will be larger.
+    /// Called with a message for the user if H.264 is not available, in which case the file is
+    /// larger.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -70,7 +71,7 @@ struct ScreenOptions {
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;
-    /// Implement the functions of the same names in Screen.
+    /// Each of these functions implements the function of Screen that has the same name.
     virtual bool show(const Scene& scene) = 0;
     virtual void finish() = 0;
     virtual bool is_wanted() = 0;

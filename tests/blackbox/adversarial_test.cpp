@@ -1,5 +1,5 @@
-// Tests `locate` with frames that are designed to deceive it. Every fix must be the true pose.
-// `dotpose_tables adversarial` tests a larger number of such frames.
+// Tests `locate` with frames that are designed to deceive it. Every fix must agree with the true
+// pose. `dotpose_tables adversarial` tests a larger number of such frames.
 #include <memory>
 #include <string>
 

@@ -49,7 +49,8 @@ class Afternoon : public SheetsCommand {
     }
 };
 
-// A roboticist prints a sheet, enters its pose in the room, tracks the robot, and replays the run.
+// A roboticist prints a sheet, enters the world pose of the sheet, tracks the robot, and replays
+// the run.
 TEST_F(Afternoon, OfARoboticist) {
     expect_ok("print -o table.pdf --paper 90x60 --sheets sheets.json --name table");
     expect_ok("sheets place table --x 1000 --y 2000 --yaw 90");
@@ -78,8 +79,8 @@ TEST_F(Afternoon, OfARoboticist) {
     expect_ok("watch drive --fps 50 --sheets sheets.json --camera camera.yaml");
 }
 
-// A teacher prints a page, takes a photo with a phone, measures it with a ruler, and prints the
-// page again.
+// A teacher prints a page, takes a photo of it with a phone, measures the page with a ruler, and
+// prints it again.
 TEST_F(Afternoon, OfATeacherWithAPhone) {
     expect_ok("print -o sheet.pdf --paper A5 --sheets sheets.json --name table");
     const json sheet = sheets().at(0);
@@ -98,7 +99,7 @@ TEST_F(Afternoon, OfATeacherWithAPhone) {
     EXPECT_EQ(read_file(directory_ / "again.pdf"), read_file(directory_ / "sheet.pdf"));
 }
 
-// A device maker checks the optics, and reads the packets that the device sends.
+// A device maker checks the optics of a device, and reads the packets that the device sends.
 TEST_F(Afternoon, OfAMakerOfDevices) {
     expect_ok("optics --device paper");
     for (int i = 0; i < 3; ++i) {

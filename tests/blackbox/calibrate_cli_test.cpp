@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class CalibrateCommand : public ToolCommand {
   protected:
-    /// Simulates frames with the lens distortion of the camera used in the paper, and writes them
+    /// Simulates frames with the lens distortion that the camera in the paper has, and writes them
     /// to a folder.
     void simulate(const std::string& folder, int frames, const std::string& more = "") {
         ASSERT_EQ(run("simulate -o " + folder + " --seed 91 --k -8.7e-6 --frames " +
@@ -39,8 +39,8 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
-// Locates frames taken with an unknown lens. Its distortion moves the image corners inwards or
-// outwards by up to 5 % of their distance from the centre.
+// Locates frames taken with an unknown lens. The distortion moves each image corner towards or away
+// from the image centre, by up to 5 % of the distance between them.
 TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     const auto corner_px = [](int width, int height) {
         return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);
@@ -104,8 +104,9 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
         2);
     EXPECT_NEAR(u, 93.5, 0.3);
     EXPECT_NEAR(v, 59.5, 0.3);
-    // The robot drives along the x axis of the pattern, so its heading is 0 degrees. The image x
-    // axis has an angle of -90 degrees, so 90 degrees must be added to obtain the heading.
+    // The robot drives along the x axis of the pattern, so its heading is 0 degrees. The angle of
+    // the image x axis is -90 degrees, so 90 degrees must be added to this angle to obtain the
+    // heading.
     double offset_rad = 0;
     ASSERT_EQ(std::sscanf(yaml.c_str() + yaml.find("theta_offset_rad: "), "theta_offset_rad: %lf",
                           &offset_rad),
@@ -204,8 +205,8 @@ TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
 }
 
 TEST_F(CalibrateCommand, TakesTheSpacingFromTheSheetFile) {
-    // In a new sheet file, the first sheet begins at cell 1024,1024, so frames at the following
-    // cells show this sheet.
+    // In a new sheet file, the first sheet begins at cell (1024, 1024). The following frames
+    // therefore show this sheet.
     ASSERT_EQ(run("print -o fine.svg --spacing 0.3 --sheets sheets.json --name fine"), 0);
     std::string frames;
     for (const int at : {1100, 1130, 1160, 1190, 1220}) {

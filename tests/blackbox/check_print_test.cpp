@@ -135,8 +135,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(exit_code_, 0) << output_;
     EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo"));
 
-    // scan.jpg specifies no resolution. screen.jpg specifies 72 dpi, at which the page would be
-    // eight times its actual size.
+    // scan.jpg specifies no resolution. screen.jpg specifies 72 dpi instead of 600 dpi, so the page
+    // would be more than eight times its actual size.
     const GreyImage scan = test::scan_page(sheet, {});
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);

@@ -69,7 +69,7 @@ TEST_F(Hostile, OptionsRefuseWhatIsNoFiniteNumber) {
         EXPECT_EQ(run(command), 2) << command;
         EXPECT_THAT(errors_, HasSubstr("finite number")) << command;
     }
-    // The name of this file can also be parsed as a number.
+    // The file name `nan` could also be parsed as a number.
     put("nan", "P5 1 1 255\nx");
     run("locate nan");
     EXPECT_THAT(output_, HasSubstr("\"file\":\"nan\""));
@@ -208,7 +208,7 @@ TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
     EXPECT_EQ(std::ranges::count(output_, '\n'), 1);
     EXPECT_EQ(std::ranges::count(file("log.csv"), '\n'), 41);
     EXPECT_THAT(file("map.svg"), HasSubstr("40 frames"));
-    // The frames arrive only after the reader of the packets has closed the pipe.
+    // The frames are sent only after the reader of the packets has closed the pipe.
     EXPECT_EQ(shell("mkfifo packets; (exec 3< packets; exec 3<&-; : > left) & "
                     "(until [ -e left ]; do sleep 0.01; done; tail -q -c 22560 frames/*.pgm) |"
                     "\"$T\" watch - --size 188x120 --packets packets -o lines; wait"),

@@ -112,7 +112,7 @@ TEST_F(LiveCalibration, SaysWhyNoFrameIsLocated) {
 }
 
 TEST_F(LiveCalibration, NamesTheCornerThatShowsNoDots) {
-    // The dots cover only 60 to 70 % of each frame.
+    // Dots are visible in only 60 to 70 % of the area of each frame.
     simulate("--frames 12 --covered 0.6,0.7");
     calibrate("frames");
     const std::regex advice("next: show dots in the [a-z ]*(corner|edge|middle) of the image");
@@ -131,12 +131,13 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
                   static_cast<std::streamsize>(image.pixels.size()));
     }
     raw.close();
-    // At 10 frames per second, the drive takes 6 s. If no frame has been at rest for 3 s, the
-    // program also accepts frames that show motion.
+    // At 10 frames per second, the drive takes 6 s. After 3 s without a frame at rest, the program
+    // also accepts frames that show motion.
     EXPECT_EQ(calibrate("--size 188x120 --fps 10 - <drive.raw"), 0) << errors_;
     EXPECT_TRUE(has_file());
     EXPECT_GE(used(), 10);
-    // At 30 frames per second, the drive takes only 2 s, so the program accepts no frame.
+    // At 30 frames per second, the drive takes only 2 s. It ends before the program accepts frames
+    // that show motion, so no frame is accepted.
     fs::remove(directory_ / "camera.yaml");
     EXPECT_EQ(calibrate("--size 188x120 --fps 30 - <drive.raw"), 1);
     EXPECT_FALSE(has_file());

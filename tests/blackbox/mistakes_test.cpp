@@ -1,5 +1,5 @@
-// Tests how plausible mistakes of new users are reported. The exit status must be non-zero, and a
-// single message must contain the cause and the next step.
+// Tests how the tool reports mistakes that new users are likely to make. The exit status must be
+// non-zero, and a single message must contain the cause and the next step.
 #include <ostream>
 #include <string>
 

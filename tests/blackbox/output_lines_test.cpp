@@ -100,7 +100,8 @@ class OutputLines : public ToolCommand {
     }
 
     static constexpr double kYaw_rad = 0.4;
-    /// Index of the first frame, in which the robot drives through a curve at 300 mm/s.
+    /// Index of the first frame that the test uses. The robot drives through a curve at 300 mm/s at
+    /// this time.
     static constexpr int kFirst = 320;
     const Drive drive_;
     const JsonSchema schema_{

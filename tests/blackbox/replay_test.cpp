@@ -117,8 +117,8 @@ TEST_F(Replay, PrintsAndDraws) {
 }
 
 TEST_F(Replay, NumbersTheAxesOfAPathFarFromTheOrigin) {
-    // The path is 20 mm along x and 10 mm along y, 60 km from the origin of the pattern. y points
-    // down, as in the pattern frame.
+    // The path extends 20 mm along x and 10 mm along y. It is 60 km from the origin of the pattern.
+    // y points down, as in the pattern frame.
     put(std::string(kHeader) +
         "0,0.0,,ok,150,1e-20,moving,fix,accepted,pattern,59957068.5,9667944,0,0\n"
         "1,0.1,,ok,150,1e-20,moving,,accepted,pattern,59957088.5,9667954,0,0\n");

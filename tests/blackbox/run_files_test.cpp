@@ -141,7 +141,7 @@ TEST_F(RunFiles, other_names_are_taken_as_before) {
 }
 
 TEST_F(RunFiles, pictures_of_frames_are_outputs_too) {
-    // The list file has the same path as the picture that `--draw` writes for an image in the list.
+    // The list file has the same path as one of the pictures that `--draw` would write.
     ASSERT_EQ(shell("mkdir p; mv l p/frame_000000.svg"), 0);
     const std::string list = file("p/frame_000000.svg");
     EXPECT_EQ(run("locate --list p/frame_000000.svg --draw p"), 1);

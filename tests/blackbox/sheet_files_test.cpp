@@ -86,8 +86,8 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     ASSERT_EQ(print("-o table.svg --paper 80x60 --sheets sheets.json --name table"), 0) << errors_;
     json sheet = sheets().at(0);
     const GreyImage frame = frame_of(sheet, 40, 30, 0.3, 1);
-    // Cuts out the middle of the frame. It is 6.5 cells wide, so it determines a position only if
-    // the sheets are known.
+    // Cuts out the middle of the frame, which is 6.5 cells wide. This is enough to determine a
+    // position only if the sheets are known.
     constexpr int kSide_px = 72;
     const ImageView whole = frame.view();
     const std::uint8_t* first =
@@ -106,9 +106,9 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     EXPECT_NE(records().at(0)["status"], "ok") << records().at(0);
 }
 
-/// Returns the image that a camera above the printed page sees. Each camera pixel is the mean of
-/// 2 x 2 printer pixels. The image centre is at the upper left corner of printer pixel (u, v). The
-/// surroundings of the page are white.
+/// Returns the image seen by a camera above the printed page. Each camera pixel is the mean of 2 x
+/// 2 printer pixels. The image centre is at the upper left corner of printer pixel (u, v). Outside
+/// the page, everything is white.
 GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
     const auto level_at = [&page](int column, int row) {
         const bool is_inside =
@@ -206,7 +206,7 @@ TEST_F(SheetFiles, may_mix_codes_and_spacings) {
             EXPECT_EQ(record["sheet"], file[i]["name"]);
             EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm);
             EXPECT_NEAR(record["y_sheet_mm"], 18.5, kTolerance_mm);
-            // Pattern positions in mm are computed with the spacing of the sheet.
+            // Positions in pattern coordinates are converted to mm with the spacing of the sheet.
             EXPECT_NEAR(record["x_mm"],
                         record["x_grid"].get<double>() * file[i]["spacing_mm"].get<double>(), 1e-5);
         }
@@ -298,7 +298,7 @@ TEST_F(SheetFiles, the_print_scale_is_applied) {
 TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
     ASSERT_EQ(print("-o a.png --margin 0 --dpi 1200 --paper 30x30 --sheets sheets.json --name a"),
               0);
-    // The margin is so wide that some frames centred on b show only dots of a.
+    // The margin of b is so wide that some frames centred on b show only dots of a.
     ASSERT_EQ(print("-o b.png --margin 9 --dpi 1200 --paper 50x30 --sheets sheets.json --name b"),
               0);
     const GreyImage a = read_image((directory_ / "a.png").string());

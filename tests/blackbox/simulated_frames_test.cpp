@@ -103,8 +103,9 @@ TEST(SimulatedFrames, HardFramesAreLocated) {
 
 TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
     // These frames are dark and noisy, or have graphics along the grid. If their bits are read with
-    // the first estimate of the grid, a third of the bits disagree with the true position. In the
-    // last frame, the first estimate is rotated by 26 degrees because of printed words.
+    // the first estimate of the grid, a third of the bits disagree with the code at the true
+    // position. In the last frame, the first estimate is rotated by 26 degrees because of printed
+    // words.
     const auto memory = std::make_unique<LargeMemory>();
     Tally tally;
     for (const std::uint64_t index :

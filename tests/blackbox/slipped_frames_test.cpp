@@ -24,7 +24,7 @@ Shot nominal_shot(std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Returns the maximum of the errors of x, y and theta, each divided by its reported standard
+/// Returns the largest of the errors of x, y and theta, each in units of its reported standard
 /// deviation.
 double sigmas_off(const Fix& fix, const Truth& truth) {
     const Deviation off = deviation_of(fix, truth);
@@ -89,7 +89,7 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     EXPECT_GE(divided, fixes / 2);
 }
 
-/// Errors of the fixes on one kind of sheet, relative to the reported covariances.
+/// Statistics of the position errors on one kind of sheet, relative to the reported covariances.
 struct Claims {
     int fixes = 0;
     int within_4_sigmas = 0;
@@ -133,7 +133,7 @@ TEST(WrinkledSheet, DoesNotMakeFlatOnesLookInexact) {
     EXPECT_LT(flat.mean_square, 1.25);
 }
 
-/// Returns a shot in which a third of the view is displaced by a fifth of a spacing.
+/// Returns a shot in which one third of the view is displaced by a fifth of the spacing.
 Shot slipped_shot() {
     Shot shot = nominal_shot(0);
     apply({half_extent_grid(shot, 1) / 3, 1, {0.2, -0.05}, 0.005}, shot);

@@ -1,5 +1,5 @@
-// Tests that `dotpose watch --camera` reports the pose of the robot, as `dotpose locate --camera`
-// does.
+// Tests that `dotpose watch --camera` reports the pose of the robot, like `dotpose locate
+// --camera`.
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -22,7 +22,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kFrames = 8;
-/// Index of the first frame, in which the robot is driving on the first sheet.
+/// Index of the first frame that the test uses. The robot is driving on the first sheet at this
+/// time.
 constexpr int kMoving = 220;
 
 class WatchCamera : public ToolCommand {
@@ -78,8 +79,8 @@ TEST_F(WatchCamera, ThePoseIsThatOfTheRobot) {
             30, 0.05);
         tracked += watched[i]["attempt"] == "tracked" ? 1 : 0;
     }
-    // The track contains the pose of the robot, but the tracker must predict what the camera sees.
-    // Most frames are tracked, so this prediction is correct.
+    // The track contains the pose of the robot, but the prediction for the locator must be the pose
+    // of the image centre. If this prediction were wrong, most frames would not be tracked.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_NEAR(watched.back()["track_x_mm"].get<double>(),
                 watched.back()["x_m"].get<double>() * 1000, 0.1);

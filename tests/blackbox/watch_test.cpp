@@ -82,11 +82,10 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_EQ(events[0].first, 0);
     EXPECT_EQ(events[1].first, frame_at(0.5));
     EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
-    // The tracker reports `lost` 70 ms (14 frames) after the last frame in which the robot was on a
-    // sheet.
+    // The tracker reports `lost` 70 ms (14 frames) after the last frame that shows a sheet.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
-    // From `put_down` on, the robot is too far away to have driven there at 400 mm/s. The tracker
-    // reports `kidnapped` in the third such frame.
+    // At `put_down`, the robot reappears at a place that it cannot have reached at 400 mm/s. The
+    // tracker reports `kidnapped` in the third frame that shows the robot again.
     EXPECT_EQ(events[4].first, frame_at(plan.put_down) + 2);
     EXPECT_EQ(events[5].first, frame_at(plan.second_lift) - 1 + 14);
     EXPECT_EQ(events[6].first, frame_at(plan.second_put_down));
@@ -278,8 +277,8 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     encode("-c:v mjpeg -q:v 2", "whole.mkv");
     encode("-c:v mjpeg -q:v 2", "whole.avi");
     for (const std::string name : {"hole.mp4", "hole.mkv", "hole.avi"}) {
-        // Overwrites 2 % of the file in the middle. The index of AVI and MP4 files is at the end
-        // and remains intact.
+        // Overwrites a section in the middle of the file, 2 % of its size. The index of AVI and MP4
+        // files is at the end and remains intact.
         std::string video = file("whole" + name.substr(4));
         std::fill_n(video.begin() + static_cast<std::ptrdiff_t>(video.size() / 2),
                     video.size() / 50, '\0');

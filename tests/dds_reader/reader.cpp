@@ -100,8 +100,8 @@ class Printer : public DataReaderListener {
     std::atomic<bool> has_gone_ = false;
 };
 
-/// If ROS_AUTOMATIC_DISCOVERY_RANGE is set, searches for participants only at the ports of this
-/// computer and without multicast, as ROS nodes do if the value is LOCALHOST.
+/// If ROS_AUTOMATIC_DISCOVERY_RANGE is set, treats it like LOCALHOST: searches for participants
+/// without multicast, and only at the ports of this computer, as ROS nodes do.
 DomainParticipantQos participant_quality() {
     DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
     if (std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE") == nullptr) return qos;
@@ -118,7 +118,8 @@ DomainParticipantQos participant_quality() {
     return qos;
 }
 
-/// Prints the names of ROS topics that have a writer without a type hash in its user data.
+/// Listener that prints the name of each ROS topic with a writer whose user data contain no type
+/// hash.
 class HashCheck : public DomainParticipantListener {
   public:
     void on_publisher_discovery(DomainParticipant*,

@@ -1,8 +1,8 @@
-// A fake camera for machines without a camera. Loaded with LD_PRELOAD, it intercepts OpenCV's
-// system calls on /dev/video0. It repeats the raw grey frames of the file FAKE_CAMERA, which have
-// the size FAKE_CAMERA_SIZE. While this file does not exist, the camera behaves as if unplugged.
-// The requested settings and the frame times in µs are written to the file FAKE_CAMERA_LOG. The
-// camera also offers 640x480 at 15 frames/s.
+// A fake camera for machines that have no camera. It is loaded with LD_PRELOAD, and intercepts
+// OpenCV's system calls on /dev/video0. It repeats the raw grey frames of the file FAKE_CAMERA,
+// which have the size FAKE_CAMERA_SIZE. While this file does not exist, the camera behaves as if
+// unplugged. The requested settings and the frame times in µs are written to the file
+// FAKE_CAMERA_LOG. The camera also offers 640x480 at 15 frames/s.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -26,7 +26,7 @@ namespace {
 constexpr int kBuffers = 4;
 
 struct FakeCamera {
-    int descriptor = -1;  ///< memory file that replaces the device and contains the buffers
+    int descriptor = -1;  ///< in-memory file that represents the device and contains the buffers
     int width_px = 0;
     int height_px = 0;
     double fps = 30;

@@ -165,8 +165,8 @@ void Connection::receive_some() {
     if (size == 0) throw std::runtime_error("disconnected");
     if (size < 0 && errno != EAGAIN) fail("cannot receive");
     if (size > 0) incoming_.append(block.data(), static_cast<std::size_t>(size));
-    // Packets from a broker to a publisher are shorter than 128 bytes, so the second byte of a
-    // packet contains the length.
+    // A broker sends only packets shorter than 128 bytes to a publisher. The length of such a
+    // packet is encoded in a single byte, the second byte of the packet.
     std::size_t at = 0;
     while (incoming_.size() >= at + 2) {
         const std::size_t length = static_cast<std::uint8_t>(incoming_[at + 1]);

@@ -32,11 +32,11 @@ struct Arguments {
 struct Outcome {
     std::int64_t published = 0;
     std::int64_t answered = 0;
-    std::int64_t latest_us = 0;  ///< maximum delay of a publication after its due time
+    std::int64_t latest_us = 0;  ///< maximum delay of a publication, relative to its due time
 };
 
-/// Publishes all states of the robots over a connection. Spreads the states of the robots evenly
-/// over each publication period.
+/// Publishes all states of the robots over a connection. In each publication period, each robot
+/// publishes one state, and the states of all robots are evenly spaced in time.
 Outcome publish_all(Connection& connection, const Robots& robots, const Arguments& arguments) {
     constexpr std::int64_t kBatch_us = 1000;
     constexpr std::int64_t kPatience_us = 30'000'000;

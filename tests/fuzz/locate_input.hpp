@@ -112,8 +112,8 @@ struct Pixels {
 /// Number of symbols per row, and number of rows, in drawn images. Cell (0, 0) is in the middle.
 inline constexpr int kDrawnSide = 40;
 
-/// Draws one dot per symbol, with a diameter of a sixth of the spacing plus 1 px. Bytes of 240 and
-/// above draw no dot.
+/// Draws one dot per symbol. The diameter is one sixth of the spacing plus 1 px. If the byte of a
+/// symbol is 240 or more, no dot is drawn.
 inline void draw_dots(const LocateHeader& header, std::span<const std::uint8_t> symbols,
                       Pixels& image) {
     const double spacing = std::max(header.spacing_q8 / 256.0, 4.0);

@@ -29,7 +29,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         bytes += static_cast<char>(crc >> (8 * i) & 0xFF);
     try {
         const PrintMap map = parse_print_map(bytes);
-        // A map of version 1 is written as version 2.
+        // `print_map_bytes` always writes version 2, so only maps of version 2 must be reproduced
+        // exactly.
         const std::string written = print_map_bytes(map);
         const bool is_newest = bytes[8] != 1;
         if (is_newest ? written != bytes : print_map_bytes(parse_print_map(written)) != written)

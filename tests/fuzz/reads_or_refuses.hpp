@@ -1,4 +1,4 @@
-/// Checks file readers: a reader must return, or throw Error with a message.
+/// Checks file readers: a reader must either return normally, or throw Error with a message.
 #pragma once
 
 #include <cstdint>

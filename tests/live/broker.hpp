@@ -35,9 +35,9 @@ inline int free_port() {
 
 class Broker {
   public:
-    /// `users` is a file written by mosquitto_passwd. If it is empty, anonymous clients are
-    /// allowed. With TLS, the broker uses a self-signed certificate, cert.pem in `directory`.
-    /// `more` is appended to the configuration file.
+    /// `users` is the path of a file written by mosquitto_passwd. If no path is given, anonymous
+    /// clients are allowed. With TLS, the broker uses a self-signed certificate, cert.pem in
+    /// `directory`. `more` is appended to the configuration file.
     explicit Broker(const std::filesystem::path& directory, const std::string& users = {},
                     bool has_tls = false, const std::string& more = {})
         : port_(free_port()), directory_(directory), has_tls_(has_tls) {
@@ -70,7 +70,8 @@ class Broker {
             const int nowhere = open("/dev/null", O_RDWR);
             dup2(nowhere, STDOUT_FILENO);
             dup2(nowhere, STDERR_FILENO);
-            // Debian installs mosquitto in /usr/sbin, which is only in the PATH of root.
+            // Adds /usr/sbin to the PATH. Debian installs mosquitto there, but only the PATH of
+            // root contains this folder.
             setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin").c_str(), 1);
             execlp("mosquitto", "mosquitto", "-c", file.c_str(), nullptr);
             _exit(127);

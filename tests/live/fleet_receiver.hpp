@@ -27,7 +27,7 @@ class Receiver {
                    connection_json(state, timestamp(now().system_us - sent_ago_us)), now());
     }
     void pass(double seconds) { elapsed_us_ += static_cast<std::int64_t>(seconds * 1e6); }
-    /// Advances the time while the broker is unreachable, so `Now::watched_us` does not advance.
+    /// Advances the time as if the broker were unreachable: `Now::watched_us` does not change.
     void pass_blind(double seconds) {
         pass(seconds);
         blind_us_ += static_cast<std::int64_t>(seconds * 1e6);

@@ -34,8 +34,8 @@ class FleetScale : public Mqtt {
         return directory_ / name;
     }
 
-    /// Publishes `states` states of each robot, 20 per second. Returns when the broker has received
-    /// all of them.
+    /// Publishes `states` states of each of `robots` robots, at a rate of 20 states per second and
+    /// robot. Returns when the broker has received all of them.
     void publish(const Broker& broker, int robots, int states, int first = 0) {
         const ShellOutcome outcome = run_shell(fmt::format(
             "'{}' --port {} --robots {} --hz 20 --seconds {} --first {}",

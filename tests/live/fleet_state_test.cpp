@@ -50,7 +50,8 @@ TEST(FleetConditions, FollowTheStatesAndTheSilence) {
 TEST(FleetConditions, FollowTheConnection) {
     Receiver r;
     r.receive({.robot = "anna"});
-    // The last will contains the time of the connection, which was an hour ago.
+    // The broker publishes the robot's last will. It contains the time at which the robot
+    // connected, an hour ago.
     r.connect("anna", "CONNECTIONBROKEN", 3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::silent);
     EXPECT_EQ(r.robot("anna").reason, "connection broke");
@@ -60,7 +61,7 @@ TEST(FleetConditions, FollowTheConnection) {
     r.connect("anna", "OFFLINE");
     EXPECT_EQ(r.condition("anna"), Condition::gone);
     EXPECT_EQ(r.robot("anna").reason, "disconnected");
-    // The fleet receives retained messages from robots that have sent no state since it was
+    // The fleet receives retained messages from robots that have sent no state since the fleet was
     // started.
     r.connect("bert", "ONLINE");
     EXPECT_EQ(r.condition("bert"), Condition::lost);

@@ -157,7 +157,8 @@ TEST(FleetValues, OneRobotWithItsPathAndAlerts) {
     EXPECT_EQ(value(77), nullptr);
 }
 
-/// A map message sent by the fleet: a JSON header, followed by binary records.
+/// A map message sent by the fleet. It consists of the size of the header, the header in JSON, and
+/// binary records.
 struct MapMessage {
     explicit MapMessage(const std::string& bytes) {
         std::uint32_t size = 0;
@@ -193,7 +194,7 @@ TEST(FleetMapValues, PositionsInTheWindow) {
     EXPECT_FLOAT_EQ(message.at<float>(24), 0);
     EXPECT_EQ(message.at<std::int16_t>(28), 0);
     EXPECT_EQ(message.at<std::uint8_t>(30), 0);  // moving
-    EXPECT_EQ(message.at<std::uint8_t>(31), 1);  // flags: has a heading, is on a known sheet
+    EXPECT_EQ(message.at<std::uint8_t>(31), 1);  // has a heading (1), is on a known sheet (not 2)
     EXPECT_EQ(MapMessage(positions_value(snapshot_of(r), {}, {})).head["count"], 5);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// A simulated robot whose frames are 100 ms apart.
+/// A simulated robot whose camera takes a frame every 100 ms.
 class Robot {
   public:
     GuidedFrame frame(double x_grid, double y_grid, double theta_rad = 0) {
@@ -68,7 +68,7 @@ TEST(GuidedFrames, AnUnfinishedTurnIsNotComplete) {
 TEST(GuidedFrames, ADriveTakesFramesAtEqualDistances) {
     Robot robot;
     DriveFrames frames;
-    // The robot rests, and then drives 0.1 mm per frame.
+    // The robot first rests, and then drives at 0.1 mm per frame.
     for (int i = 0; i < 50; ++i)
         frames.take(robot.frame(100, 100));
     EXPECT_EQ(frames.images().size(), 1U);

@@ -1,5 +1,5 @@
-// Tests that `dotpose listen` writes the same log and publishes the same states for a device as
-// `dotpose watch` does for frames.
+// Tests that `dotpose listen` produces the same log and the same states from the packets of a
+// device as `dotpose watch` produces from the frames.
 #include <cmath>
 #include <fstream>
 #include <map>

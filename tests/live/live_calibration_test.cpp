@@ -1,4 +1,5 @@
-// Tests `dotpose calibrate --live` with a fake V4L2 camera (tests/fake_camera), and in a window.
+// Tests `dotpose calibrate --live` with a fake V4L2 camera (tests/fake_camera), without and with a
+// window.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -14,8 +15,8 @@ using testing::HasSubstr;
 
 class LiveCalibration : public ToolCommand {
   protected:
-    /// Writes camera.raw with three frames at each of 30 places, as if the camera stopped at each
-    /// place.
+    /// Writes camera.raw, which contains three frames for each of 30 places, as if the camera had
+    /// stopped at each place.
     void SetUp() override {
         ToolCommand::SetUp();
         ASSERT_EQ(run("simulate -o frames --seed 5 --k -8.7e-6 --frames 30"), 0) << errors_;

@@ -1,5 +1,5 @@
-// Tests which messages the publisher sends to a mosquitto broker and which it drops, including
-// while the broker is stopped and restarted.
+// Tests which messages the publisher sends to a mosquitto broker and which messages it drops, also
+// while the broker is stopped and after it has been restarted.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>
@@ -147,7 +147,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         << errors_;
     std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames);
-    // The limit of 100 allows for the 50 states in the queue, and for states that are published
+    // The limit is 100 because 50 states are in the queue, and because states are also published
     // before the publisher notices that the broker has stopped.
     EXPECT_GT(dropped, kBack - kGone - 100);
 
@@ -222,8 +222,8 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Returns `options` with the presence enabled. The publisher then publishes its presence as a word
-/// on the topic `presence`.
+/// Returns `options` with a topic for the presence of the publisher. The publisher then publishes
+/// its presence as a word on this topic.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";
     options.presence = [](publish::Presence presence) -> std::string {

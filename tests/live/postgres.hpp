@@ -37,7 +37,7 @@ class Postgres {
         checked(as_user(fmt::format("pg_ctl -D data -w -l log -o '-p {} -k {} -h 127.0.0.1' start",
                                     port_, directory_)));
     }
-    /// Kills all processes without a checkpoint, as a crash would.
+    /// Kills all processes as in a crash, without giving PostgreSQL time to write a checkpoint.
     void crash() { checked(as_user("pg_ctl -D data -w stop -m immediate")); }
 
     std::string url() const { return fmt::format("postgresql://robots@127.0.0.1:{}/fleet", port_); }

@@ -41,7 +41,7 @@ class SheetEditing : public testing::Test {
         };
     }
 
-    /// Changes the file as another program would.
+    /// Changes the world position of a sheet in the file, as another program would.
     void change_outside(const std::string& name, double x_m) {
         SheetFile file(path_);
         SheetEntry entry = file.sheets().at(name == "left" ? 0 : 1);

@@ -241,7 +241,8 @@ TEST_P(Databases, TwoProgramsWriteAtTheSameTime) {
                 try {
                     database->write(states);
                 } catch (const Error& error) {
-                    // If two transactions wait for each other, PostgreSQL aborts one of them.
+                    // If two transactions wait for each other, PostgreSQL aborts one of them, so
+                    // the states are written again.
                     ++failures;
                     database->write(states);
                 }
@@ -392,7 +393,7 @@ TEST(StoreQueue, DropsTheOldestStatesBeyondItsBuffer) {
 TEST(StoreQueue, MessagesMayUseTheQueue) {
     FakeDatabase::Contents contents;
     contents.is_away = true;
-    // Null until the queue is constructed, because the constructor may already report a failure.
+    // Null while the queue is being constructed. The constructor may already report a failure.
     const store::Queue* used = nullptr;
     std::int64_t dropped = 0;
     store::Queue queue(std::make_unique<FakeDatabase>(contents), true,

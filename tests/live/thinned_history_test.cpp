@@ -63,7 +63,7 @@ TEST(ThinnedHistory, ManyStatesAreThinnedByTime) {
         ASSERT_EQ(times_ms[i], 6'400 * i);
         ASSERT_EQ(value["x_mm"][i], 64.0 * double(i));
     }
-    // The thinned history still contains the single lost state.
+    // The thinned history still contains the only state in which the robot was lost.
     EXPECT_EQ(std::ranges::count(value["motions"], json(2)), 1);
     EXPECT_EQ(value["motions"][50'001 / 64], 2);
     EXPECT_EQ(value["counts"]["lost"], 1);

@@ -10,8 +10,8 @@
 
 namespace dotpose::test {
 
-/// Runs `dotpose fleet` in the background, in a separate directory. The constructor returns when
-/// the fleet has subscribed.
+/// Runs `dotpose fleet` in the background, in the given directory. The constructor returns when the
+/// fleet has subscribed.
 class WatchedFleet {
   public:
     WatchedFleet(const fs::path& directory, const std::string& arguments)

@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 6667695;
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
 constexpr int kDraws = 200'000;
 #else
-constexpr int kDraws = 50'000;  // fewer, because unoptimized and sanitized builds are slow
+constexpr int kDraws = 50'000;  // fewer windows, because unoptimized and sanitized builds are slow
 #endif
 constexpr int kDrawsAtLength = 5 * kDraws;
 
@@ -184,7 +184,7 @@ TEST(CodeProperty, EveryPositionOfOneSheet) {
 }
 
 TEST(CodeProperty, TurningASymbolTurnsItsDisplacement) {
-    // The order is clockwise, as seen on the page: up, right, down, left.
+    // A quarter turn of the page is clockwise: up becomes right, right becomes down, and so on.
     EXPECT_EQ(turned(Symbol::up), Symbol::right);
     EXPECT_EQ(turned(Symbol::right), Symbol::down);
     EXPECT_EQ(turned(Symbol::down), Symbol::left);

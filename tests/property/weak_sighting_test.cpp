@@ -28,7 +28,7 @@ constexpr std::uint64_t kSeed = 20;
 constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
                                    CodeVariant::microdots};
 
-/// Bits that were read from a part of the pattern. The pattern is upright in the image.
+/// The bits that were read in a rectangle of the pattern. The pattern is upright in the image.
 struct View {
     CodeVariant code = CodeVariant::anoto;
     Place place;
@@ -47,7 +47,8 @@ struct View {
     }
 };
 
-/// Gives the view a random size and random noise, and fills its cells with noisy bits of the code.
+/// Sets a random size and a random noise level, and fills the cells of the view with noisy bits of
+/// the code.
 void read(View& view, Rng& rng) {
     view.columns = 8 + static_cast<int>(rng.below(5));
     view.rows = 8 + static_cast<int>(rng.below(5));
@@ -147,8 +148,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
 }
 
 /// Draws views of a place until the p_wrong of one view is between 2^-30 and 2^-10. For this view,
-/// returns the minimum margin of the tracker's bound over all gate sizes. The margin is log2 of
-/// the ratio between the bound and the sum of the odds in the gate.
+/// computes the margin of the tracker's bound at each gate size, and returns the minimum. The
+/// margin is log2 of the ratio of the bound to the sum of the odds in the gate.
 double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     View view;
     view.code = code;
@@ -161,7 +162,7 @@ double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     const auto sums = odds_by_distance(view);
     double least = 1e9;
     for (unsigned k = 1; k <= kReach; ++k) {
-        // If two places inside a gate are at distance k, the tracker counts at least k + 2 cells in
+        // If two places inside a gate are k cells apart, the tracker counts at least k + 2 cells in
         // the gate.
         const int cells_log2 = std::bit_width(k + 1);
         least = std::min(least, p_wrong_log2 + cells_log2 - 36 - std::log2(sums[k]));
@@ -231,8 +232,8 @@ struct Twin {
     int dy = 0;
 };
 
-/// Returns all twins. The roll of the repetition along one axis must cancel the offset along the
-/// other axis.
+/// Returns all twins. A twin exists if five lines of one axis are repeated and the difference of
+/// their rolls cancels the offset along the other axis.
 std::vector<Twin> twins(CodeVariant code) {
     const auto found = repetitions(code);
     std::vector<Twin> twins;

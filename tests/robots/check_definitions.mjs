@@ -1,6 +1,6 @@
-// Reads types and their definitions, as JSON on standard input, and prints their differences from
-// the definitions of ROS 2. Comments and constants are ignored. The type hashes are computed from
-// the definitions of ROS 2 according to REP 2011.
+// Reads types and their definitions from standard input, as JSON, and prints how they differ from the definitions of
+// ROS 2. Comments and constants are ignored. The type hashes are computed from the definitions of ROS 2 according to
+// REP 2011.
 import { createHash } from "node:crypto";
 import { readFile } from "node:fs/promises";
 
@@ -81,7 +81,7 @@ for (const { name, definition, hash } of JSON.parse(await readFile("/dev/stdin",
     differ = true;
   }
   for (const wanted of theirs) {
-    // The first definition has no name.
+    // The first definition is that of `type` itself. It has no name.
     const found = wanted.name === type ? ours[0] : ours.find((each) => each.name === wanted.name);
     if (found !== undefined && members(found) === members(wanted)) continue;
     console.log(`${wanted.name}: ${found && members(found)} instead of ${members(wanted)}`);

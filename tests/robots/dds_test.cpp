@@ -48,8 +48,8 @@ class Dds : public WatchCommand {
                                  const std::string& raw = kRaw) {
         const std::string watch = "'" + test::tool_path() + "' watch - " + raw + " " + kTrack +
                                   " --units ros --dds --robot anna -o lines " + options;
-        // The frames start when the reader reports that it and the writers have discovered each
-        // other.
+        // Frames are sent only after the reader has reported that it and the writers have
+        // discovered each other.
         const std::string ready =
             "until [ -e ready ] || ! kill -0 $reader; do sleep 0.1; done; sleep 1; ";
         std::ofstream(directory_ / "run.sh")
@@ -75,7 +75,7 @@ class Dds : public WatchCommand {
 TEST_F(Dds, HasThePosesOfTheLines) {
     DOTPOSE_NEEDS_DDS();
     put_raw(drive_.frames());
-    // The frames arrive as fast as possible, and no message may be lost.
+    // The frames are sent without pauses, and no message may be lost.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable");
     expect_messages_of(parsed(file("lines")), messages, "anna", kAsWatched);
 }

@@ -1,5 +1,5 @@
-// Decodes samples in the format of dotpose_dds_reader with independent definitions, and prints each
-// sample as a line of JSON: node decode.mjs <samples
+// Decodes samples in the format of dotpose_dds_reader, using independent definitions of the types. Prints each sample
+// as a line of JSON: node decode.mjs <samples
 import { createInterface } from "node:readline";
 
 import { MessageReader } from "@foxglove/rosmsg2-serialization";

@@ -15,7 +15,8 @@
 
 namespace dotpose::test {
 
-/// Maximum differences between messages and lines. Lines are rounded to nanometres and 1e-8 rad.
+/// Maximum difference between a value in a message and the same value in a line. Lengths in lines
+/// are rounded to nanometres, and angles to 1e-8 rad.
 struct MessageTolerance {
     double length_m = 0.6e-9;
     double angle_rad = 1e-8;
@@ -23,8 +24,8 @@ struct MessageTolerance {
     double turn_rad_s = 0.6e-6;
 };
 inline constexpr MessageTolerance kAsWatched;
-/// Tolerance for messages from a log. A log contains degrees with six decimals, and velocities in
-/// mm/s and degrees/s with three decimals.
+/// Tolerance for messages that are converted from a log. In a log, angles in degrees have six
+/// decimals, and velocities in mm/s and degrees/s have three.
 inline constexpr MessageTolerance kAsLogged = {2e-9, 2e-8, 2e-6, 1e-5};
 
 inline double yaw_of(const nlohmann::json& rotation) {

@@ -89,8 +89,8 @@ TEST_F(Mcap, CutOffAnywhereItHasAllFinishedChunks) {
     McapFile file(path_);
     write(file, 456);
     file.finish();
-    // The file is truncated in the middle of the data, as on a full disk, so it has neither a
-    // footer nor an index.
+    // The file is truncated in the middle of the data, as if the disk had been full. It has neither
+    // a footer nor an index.
     std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
     const auto messages = read_mcap(path_, "--stream");
     EXPECT_GT(messages.size(), 100U);
@@ -104,7 +104,7 @@ TEST_F(Mcap, LargeMessagesEndTheirChunk) {
     const McapChannel channel = file.add_channel("/image", type_of(image));
     for (int i = 0; i < 5; ++i)
         file.write(channel, i, to_cdr(image));
-    // A chunk ends after two images. The fifth image is in a chunk that is not finished.
+    // Each chunk contains two images. The chunk of the fifth image has not been finished.
     EXPECT_EQ(read_mcap(path_).size(), 4U);
     file.finish();
     EXPECT_EQ(read_mcap(path_).size(), 5U);

@@ -1,4 +1,4 @@
-/// Reads messages with independent programs from npm.
+/// Reads robot messages with independent programs that are installed from npm.
 #pragma once
 
 #include <sstream>
@@ -13,8 +13,8 @@
 
 namespace dotpose::test {
 
-/// Returns the folder with the readers, which the first call installs. Returns an empty string if
-/// there is no npm or no network.
+/// Returns the folder that contains the readers. The first call installs them. Returns an empty
+/// string if npm or the network is not available.
 inline std::string npm_folder() {
     static const ShellOutcome installed =
         run_shell("'" + source_dir() + "/tests/robots/npm_packages' '" DOTPOSE_NPM_FOLDER "'");

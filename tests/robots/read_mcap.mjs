@@ -83,7 +83,7 @@ async function indexed(path, bytes) {
   };
   const reader = await McapIndexedReader.Initialize({ readable });
   if (reader.header.profile !== "ros2") fail(`profile ${reader.header.profile}`);
-  // The readers check the checksums of the chunks and of the summary, but not the checksum of all data.
+  // The readers do not check the checksum of the data section. They check only those of the chunks and the summary.
   const data = bytes.subarray(0, Number(reader.dataEndOffset));
   if (reader.dataSectionCrc !== crc32(data)) fail("the check sum of the data is wrong");
   const decoder = new Decoder();
@@ -102,7 +102,7 @@ const [path, option] = process.argv.slice(2);
 const isCut = option === "--stream";
 const bytes = new Uint8Array(await readFile(path));
 const lines = await streamed(bytes, isCut);
-// Messages with equal times may be in any order.
+// The lines are sorted, because the two readers may return messages with equal times in different orders.
 if (!isCut && (await indexed(path, bytes)).sort().join() !== lines.slice().sort().join())
   fail("the readers disagree");
 for (const line of lines) console.log(line);

@@ -23,8 +23,8 @@ class Recording : public WatchCommand {
   protected:
     using ToolCommand::shell;
 
-    /// Records frames from a pipe, sends `signal` to the tool after it has processed `frames`
-    /// frames, and returns the exit code of the tool.
+    /// Records frames from a pipe. When the tool has processed `frames` frames, sends `signal` to
+    /// it. Returns the exit code of the tool.
     int stop_after(int frames, const std::string& signal) {
         return shell("mkfifo frames; : >lines; \"$T\" watch - " + std::string(kRaw) + " " + kTrack +
                      " --no-window --mcap run.mcap -o lines <frames & tool=$!; exec 3>frames; "
@@ -54,7 +54,8 @@ TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     expect_messages_of(lines, messages, "anna", kAsWatched);
     expect_odometry_of(lines, messages, "anna");
 
-    // The tolerance is larger for the log, because its numbers are rounded.
+    // The numbers in the log are rounded, so the tolerance is larger for poses that are replayed
+    // from it.
     ASSERT_EQ(run("replay run.csv -o again.mcap --robot anna"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames with a fix "));
     expect_messages_of(lines, recorded("again.mcap"), "anna", kAsLogged);
@@ -88,7 +89,7 @@ TEST_F(Recording, HasTheFramesIfAskedFor) {
     const json& message = images[3]["message"];
     EXPECT_EQ(message["format"], "png");
     EXPECT_EQ(message["header"]["frame_id"], "camera_optical");
-    // The image, decoded by another program, must have the same pixels as the frame.
+    // The recorded image is decoded by another program. It must have the same pixels as the frame.
     const auto bytes = message["data"].get<std::vector<std::uint8_t>>();
     std::ofstream(directory_ / "frame.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
@@ -162,8 +163,8 @@ TEST_F(Recording, KilledItIsStillReadable) {
     DOTPOSE_NEEDS_NPM();
     put_raw(400);
     ASSERT_EQ(stop_after(400, "KILL"), 128 + 9);
-    // The tool processed 2 s of frames. The last chunk, of at most a second, may be missing, but
-    // both readers must be able to read the file.
+    // The tool has processed the frames of 2 s. The last chunk, which contains at most one second,
+    // may be missing, but both readers must be able to read the file.
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_GE(poses.size(), 199U);
     EXPECT_LE(poses.size(), 400U);

@@ -1,5 +1,5 @@
-// Tests the conversion of fixes and tracks to messages. Frames of reference, units and covariances
-// are compared with values computed by hand.
+// Tests the conversion of fixes and tracks to messages. The expected frames of reference, units and
+// covariances were determined by hand.
 #include "dotpose/tools/robot_messages.hpp"
 
 #include <cmath>
@@ -135,8 +135,8 @@ TEST(RobotMessages, OdometryGoesOnWhenTheRobotIsPutElsewhere) {
     next.pose = {10, -3, 0};
     const RobotMessages again = messenger.messages(update(next, true));
     expect_transform(again.tf->transforms[1], 0.5, 0, 0);
-    // The product of the transforms from map to odom and from odom to base_link is the pose of the
-    // robot.
+    // The product of the two transforms, from map to odom and from odom to base_link, must equal
+    // the pose of the robot.
     expect_transform(again.tf->transforms[0], 9.5, -3, 0);
     next.pose.x_m += 0.25;
     const RobotMessages then = messenger.messages(update(next));
@@ -253,8 +253,8 @@ TEST(RobotUpdates, TheWorldHasYUpAlready) {
     EXPECT_FALSE(ros::update_of(followed, true, 0).fix);
 }
 
-/// Returns the track of `followed_in_pattern`, with the pose of a camera that looks straight down
-/// from 20 mm above the pattern.
+/// Returns the same track as `followed_in_pattern`, but with the pose of a camera that looks
+/// straight down from 20 mm above the pattern.
 Followed followed_in_space() {
     Followed followed = followed_in_pattern();
     SpacePose& space = followed.located.space.emplace();

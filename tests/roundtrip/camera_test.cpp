@@ -43,7 +43,7 @@ struct TakenFrame {
     double theta_rad = 0;
 };
 
-/// A kind of camera, and the print options for it.
+/// A kind of camera, and the options with which `dotpose overlay` prints pages for it.
 struct Camera {
     const char* name;
     const char* overlay_options;

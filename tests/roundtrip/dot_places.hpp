@@ -12,8 +12,8 @@ struct DotErrors {
     /// Number of dots that are closer to the position of another symbol than to that of the correct
     /// symbol.
     int wrong_symbols = 0;
-    /// Mean and maximum distance of a centroid from its nominal position, after subtracting the
-    /// mean offset from all centroids.
+    /// Mean and maximum distance between a dot's centroid and its nominal position, after
+    /// subtracting the mean offset from all centroids.
     double mean_um = 0;
     double largest_um = 0;
     double offset_x_um = 0;

@@ -27,9 +27,9 @@ constexpr Limits kUsual = {4, 12};
 // neighbouring dots may ink the same pixel. The displacement of a symbol is 50 µm.
 constexpr Limits kFineOnCoarse = {6, 30};
 
-// Minimum diameter of a dot whose position can be measured exactly. A smaller dot looks the same
-// wherever it is within a pixel. For example, the error is up to 17 µm for a dot of 0.05 mm at 300
-// dpi. A dot that consists of whole pixels has no such error.
+// Minimum diameter of a dot whose position can be measured exactly. A smaller dot may look the same
+// at different positions within a pixel. For example, the error is up to 17 µm for a dot of 0.05 mm
+// at 300 dpi. A dot that consists of whole pixels has no such error.
 constexpr double kExactDot_px = 2.3;
 // Maximum diameter at which there is a white pixel between any two dots, for a spacing of 0.3 mm at
 // 300 dpi.
@@ -70,8 +70,8 @@ TEST_P(RenderedPdf, shows_every_dot_in_its_place) {
     options.pattern.dot_mm = is_coarse ? coarse_dot_px * 25.4 / dpi : dots.spacing_mm / 6;
     options.pattern.section = {5, 60};
     options.origin = {123'456, 400'000'000};
-    // The height is not a whole number of pixels. The page is wide because errors could accumulate
-    // over its width.
+    // The height is not a whole number of pixels. The page is wide, because errors that accumulate
+    // along x would be largest at the right edge.
     options.paper = {150, 21.3};
     options.margin_mm = 5;
     const Sheet sheet = make_sheet(options);

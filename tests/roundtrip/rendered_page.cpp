@@ -26,7 +26,7 @@ std::size_t area(const GreyPage& page) {
     return static_cast<std::size_t>(page.width_px) * static_cast<std::size_t>(page.height_px);
 }
 
-/// Reads a binary 8-bit PGM file, as written by all three renderers. '#' begins a comment.
+/// Reads a binary 8-bit PGM file. All three renderers write this format. '#' begins a comment.
 GreyPage read_pgm(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::array<std::string, 4> header;  // P5, width, height, 255

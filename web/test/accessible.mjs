@@ -7,14 +7,15 @@ const kAxe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.m
 
 /** Requires that axe finds no violations, and that nothing is wider than the screen. */
 export async function audit(page) {
-    // Scripts run by the test are not subject to the page's content security policy.
+    // Evaluates axe from the test, because the page's content security policy does not apply to scripts that the test
+    // runs.
     await page.evaluate(kAxe);
     const { violations } = await page.evaluate(() => globalThis.axe.run());
     assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= page.viewportSize().width);
 }
 
-/** Audits the page in both colour schemes, on a desktop and on phones. */
+/** Audits the page in both colour schemes, at desktop and phone sizes. */
 export async function requireAccessible(page) {
     const size = page.viewportSize();
     for (const colorScheme of ["dark", "light"]) {

@@ -23,7 +23,7 @@ const kPeriod_ms = 50;
 const kReadout_ms = 20;
 const kPlace = { x: 5000, y: 7000 };
 
-/** The camera in a pen, and the pen's tip in the camera frame: x right, y down, z forward. */
+/** Simulated pen camera. `tip_mm` is the pen's tip in the camera frame: x right, y down, z forward. */
 const kPen = { size: "320x240", focal_px: 16 / 0.03, spacing_mm: 0.3, tip_mm: [0.5, 5, 18], rest_mm: 0.1, at_mm: [500, 700] };
 
 let folder;
@@ -217,7 +217,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
         await page.waitForSelector("[data-step=lens]:enabled");
         assert.equal(await page.locator(".steps .known").count(), 0);
 
-        // While frames are taken, the page lists in words what is still needed.
+        // While the step collects frames, the page lists the requirements that have not been met yet.
         await page.click("[data-step=lens]");
         await page.waitForSelector("#calibration-needs li");
         assert.match(await page.textContent("#calibration-needs"), /\w+/);
@@ -302,7 +302,7 @@ test("the page keeps the mount of the file that it replaces", async () => {
     }
 });
 
-/** Takes pictures for docs/web.md if the environment variable DOTPOSE_PICTURES names a folder. */
+/** Takes screenshots for docs/web.md if the environment variable DOTPOSE_PICTURES names a folder. */
 async function picture(page, name) {
     if (process.env.DOTPOSE_PICTURES) await takeForms(page, process.env.DOTPOSE_PICTURES, name);
 }

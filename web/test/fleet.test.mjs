@@ -128,7 +128,7 @@ test("2,000 robots are drawn", async (t) => {
     const { page, complaints } = await open(browser.context, url);
     await untilInView(page, 2000);
     await page.evaluate(() => {
-        // Counts the drawn frames. The map is cleared once for each frame.
+        // Counts how often the map is drawn. The map is cleared once before each drawing.
         const { clearRect } = CanvasRenderingContext2D.prototype;
         globalThis.drawn = 0;
         CanvasRenderingContext2D.prototype.clearRect = function (...all) {

@@ -114,7 +114,7 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
     await untilInView(page, 1);
     await page.click("#fleet-fit");
     await page.waitForTimeout(2000);
-    // Measures the line segments that extend the trails. Trails differ from other lines in their opacity.
+    // Measures the line segments that extend the trails. Trails are recognised by their opacity.
     const longest = await page.evaluate(async () => {
         const { moveTo, lineTo } = CanvasRenderingContext2D.prototype;
         const [segments, xs] = [[], []];
@@ -136,8 +136,8 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
         const radius = (Math.max(...xs) - Math.min(...xs)) / 2;
         return { share: Math.max(...segments) / radius, count: segments.length };
     });
-    // Between two states, the robot moves by 0.22 times the radius of its circle. The limit allows for states that are
-    // not drawn.
+    // Between two states, the robot moves by 0.22 times the radius of its circle. The limit is higher because some
+    // states are not drawn.
     assert.ok(longest.count > 100 && longest.share < 1, JSON.stringify(longest));
     await page.close();
     await stop();

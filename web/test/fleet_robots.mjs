@@ -12,7 +12,7 @@ import { kTool, launch } from "./browser.mjs";
 
 export const kLoad = join(dirname(kTool), "dotpose_fleet_load");
 export const kSilentAfter_s = 3;
-/** Maximum time until the page shows a condition, measured from the end of the condition's own time limit. */
+/** Maximum delay until the page shows a condition, after the time limit of the condition itself has expired. */
 export const kShown_s = 2;
 
 export let folder;
@@ -50,7 +50,7 @@ export async function until(condition, what) {
     }
 }
 
-/** Starts a broker. Each test has its own broker, because a broker remembers the robots that were killed. */
+/** Starts a broker. Each test has its own broker, because a broker retains the messages of robots that were killed. */
 async function startBroker() {
     const port = await freePort();
     const settings = ["allow_anonymous true", "max_inflight_messages 1000", "max_queued_messages 100000", "set_tcp_nodelay true"];
@@ -118,7 +118,7 @@ export class Robot {
     }
 }
 
-/** Returns the cells of a robot's row, or undefined. */
+/** Returns the cells of a robot's table row, or undefined if there is no such row. */
 export function rowOf(page, name) {
     return page.evaluate((wanted) => {
         for (const row of document.getElementById("fleet-rows").rows)

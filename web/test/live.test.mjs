@@ -24,7 +24,7 @@ function makeDrive(name, frames, ...options) {
     return { video, truth: readCsv(readFileSync(video.replace(".mp4", "-truth.csv"), "utf8")) };
 }
 
-/** Starts `dotpose watch` with a web page. Plays the video five times slower than the drive. */
+/** Starts `dotpose watch` with a web page. Plays the video at a fifth of its original speed. */
 function watch({ video }, options = [], address = "0") {
     return watchSource([video, "--realtime", "--fps", "10", "--web-recordings", folder], options, address);
 }

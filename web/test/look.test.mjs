@@ -1,5 +1,5 @@
-// Tests the view "Look" with a camera that shows a clip with known poses, for both methods of
-// reading the luma.
+// Tests the view "Look" with a fake camera that plays a clip of frames with known poses. Tests both methods of reading
+// the luma.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -66,7 +66,7 @@ test("the luma straight from the camera gives the poses of the clip, to the bit 
     assert.match(rate, /^\d+ frames per second, straight from the camera$/);
     const lines = readCsv(log);
     requireTruth(lines);
-    // For frames without a prediction, the pose must equal the output of the command-line tool.
+    // For frames without a prediction, the pose must equal the pose that the command-line tool computes.
     const first = lines.filter((line) => line.attempt === "first");
     assert.ok(first.length >= 4, `${first.length} frames were read without prediction`);
     for (const line of first) {
@@ -140,7 +140,7 @@ test("a picture is read, and one of something else gets a hint", async () => {
     await page.close();
 });
 
-/** First cell of the A4 sheet "table". `kOnTable` is the position shown at the image centre, in cells. */
+/** First cell of the A4 sheet "table". `kOnTable` is the pattern position at the image centre, in cells. */
 const kOrigin = [1000, 2000];
 const kOnTable = [1200.3, 2300.6];
 
@@ -153,7 +153,7 @@ function sheetFile() {
     return path;
 }
 
-/** Returns frames of a sheet in section 0, 0. `at` is the position shown at the image centre, in cells. */
+/** Returns frames of a sheet in section 0, 0. `at` is the pattern position at the image centre, in cells. */
 function viewsOf(at, size, frames = 1) {
     const still = mkdtempSync(join(folder, "view-"));
     return makeClip(still, { frames, size, options: ["--section", "0,0", "--at", at.join()] });

@@ -1,5 +1,5 @@
-// Tests the pose of the camera in space in the view "Look". The poses of a simulated tilted camera are compared with
-// the true poses and with the output of the command-line tool.
+// Tests the panel that shows the pose of the camera in space in the view "Look". Simulates frames from a tilted camera,
+// and compares the poses on the page with the true poses and with the output of the command-line tool.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -23,7 +23,7 @@ let folder;
 let server;
 let browser;
 let clip;
-/** The tool's output lines, with poses in space, for 40 frames of the view. */
+/** Output lines of the tool for the frames of the clip, with the pose in space. */
 let lines;
 
 before(async () => {
@@ -60,7 +60,7 @@ async function shown(page) {
     return { height: await number("height"), tilt: await number("tilt"), azimuth: await number("azimuth"), turn: await number("turn") };
 }
 
-/** Opens the camera file and a frame of the view. */
+/** Opens the camera file and frame `i` of the clip. Returns the values shown. */
 async function openView(page, i) {
     await openCamera(page);
     await page.waitForFunction(() => document.getElementById("look-camera-state").textContent.startsWith("camera.yaml"));

@@ -1,4 +1,5 @@
-// Frames over the seam between two sheets, composed of simulated frames of each sheet.
+// Makes frames that show the seam between two sheets. Each frame is composed of a simulated frame of the left sheet and
+// one of the right sheet.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { dotpose } from "./browser.mjs";
@@ -58,8 +59,8 @@ function seamFrame(folder, at, theta_rad, seed) {
 }
 
 /**
- * Makes a sheet file with two sheets, and frames over their seam. Only the left sheet has a pose in the world. Returns
- * the true pose of the right sheet.
+ * Makes a sheet file with two sheets, and frames that show the seam between them. Only the left sheet has a pose in the
+ * world. Returns the true pose of the right sheet.
  */
 export function makeSeamFrames(folder) {
     mkdirSync(folder);

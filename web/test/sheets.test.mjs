@@ -129,7 +129,8 @@ test("a sheet is moved and turned by mouse and keyboard, and the edits are undon
         assert.ok(Math.abs(moved.x_mm - 180) < 2 * mm_per_px && Math.abs(moved.y_mm + 20) < 2 * mm_per_px, JSON.stringify(moved));
         assert.equal(moved.yaw_deg, 0);
 
-        // The rotation handle is above the middle of the sheet's upper edge. The sheet rotates about its centre.
+        // The rotation handle is above the middle of the sheet's upper edge. Dragging the handle rotates the sheet
+        // about its centre.
         const map = await mapOf(page);
         const middle = map.at(moved.x_mm + 60, moved.y_mm - 50);
         const [u, v] = map.at(moved.x_mm + 60, moved.y_mm);
@@ -159,7 +160,7 @@ test("a sheet is moved and turned by mouse and keyboard, and the edits are undon
         await message(page, /Done again/);
         assert.deepEqual(placeOf("shelf"), moved);
 
-        // A sheet without a pose in the world gets a pose when the user moves the sheet.
+        // If the user moves a sheet that has no pose in the world, the sheet gets a pose.
         await select(page, "door");
         assert.equal(placeOf("door"), null);
         await page.focus("#sheets-map");
@@ -194,7 +195,7 @@ test("numbers, ruler and offset are saved like on the command line", async () =>
         await save(page, "scale");
         await message(page, /print scale x 0\.97, y 0\.99/);
         assert.match(dotpose("sheets", "show", kTable, "--sheets", file), /print scale +x 0\.97, y 0\.99/);
-        // A number that the library refuses is reported, and nothing is written.
+        // A number that the library refuses is reported, and the file is not changed.
         await page.fill("#scale-measured", "900");
         await save(page, "scale");
         await message(page, /^Refused: .*0\.5 to 2/);
@@ -250,7 +251,7 @@ test("sheets are renamed and removed like on the command line, and both are undo
         assert.deepEqual(names(), [kTable, "door", "shelf"]);
         assert.deepEqual(placeOf("shelf"), { x_mm: 150, y_mm: 0, yaw_deg: 0 });
 
-        // Another program prints a page on the cells that the removal has freed, so the removal can no longer be
+        // Another program prints a page that uses the cells freed by the removal, so the removal can no longer be
         // undone.
         await select(page, "shelf");
         await page.click("#sheet-remove");
@@ -296,7 +297,7 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         assert.match(answer.message, /'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
 
-        // Values typed before the change are refused the first time. They are saved if the user tries again.
+        // The first attempt to save values that were typed before the change is refused. A second attempt saves them.
         await save(page, "place");
         await message(page, /^Refused: 'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
@@ -376,7 +377,7 @@ test("sheets are printed and printed again", async () => {
         assert.deepEqual([entry.width_mm, entry.height_mm, entry.spacing_mm], [420, 297, 0.6]);
         dotpose("sheets", "reprint", "long shelf", "--sheets", file, "-o", reprint);
         assert.ok(made.bytes.equals(readFileSync(reprint)));
-        // The print command in the sheet's entry produces the same dots.
+        // The print command shown for the sheet prints the same dots as the downloaded file.
         const [, ...words] = entry.print.command.split(" ");
         execFileSync(process.env.DOTPOSE_TOOL, words, { cwd: folder });
         const sizes = [made.path, join(folder, "long_shelf.pdf")].map((pdf) => dotsOf(pdf));

@@ -1,5 +1,5 @@
-// Tests the pose of the camera in space on the page of `dotpose watch --web`. The angles that the page shows for
-// simulated frames of a tilted camera are compared with the true angles.
+// Tests the panel that shows the pose of the camera in space on the page of `dotpose watch --web`. Simulates frames
+// from a tilted camera, and compares the angles on the page with the true angles.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -21,7 +21,8 @@ before(async () => {
     folder = mkdtempSync(join(tmpdir(), "dotpose-space-"));
     const view = ["--size", "320x240", "--working-distance", String(kDistance_mm), `--tilt=0,${kTilt_deg}`, "--angle", String(kTurn_deg)];
     dotpose("simulate", "-o", join(folder, "frames"), "--frames", "60", ...view);
-    // The frames in "still" show the same view on a sheet with a known pose in the world. The camera is at rest.
+    // The frames in "still" are from a camera at rest. Its height, tilt and turn are the same as in "frames", but the
+    // pose of the sheet in the world is known.
     const sheets = join(folder, "sheets.json");
     dotpose("print", "-o", join(folder, "page.svg"), "--paper", "A5", "--origin", "1000,2000", "--sheets", sheets, "--name", "desk");
     dotpose("sheets", "place", "desk", "--sheets", sheets, "--x", "100", "--y", "50", "--yaw", String(kYaw_deg));
@@ -39,7 +40,7 @@ after(async () => {
     if (folder) rmSync(folder, { recursive: true, force: true });
 });
 
-/** Opens the page of a run, waits for the first frame, and returns the result of `look`. */
+/** Runs `dotpose watch` on `frames`, waits until its page shows the first frame, and returns the result of `look`. */
 async function seen(frames, options, look) {
     const run = await watchSource([join(folder, frames), "--realtime", "--fps", "3"], options);
     try {
@@ -82,7 +83,8 @@ test("the page shows height, tilt, azimuth and turn, and draws the camera", asyn
         await requireAccessible(page);
         return shownIn(page);
     });
-    // The paper gets closer to the camera along the image x axis, so the camera leans in this direction.
+    // The distance from the camera to the paper decreases along the image x axis, so the camera leans in this
+    // direction.
     near(shown, "height_mm", kHeight_mm, 0.05);
     near(shown, "tilt_deg", kTilt_deg, 0.1);
     near(shown, "azimuth_deg", kTurn_deg, 0.3);

@@ -1,5 +1,5 @@
-// Tests the view "Try": the simulated camera must be located after it moves and after its frames
-// are degraded.
+// Tests the view "Try": the simulated camera must be located after the user has moved it, and after its frames have
+// been degraded.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { launch, open, serve } from "./browser.mjs";
@@ -56,7 +56,7 @@ test("the picture follows the mouse", async () => {
     await settled(page, () => page.mouse.move(box.x + box.width / 4, box.y + box.height / 2, { steps: 4 }));
     await page.mouse.up();
     const { x_mm, y_mm, error_mm } = await shown(page);
-    // The picture is 188 px wide and was dragged by a quarter of its width. A pixel shows 0.046 mm of the paper.
+    // The picture is 188 px wide and was dragged by a quarter of its width. Each pixel covers 0.046 mm of the paper.
     assert.ok(Math.abs(x_mm - start.x_mm - (188 * 0.046) / 4) < 0.05, `${start.x_mm} to ${x_mm}`);
     assert.ok(Math.abs(y_mm - start.y_mm) < 0.01);
     assert.ok(error_mm < 0.004);

@@ -1,4 +1,4 @@
-// Starts `dotpose watch` with a page.
+// Starts `dotpose watch` with a web page.
 import { spawn } from "node:child_process";
 import { kTool } from "./browser.mjs";
 

@@ -1,4 +1,4 @@
-// Takes pictures of a page for the documentation.
+// Takes screenshots of a page for the documentation.
 import { execFileSync } from "node:child_process";
 import { rmSync } from "node:fs";
 import { join } from "node:path";
@@ -12,7 +12,7 @@ const kForms = [
     ["phone-dark", kPhone, "dark"],
 ];
 
-/** Reduces a PNG to 128 colours, which makes it less than half as large. */
+/** Reduces a PNG file to 128 colours. The file is then less than half as large. */
 function reduce(from, to) {
     const palette = "[0]split[a][b];[a]palettegen=max_colors=128[p];[b][p]paletteuse=dither=none";
     execFileSync("ffmpeg", ["-loglevel", "error", "-y", "-i", from, "-filter_complex", palette, "-pred", "mixed", to]);
@@ -20,8 +20,9 @@ function reduce(from, to) {
 }
 
 /**
- * Takes a picture of a page on a desktop and on a phone, in both colour schemes: NAME-light.png, NAME-dark.png,
- * NAME-phone.png and NAME-phone-dark.png. Before each picture, `ready` is called to prepare the page.
+ * Takes four screenshots of a page, at desktop and phone size in the light and dark colour schemes. Writes
+ * NAME-light.png, NAME-dark.png, NAME-phone.png and NAME-phone-dark.png. Calls `ready` before each screenshot to
+ * prepare the page.
  */
 export async function takeForms(page, folder, name, { ready = () => undefined, fullPhone = true } = {}) {
     const before = page.viewportSize();

@@ -1,6 +1,6 @@
-// Takes the pictures for docs/web.md and docs/fleet.md. Run `node tools/take_live_pictures.mjs [PART]` after building
-// the tool. PART is watch, sheets, stitch or fleet. With DOTPOSE_PICTURES=../docs/pictures, test/calibration.test.mjs
-// takes the pictures of the calibration. Needs ffmpeg.
+// Takes the screenshots for docs/web.md and docs/fleet.md. Run `node tools/take_live_pictures.mjs [PART]` after
+// building the tool. PART is watch, sheets, stitch or fleet. With DOTPOSE_PICTURES=../docs/pictures,
+// test/calibration.test.mjs takes the screenshots of the calibration page. Needs ffmpeg.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";
@@ -16,7 +16,8 @@ const kPictures = fileURLToPath(new URL("../../docs/pictures/", import.meta.url)
 const folder = mkdtempSync(join(tmpdir(), "dotpose-pictures-"));
 const browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 const programs = [];
-// The pages show file names exactly as given on the command line, so the files are given without their folder.
+// Changes to the folder of the files. The pages show file names exactly as given on the command line, and the
+// screenshots should not contain the path of the folder.
 process.chdir(folder);
 
 function pause(seconds) {
@@ -31,7 +32,7 @@ function start(command, ...args) {
     return started;
 }
 
-/** Makes four sheets with poses in the world, and a drive over them. */
+/** Creates a sheet file with four sheets whose poses in the world are known, and a video of a drive over them. */
 function makeDrive() {
     const sheets = "sheets.json";
     ["table", "shelf", "door", "dock"].forEach((name, i) => {
@@ -108,7 +109,7 @@ const kParts = {
         const { page } = await open(browser.context, /the page is at (\S+)/.exec(fleet.messages)[1]);
         await page.click("#fleet-rows button:text-is('robot7')");
         await page.waitForSelector("#fleet-stored", { state: "visible" });
-        // After a change of the page size, the form must be submitted again for the map to show the whole track.
+        // After the size of the page has changed, the map shows the whole track only if the form is submitted again.
         const ready = async () => {
             await page.click("#fleet-stored-form button[type=submit]");
             await page.waitForSelector("#fleet-stored-figure", { state: "visible" });

@@ -1,4 +1,4 @@
-// Takes the pictures of the page for web/README.md. Run `node tools/take_picture.mjs` after running web/build. Needs
+// Takes the screenshots of the page for web/README.md. Run `node tools/take_picture.mjs` after running web/build. Needs
 // ffmpeg.
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -10,7 +10,7 @@ import { takeForms } from "./forms.mjs";
 
 const kPictures = fileURLToPath(new URL("../../docs/pictures/", import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), "dotpose-pictures-"));
-// A tilted camera 30 mm above a sheet. Its images have 640 x 480 px, and a pixel shows 0.046 mm of the paper.
+// A tilted camera 30 mm above a sheet. Its images are 640 x 480 px in size. Each pixel covers 0.046 mm of the paper.
 makeClip(folder, { frames: 1, size: "640x480", options: ["--working-distance", "30", "--tilt=12,20", "--angle", "25"] });
 writeFileSync(
     join(folder, "camera.yaml"),

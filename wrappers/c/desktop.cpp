@@ -16,8 +16,8 @@ using namespace dotpose;
 
 /// Layout of CodeEvidence in the core (dotpose/code_evidence.hpp). `log2_q8` contains the log2 odds
 /// of each code, from the frames at earlier places. `factors` contains, for each code, the sum of
-/// the likelihood ratios over the frames at the current place. `x` and `y` are the cell of the
-/// first frame at this place, and `frames` is the number of frames at this place.
+/// the likelihood ratios over the frames at the current place. `x` and `y` are the coordinates of
+/// the cell of the first frame at this place, and `frames` is the number of frames at this place.
 struct State {
     std::int32_t log2_q8[kCodeVariantCount];
     float factors[kCodeVariantCount];

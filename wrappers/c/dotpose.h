@@ -80,7 +80,7 @@ enum {
     DOTPOSE_NOT_TRACKED = 15,
     /* Places of two codes explain the dots about equally well; name the code, or show more dots. */
     DOTPOSE_AMBIGUOUS_CODE = 16,
-    /* A newer version of dotpose has added this status. */
+    /* An unknown status, which a newer version of dotpose has added. */
     DOTPOSE_OTHER = 255,
     /* Misuse of this header's functions. */
     DOTPOSE_NULL_POINTER = 1000,
@@ -147,8 +147,8 @@ dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, in
 
 /* Writes the symbols (DOTPOSE_SYMBOL_) of columns x rows dots, row by row from `top_left`, for
  * example to print a sheet. `bytes` is the size of `symbols`. Returns TOO_LITTLE_MEMORY if `bytes`
- * is less than columns x rows. `columns` and `rows` must be from 1 to 65535. The pattern wraps
- * around at the end of an axis, as in locators. */
+ * is less than columns x rows. `columns` and `rows` must be from 1 to 65535. At the end of each
+ * axis, the pattern wraps around, as it does in locators. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
 
@@ -263,7 +263,7 @@ typedef struct dotpose_fix {
     int32_t spacing_px_q16; /* 132 */
     /* Spacing of the printed grid in nm, from the options; 0 if unknown. */
     int32_t spacing_nm; /* 136 */
-    /* Place in the code of the origin of pattern_from_image. */
+    /* Place of the origin of pattern_from_image in the code. */
     dotpose_place place; /* 140 */
     /* Map from the image to the pattern, in spacings relative to place. */
     dotpose_plane pattern_from_image; /* 156 */
@@ -463,8 +463,8 @@ dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pix
                                     const dotpose_measured_motion* since_last, dotpose_fix* fix);
 
 /* Returns the code set in the options or, if the code is detected, the code of the last image. Pass
- * this code to dotpose_packet_of, and to dotpose_prediction_move for a prediction made from the fix
- * of the last image. */
+ * this code to dotpose_packet_of, and to dotpose_prediction_move if the prediction was made from
+ * the fix of the last image. */
 dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code);
 
 /* Locate an image row by row: call dotpose_begin, then dotpose_push_row for each row from the top,
@@ -493,7 +493,8 @@ dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, i
 
 /* ---- Sheets whose code is not known --------------------------------------------------------- */
 
-/* Evidence for each code, from all frames of one sheet so far. Initialise the struct with zeros:
+/* Evidence for each code, accumulated over all frames of one sheet so far. Initialise the struct
+ * with zeros:
  *     dotpose_code_evidence evidence = {{0}}; */
 typedef struct dotpose_code_evidence {
     int32_t state[9];
@@ -645,9 +646,9 @@ dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
 dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
-/* Like dotpose_tracker_update, with the motion of the robot since the previous update. The motion's
- * `right_mm` is the displacement along the image x axis, whose angle is the theta of the sightings.
- * If `sighting` is null, only the motion changes the pose. */
+/* Like dotpose_tracker_update, but also uses the measured motion of the robot since the previous
+ * update. The motion's `right_mm` is the displacement along the image x axis, whose angle is the
+ * theta of the sightings. If `sighting` is null, only the motion changes the pose. */
 dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
                                             const dotpose_sighting* sighting,
                                             const dotpose_measured_motion* motion,

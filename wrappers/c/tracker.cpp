@@ -13,8 +13,8 @@ using namespace dotpose;
 using TrackerObject = c::Object<Tracker, 0xD07C0004>;
 
 constexpr std::size_t kFirstBytes = 88;
-/// Times and coordinates are at most 2^kLatest_us µs and 2^kFarthest_nm nm in magnitude, so the
-/// difference of two values does not overflow.
+/// Times are at most 2^kLatest_us µs in magnitude, and coordinates are at most 2^kFarthest_nm nm.
+/// The difference of two times or of two coordinates therefore does not overflow.
 constexpr int kLatest_us = 62;
 constexpr int kFarthest_nm = 60;
 

@@ -8,8 +8,8 @@
 //
 //   SET.frames  a sequence of binary PGM images, two for each frame: the frame, and the frame after
 //               a small motion of the camera, for the tracked attempt
-//   SET.csv     a line for each frame and method of locating; wrappers/golden/README.md
-//               describes the columns
+//   SET.csv     a line for each combination of a frame and a method (locate, tracked, any_code,
+//               device); wrappers/golden/README.md describes the columns
 //
 // The frames are the same as in accuracy/golden.cpp.
 #include <bit>
@@ -140,8 +140,8 @@ class Lines {
     std::uint64_t index_;
 };
 
-/// Locates a frame with every method. Also locates the next frame, with a prediction from the first
-/// fix.
+/// Locates a frame with every method. Also locates the next frame, with a prediction from the fix
+/// of this frame.
 void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
     const auto memory = std::make_unique<LargeMemory>();
     Locator locator(*memory, DeviceOptions{});
@@ -155,7 +155,8 @@ void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
     lines.add("device", DeviceLocator(device_memory).locate(image.view()));
 }
 
-/// Returns the shot after the camera has moved by a quarter of a spacing and turned by 2 degrees.
+/// Returns the shot after the camera has moved by a quarter of a spacing along each axis and turned
+/// by 2 degrees.
 Shot moved(Shot shot) {
     constexpr double kStep = 0.25;
     constexpr double kTurn_rad = 0.035;

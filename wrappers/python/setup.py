@@ -1,4 +1,4 @@
-"""Builds the package: CMake compiles its modules from the sources of dotpose around this folder.
+"""Builds the package: CMake compiles its modules from the dotpose source tree around this folder.
 
 Environment variables:
     DOTPOSE_BUILD   a configured build directory, whose compiled files are reused

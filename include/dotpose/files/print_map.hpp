@@ -64,7 +64,7 @@ struct MapPage {
     int columns = 0;
     int rows = 0;
     double spacing_mm = 0;
-    std::uint32_t frames = 0;  ///< number of frames from which the map was made
+    std::uint32_t frames = 0;  ///< number of frames from which the map was computed
     /// Standard deviation, per axis, of the measured centre of a dot in one frame, in spacings.
     double noise = 0;
     /// Standard deviation, per axis, of the difference between the offset of a dot and the mean

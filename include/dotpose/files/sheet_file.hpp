@@ -43,9 +43,10 @@ namespace dotpose {
 /// Version of the sheet file format. `read_sheets` accepts no other version.
 inline constexpr int kSheetFileVersion = 1;
 
-/// Number of free cells around every allocated region. It exceeds the maximum diagonal of a frame,
-/// which is 966 cells (4096 x 4096 px at 6 px per spacing). Even if a frame shows two sheets, the
-/// pose computed from the dots of one sheet is therefore never in the region of the other.
+/// Width, in cells, of the free border around every allocated region. It exceeds the maximum
+/// diagonal of a frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). Even if a frame
+/// shows two sheets, the pose computed from the dots of one sheet is therefore never in the region
+/// of the other.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Pose of a page in the world.
@@ -58,8 +59,8 @@ struct WorldPose {
 /// Print parameters of a page. Together with the sheet, they are sufficient to print the page
 /// again.
 struct SheetPrint {
-    std::string title;          ///< title of the page and its document
-    int pages = 1;              ///< number of pages with dots in the document
+    std::string title;          ///< first label of the page, and title of the document
+    int pages = 1;              ///< number of pages in the document that have dots
     double dpi = 600;           ///< resolution of the printer
     std::string dots = "auto";  ///< method of drawing dots in a PDF: "auto", "glyphs" or "strokes"
     bool has_labels = true;     ///< true if the PDF has text and rulers in the margins
@@ -70,7 +71,7 @@ struct SheetPrint {
 /// One page of a sheet file.
 struct SheetEntry {
     std::string name;  ///< name of the page, unique in the file
-    int page = 1;      ///< number of the page within its print job, from 1
+    int page = 1;      ///< number of the page within its print job, starting at 1
     Sheet sheet;
     /// Ratio of the printed to the nominal length, 0.5 to 2. The page is scaled about the first
     /// intersection, which is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.

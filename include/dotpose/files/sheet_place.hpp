@@ -1,4 +1,5 @@
-/// Places: the pose of a fix on a page of a sheet file and in the world, with its full covariance.
+/// Places: the pose of a fix relative to a page of a sheet file, and relative to the world. Both
+/// poses have a full covariance.
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///     if (const auto place = find_sheet(sheets, CodeVariant::anoto, fix)) {

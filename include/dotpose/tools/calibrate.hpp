@@ -42,7 +42,8 @@ using FrameAt = std::function<GreyImage(int index)>;
 /// Options common to all calibrations.
 struct CalibrateOptions {
     /// The printed pattern. Only its code variant and spacing are used. All measured lengths are
-    /// proportional to the spacing, so they have the same relative error as the spacing.
+    /// proportional to the spacing, so an error in the spacing causes the same relative error in
+    /// these lengths.
     Pattern pattern;
     /// True to detect the code variant from the frames instead of using the code variant of
     /// `pattern`. `stitch_sheets` ignores this option, because each sheet has its own code variant.
@@ -70,7 +71,7 @@ enum class CalibrationVerdict {
     /// All frames show the same dots, so printing errors and lens errors cannot be separated.
     same_place,
     out_of_focus,    ///< the dots are blurred to about a third of the spacing or more
-    corners_unseen,  ///< the fraction of the image that is covered by dots is below kMinCoverage
+    corners_unseen,  ///< too few parts of the image show dots (see kMinCoverage)
 };
 /// Returns the identifier, such as "out_of_focus".
 const char* name(CalibrationVerdict verdict);
@@ -79,13 +80,13 @@ const char* name(CalibrationVerdict verdict);
 struct CalibrationDot {
     int frame = 0;     ///< index of the frame in the series
     PixelPoint pixel;  ///< measured pixel coordinates of the dot
-    /// Residual before the calibration: the residual of a camera model without distortion, skew or
-    /// tilt.
+    /// Residual before the calibration, computed with a camera model that has no distortion, skew
+    /// or tilt.
     PixelPoint before;
     PixelPoint after;  ///< residual after the calibration
 };
 
-/// The calibrated camera, with measures of its reliability.
+/// Result of a lens calibration: the camera, and measures of the reliability of the calibration.
 struct LensCalibration {
     Camera camera;
     /// True if the camera is mounted, with the same height and tilt in all frames. If false, the
@@ -100,7 +101,7 @@ struct LensCalibration {
     int duplicates = 0;
     int dots = 0;      ///< number of dots used
     int outliers = 0;  ///< number of dots rejected as outliers
-    /// Rms residual, per axis, before the calibration: the residual of a camera model without
+    /// Rms residual, per axis, before the calibration, computed with a camera model that has no
     /// distortion, skew or tilt.
     double residual_before_px = 0;
     double residual_px = 0;  ///< rms residual per axis after the calibration
@@ -108,7 +109,7 @@ struct LensCalibration {
     double px_per_spacing = 0;
     /// Mean width of the dots at half their darkness, in spacings. Sharp dots have a width of 1/6.
     double dot_width = 0;
-    double coverage = 0;  ///< fraction of the image parts (see ImageCoverage) that show dots
+    double coverage = 0;  ///< fraction of the parts of the image (see ImageCoverage) that show dots
     CalibrationVerdict verdict = CalibrationVerdict::good;
     std::string advice;  ///< one or two sentences for the user
     std::vector<CalibrationDot> seen;
@@ -151,8 +152,9 @@ struct SpinCalibration {
     CameraPoint offset_mm;
     int frames = 0;
     int located = 0;
-    double sigma_mm = 0;     ///< standard deviation of the centre of rotation, per axis
-    double residual_mm = 0;  ///< rms residual of the frames about the centre of rotation, per axis
+    double sigma_mm = 0;  ///< standard deviation of the centre of rotation, per axis
+    /// Rms difference, per axis, between the measured and the fitted positions of the camera.
+    double residual_mm = 0;
     double turn_rad = 0;  ///< angle of the smallest arc that contains the directions of all frames
     /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. It
     /// is included in `sigma_mm`. 0 if noise explains the drift.
@@ -181,7 +183,7 @@ struct DriveCalibration {
     int frames = 0;
     int located = 0;
     double sigma_rad = 0;    ///< standard deviation of `camera.theta_offset_rad`
-    double residual_mm = 0;  ///< rms distance of the positions from a straight line
+    double residual_mm = 0;  ///< rms distance of the positions from the fitted straight line
     double length_mm = 0;    ///< length of the drive
 };
 
@@ -244,8 +246,8 @@ struct FlatFieldCalibration {
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
 /// with constant exposure and light. The dots must be at different pixel positions in different
-/// frames, so that they average out. If no camera is given, the result is a new camera with the
-/// size of the frames. The only option used is `progress`. Throws Error in these cases:
+/// frames, so that they average out. If no camera is given, the result is a new camera whose image
+/// size is the size of the frames. The only option used is `progress`. Throws Error in these cases:
 /// - There are fewer than 20 frames, or frames differ in size.
 /// - The flat field is less than kMinFlatField in the darkest part of the image.
 /// - The mean frame deviates from the flat field by more than 8 % (rms).
@@ -300,7 +302,8 @@ inline constexpr bool is_scale_known(double sigma_scale) {
 /// Accuracy of the pose of one sheet after stitching.
 struct StitchedSheet {
     std::string name;
-    /// Standard deviation, per axis, of the sheet's top left corner, relative to the fixed sheet.
+    /// Standard deviation, per axis, of the position of the sheet's top left corner relative to the
+    /// fixed sheet.
     double sigma_mm = 0;
     double sigma_rad = 0;  ///< standard deviation of the yaw
     bool is_fixed = false;
@@ -317,8 +320,8 @@ struct Seam {
     /// Rms difference between the frame directions computed from the two sheets.
     double residual_rad = 0;
 };
-/// Position of the image centre of one frame on two sheets, relative to the first intersection of
-/// each sheet, in nominal mm.
+/// Position of the image centre of one frame, computed separately on each of two sheets. Each
+/// position is relative to the first intersection of the sheet, in nominal mm.
 struct SeamMeasurement {
     std::size_t first = 0;  ///< index of the first sheet
     std::size_t second = 0;
@@ -333,7 +336,8 @@ struct Stitching {
     std::vector<SheetEntry> sheets;
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
-    /// Measurements in all frames that show two connected sheets.
+    /// Measurements from all frames that show at least two connected sheets. In each frame, the
+    /// sheet with the largest number of dots is paired with every other connected sheet.
     std::vector<SeamMeasurement> measurements;
     /// Names of the sheets that are not connected to the fixed sheet by any chain of frames.
     std::vector<std::string> unconnected;

@@ -1,6 +1,6 @@
-/// Coverage of a lens calibration: the image parts, places and directions that the frames cover so
-/// far, and the requirements that are not met yet. Intended for programs that capture frames while
-/// the camera moves, such as `dotpose calibrate --live`.
+/// Coverage of a lens calibration: the parts of the image, places and directions that the frames
+/// have covered so far, and the requirements that have not been met yet. Intended for programs that
+/// capture frames while the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -23,8 +23,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Minimum fraction of the image parts (see ImageCoverage) that show dots. Below this fraction, the
-/// verdict of a calibration is `corners_unseen`.
+/// Minimum fraction of the parts of the image (see ImageCoverage) in which dots are seen. Below
+/// this fraction, the verdict of a calibration is `corners_unseen`.
 inline constexpr double kMinCoverage = 0.85;
 /// Maximum width of dots in focus, in spacings. Dots that are blurred to twice their printed width
 /// begin to touch.
@@ -85,7 +85,7 @@ struct CalibrationView {
     double spacing_px = 0;
 };
 
-/// A requirement that the frames so far do not meet.
+/// A requirement that the frames taken so far do not meet.
 struct CalibrationNeed {
     enum class Kind { image, places, directions, frames, lens };
     Kind kind = Kind::frames;
@@ -101,7 +101,8 @@ class CalibrationCoverage {
     /// Creates an empty coverage for images of the given size, which must be positive.
     CalibrationCoverage(int width_px, int height_px);
 
-    /// Returns the number of image parts that the frame would add to the coverage.
+    /// Returns the number of parts of the image in which this frame shows dots but no earlier frame
+    /// does.
     int parts_added_by(const CalibrationView& view) const;
     /// Adds a frame.
     void add(const CalibrationView& view);
@@ -120,8 +121,9 @@ class CalibrationCoverage {
         return directions_[static_cast<std::size_t>(direction)];
     }
 
-    /// Returns the requirements that are not met, the most urgent first, or an empty list if the
-    /// frames are sufficient. `lens` is the calibration from the frames so far, if there is one.
+    /// Returns the requirements that have not been met yet, the most urgent first. The list is
+    /// empty if the frames are sufficient. `lens` is the calibration computed from the frames so
+    /// far, if there is one.
     std::vector<CalibrationNeed> missing(const std::optional<Camera>& lens) const;
 
   private:

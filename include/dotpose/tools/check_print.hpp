@@ -1,4 +1,5 @@
-/// Print check: detects faults of the printer and the paper in a scan or photo of a printed sheet.
+/// Print check: examines a scan or photo of a printed sheet, and detects faults of the printer and
+/// of the paper.
 ///
 ///     CheckPrintOptions options;  // the pattern as it was printed
 ///     const ImageOrigin origin = read_origin("scan.png");  // image_file.hpp
@@ -34,7 +35,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Known properties of the print and its image.
+/// Known properties of the print and of the image.
 struct CheckPrintOptions {
     /// The pattern that was printed. The section is read from the image. Patches of a test page
     /// encode their own settings, so for a test page only the code variant of `pattern` is used.
@@ -52,8 +53,8 @@ struct CheckPrintOptions {
     /// perspective and lens distortion, and does not judge the scale. If the resolution contradicts
     /// the spacing, the check reports a fault.
     std::optional<Resolution> resolution;
-    /// True if the image was taken with a camera, according to the metadata in its file. In this
-    /// case, the resolution is ignored.
+    /// True if the metadata in the image file indicate that the image was taken with a camera. In
+    /// this case, the resolution is ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. The reflectance cannot be
     /// measured, because dots are only a few pixels wide. The measured diameter of a dot is the
@@ -98,9 +99,9 @@ struct DistortionBin {
     int dots = 0;
 };
 
-/// One contiguous region of the code.
+/// One contiguous region of the code plane that was found in the image.
 struct PrintField {
-    Pattern pattern;        ///< nominal pattern, with the section that was read
+    Pattern pattern;        ///< nominal pattern, but with the section that was read from the image
     Cell origin;            ///< first cell of the region
     int columns = 0;        ///< number of columns of the region
     int rows = 0;           ///< number of rows of the region
@@ -120,7 +121,8 @@ struct PrintField {
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< length of the largest deviation in `distortion`
 
-    /// Number of cells covered by other print, such as text. `cells` excludes these cells.
+    /// Number of cells covered by other print, such as text. These cells are not counted in
+    /// `cells`.
     int covered = 0;
     int cells = 0;       ///< number of cells in the region that are in view and not covered
     int missing = 0;     ///< number of cells without a dot
@@ -130,7 +132,7 @@ struct PrintField {
     /// Median dot diameter. The diameter of a dot is the diameter of an equivalent disc (see
     /// CheckPrintOptions::ink_reflectance).
     double dot_mm = 0;
-    /// Standard deviation of the dot diameter, computed from the median absolute deviation.
+    /// Standard deviation of the dot diameters, computed from their median absolute deviation.
     double dot_sigma_mm = 0;
     double paper_level = 0;  ///< median grey level of blank paper
     double contrast = 0;     ///< darkness of the dot centres relative to the paper, 0 to 1
@@ -193,13 +195,14 @@ struct Finding {
 struct RepeatedCells {
     std::size_t first = 0;  ///< indices of the fields
     std::size_t second = 0;
-    int cells = 0;  ///< number of cells with a correct dot in both fields
+    int cells = 0;  ///< number of cells whose dot is correct in both fields
 };
 
 /// Evidence that the image is a photo rather than a scan.
 struct CameraSigns {
     double perspective = 0;  ///< relative change in scale across the page, due to perspective
-    /// Relative displacement of the outermost dots due to lens distortion.
+    /// Displacement of the outermost dot due to lens distortion, relative to its distance from the
+    /// image centre.
     double lens = 0;
 };
 

@@ -1,5 +1,5 @@
-/// Drawing: writes self-contained SVG pictures that show the stages of `locate` for a frame, paths
-/// over a sheet, calibrations, checked prints, and evaluations.
+/// Drawing: writes self-contained SVG pictures. They show the stages of `locate` for one frame, the
+/// path of a camera over a sheet, or the result of a calibration, a print check or an evaluation.
 ///
 ///     const dotpose::Fix fix = locator.locate(image.view());
 ///     draw_frame("frame.svg", image.view(), locator.trace());
@@ -46,7 +46,7 @@ struct DrawOptions {
     std::string title{};  ///< title of the caption, for example the name of the file, or empty
     /// Place of the fix on a sheet. If given, the caption shows the pose in large type. This pose
     /// is in world coordinates, or in sheet coordinates if the world pose of the sheet is unknown.
-    /// If no place is given, the caption shows the pose in the pattern.
+    /// If no place is given, the caption shows the pose in the pattern frame.
     std::optional<SheetPlace> place{};
     /// Text of the caption if there is no fix: the reason and the remedy. Default: the message for
     /// the status.
@@ -64,8 +64,9 @@ struct DrawOptions {
 /// pose, or the reason why there is none.
 ///
 /// Everything is drawn at its position in the image, so grid lines are curved if the lens has
-/// distortion. To keep the file size below 1 MB, large images are embedded at a lower resolution,
-/// and dots that are too close together for letters are drawn as points.
+/// distortion. To keep the file size below 1 MB, large images are embedded at a lower resolution.
+/// If the dots are too close together to show the letters of their symbols, they are drawn as
+/// points.
 void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
@@ -87,11 +88,13 @@ void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint>
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,
                std::span<const PathPoint> path, const std::string& title = {});
 
-/// Draws the residual fields before and after calibration, and the coverage of the image by dots.
+/// Draws the mean residual in each part of the image, before and after the calibration, and a map
+/// of the dot density.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
-/// Residuals of a lens calibration, summed over square parts of the image, as in the pictures that
-/// `draw_calibration` writes. Programs can use this struct to draw the residuals themselves.
+/// Residuals of a lens calibration, summed separately for each of the square parts that
+/// `draw_calibration` divides the image into. Programs can use this struct to draw the residuals
+/// themselves.
 struct ResidualField {
     struct Part {
         PixelPoint before;  ///< sum of the residuals before the calibration, in px
@@ -115,8 +118,8 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-/// Draws the map of a page: the smooth distortion as a deformed grid (exaggerated), and the x and y
-/// offsets of all dots as two images.
+/// Draws the print map of a page: the smooth distortion as a deformed grid (exaggerated), and the
+/// offsets of all dots as two images, one for x and one for y.
 void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 
 /// Draws the sheets in the world, seen from above with x to the right and y up. Sheets without a
@@ -124,8 +127,8 @@ void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 /// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the deviations of the dots in all fields (`PrintField::distortion`), enlarged, over the
-/// outline of the scan.
+/// Draws the outline of the scan and, on an enlarged scale, the deviations of the dots in all
+/// fields (`PrintField::distortion`).
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

@@ -51,7 +51,7 @@ using FrameSource = std::function<KnownFrame(int index)>;
 /// becomes a frame with a `problem`.
 FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<TruthRow> rows);
 
-/// Returns a source that renders the frames `draw_shot(setup, index)`.
+/// Returns a source that renders frame `index` as the shot `draw_shot(setup, index)`.
 FrameSource frames_of_setup(const Setup& setup);
 
 /// Called regularly, from the thread that called `evaluate`. Returning false aborts the evaluation
@@ -67,9 +67,9 @@ struct FrameRun {
     /// True to detect the code variant of each frame for which `KnownFrame::code` is not set. The
     /// code variant is detected independently for each frame.
     bool any_code = false;
-    /// Refines a fix with the trace of the frame, for example by calling `with_camera`. If empty,
-    /// fixes are not refined. Called from several threads. The measured times do not include the
-    /// refinement.
+    /// Refines a fix, given the trace of its frame, for example by calling `with_camera`. If the
+    /// function is empty, fixes are not refined. Called from several threads. The measured times do
+    /// not include the refinement.
     std::function<Fix(const Fix&, const Trace&)> refine;
     int threads = 0;  ///< number of threads, or 0 for one per core
     Progress progress;

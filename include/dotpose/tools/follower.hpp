@@ -237,7 +237,8 @@ class Follower {
     Tracker tracker_;
     SpaceTracker space_tracker_;
     PenContact contact_;
-    /// None if there was no fix, or if the last fix is too old for a prediction.
+    /// The result for the latest image with a fix. None if there was no fix, or if the fix is too
+    /// old for a prediction.
     std::optional<Seen> seen_;
 };
 

@@ -35,7 +35,7 @@ struct McapQuality {
     bool is_transient_local = false;
 };
 
-/// Size of the chunks in a file.
+/// Limits on the size and duration of the chunks in a file.
 struct McapOptions {
     /// A chunk is written when its size reaches `chunk_bytes`. It is also written when its messages
     /// span `chunk_ns`, provided that the chunk is at least as large as the index at the end of the

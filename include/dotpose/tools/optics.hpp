@@ -1,5 +1,6 @@
-/// Optics: predicts how the pattern appears in a camera with given components. Intended for the
-/// design of a device (paper, section III-A). The model is a thin lens focused on the paper.
+/// Optics: predicts how the pattern appears in the images of a camera with given components.
+/// Intended for the design of a device (paper, section III-A). The model is a thin lens focused on
+/// the paper.
 ///
 ///     const OpticsReport report = design_optics(paper_optics());
 ///     for (const OpticsAdvice& advice : report.advice) puts(advice.text.c_str());
@@ -78,8 +79,8 @@ struct OpticsReport {
     bool block_fits_anywhere = false;
 
     double fastest_mm_s = 0;  ///< maximum speed at the given exposure, without rotation
-    /// Maximum rate of rotation about the image centre at the given exposure. The blur is evaluated
-    /// at the middle of the image edge that is farthest from the image centre.
+    /// Maximum turn rate about the image centre at the given exposure, without straight motion. The
+    /// blur is evaluated at the middle of the image edge that is farthest from the image centre.
     double fastest_turn_rpm = 0;
     /// Maximum exposure at the given speed and turn rate. Infinite if the speed and the turn rate
     /// are 0.

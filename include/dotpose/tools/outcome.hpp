@@ -25,7 +25,7 @@ struct Deviation {
 /// Returns the deviation of a fix from the truth.
 Deviation deviation_of(const Fix& fix, const Truth& truth);
 
-/// The result of one call of `locate`.
+/// The result of one call to `locate`.
 struct Outcome {
     Fix fix;
     Truth truth;
@@ -34,7 +34,7 @@ struct Outcome {
     /// not valid.
     std::string problem;
 
-    /// Returns true if the frame was read and located, correctly or not.
+    /// Returns true if the frame was read and has a fix, correct or wrong.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }
     /// Returns true if the frame has a wrong fix: its deviation is above kWrongFrom_grid or
     /// kWrongFrom_deg, its section is not the true section, or the frame has no true pose.

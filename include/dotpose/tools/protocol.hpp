@@ -19,7 +19,7 @@ namespace dotpose {
 
 /// Options for the simulated experiment.
 struct ProtocolOptions {
-    int samples = 20;  ///< number of samples at each position and angle
+    int samples = 20;  ///< number of samples for each Station
     /// Conditions of the experiment. Light, blur and noise are drawn at random once and are the
     /// same for all frames. The other conditions are ignored, because the device is at rest and not
     /// tilted, and the page has no dirt or graphics. The poses and the printing errors are
@@ -59,7 +59,7 @@ struct ProtocolResult {
     std::vector<Station> angles;  ///< results at 36 angles in the middle of the area
 };
 
-/// The experiment on a perfect page and on a printed page.
+/// Results of the experiment on a perfect page and on a printed page.
 struct Protocol {
     int samples = 0;
     /// Result for a page whose dots deviate from their intended positions only by jitter.

@@ -114,7 +114,7 @@ struct Imperfections {
     /// Standard deviation of the fixed-pattern noise, in grey levels: an offset of each pixel that
     /// is the same in every frame.
     double fixed_pattern = 0;
-    double salt_and_pepper = 0;  ///< fraction of the pixels that are black or white
+    double salt_and_pepper = 0;  ///< fraction of the pixels that are set to black or white
     double jitter_mm = 0;        ///< standard deviation of a printed dot's position, per axis
     double missing = 0;          ///< fraction of the dots that are not printed
     int dirt_blobs = 0;          ///< number of dark specks in the frame
@@ -129,7 +129,7 @@ struct Imperfections {
     int sub_pixels = 0;
 };
 
-/// Named sets of conditions, as used in the accuracy tables.
+/// Named sets of imperfections, as used in the accuracy tables.
 enum class Preset : std::uint8_t {
     clean,    ///< no imperfections
     nominal,  ///< a good printer and the paper's camera
@@ -177,7 +177,7 @@ struct Page {
     /// Areas with printed dots: a dot is printed if its intersection is in one of the areas. If
     /// empty, all dots are printed.
     std::vector<PageArea> areas;
-    /// Extent of the paper. None if unlimited.
+    /// Area of the paper. If none, the paper extends indefinitely.
     std::optional<PageArea> paper;
     /// Reflectance of the table around the paper, relative to the paper.
     double table_reflectance = 0.2;
@@ -238,7 +238,8 @@ GreyImage render(const Pattern& pattern, const CameraModel& camera, const Camera
 /// A page given as an image, for example a PDF rendered at 1200 dpi. Grey levels between the pixels
 /// are interpolated linearly.
 struct PageImage {
-    /// Grey level 255 is bare paper, and 0 is solid ink. Unlimited paper surrounds the page.
+    /// Grey level 255 is bare paper, and 0 is solid ink. Outside the image, the paper is bare and
+    /// extends indefinitely.
     ImageView image;
     double mm_per_px = 25.4 / 1200;
     /// Point under the image centre, relative to the upper left corner of the image: x right, y
@@ -261,7 +262,8 @@ struct Setup {
     std::uint64_t seed = 1;
 };
 
-/// All inputs of one frame. `page.pattern.section` and `pose` are the truth.
+/// All inputs of one frame. The true section is `page.pattern.section`, and the true pose is
+/// `pose`.
 struct Shot {
     Page page;
     CameraModel camera;

@@ -51,10 +51,10 @@ struct PenSample {
     bool is_down = false;  ///< true if the tip is on the paper
 };
 
-/// Returns a path of random strokes with loops, in lines of four strokes from left to right.
-/// Between the strokes, the pen is lifted by 1 to 3 mm. After the last stroke, the pen remains
-/// above the paper. At both ends of a stroke, the pen moves only vertically. The tilt varies slowly
-/// between 20 and 40 degrees.
+/// Returns a path of random strokes with loops. The strokes form lines of four strokes each,
+/// written from left to right. Between the strokes, the pen is lifted by 1 to 3 mm. After the last
+/// stroke, the pen remains above the paper. At both ends of a stroke, the pen moves only
+/// vertically. The tilt varies slowly between 20 and 40 degrees.
 std::vector<PenSample> simulate_handwriting(const Handwriting& options);
 
 }  // namespace dotpose

@@ -108,8 +108,8 @@ void require_focal_length(const Camera& camera);
 /// of all dots in view, including dots at the image border and far from a tilted camera. These dots
 /// are measured again for the final pose.
 ///
-/// The errors of the dots are print errors, which are foreshortened in a tilted view, and errors in
-/// the dot centres measured in the image. Both variances are estimated from the residuals. Dots
+/// The errors of the dots are printing errors, which are foreshortened in a tilted view, and errors
+/// in the dot centres measured in the image. Both variances are estimated from the residuals. Dots
 /// with residuals above four standard deviations are not used.
 ///
 /// `print` is the print scale of the sheet. `map` is the map of the page, or null. With a map, the

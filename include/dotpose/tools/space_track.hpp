@@ -1,5 +1,5 @@
 /// Tracks a camera in space: smooths the poses of single frames, predicts the pose at other times,
-/// and rejects outliers and wrong second poses.
+/// rejects outliers, and resolves ambiguous poses.
 ///
 ///     SpaceTracker tracker;
 ///     for (;;) {
@@ -60,7 +60,7 @@ struct SpaceTrackOptions {
     double speed_mm_s = 500;
     double turn_rad_s = 5;
     /// Maximum normalised innovation squared, with six degrees of freedom, of an accepted sighting.
-    /// A correct sighting exceeds the default by chance about once in 10^7.
+    /// A correct sighting exceeds the default by chance about once in 2 * 10^7.
     double max_innovation = 45;
     /// Number of consecutive rejected sightings, consistent with each other, after which the track
     /// restarts from the newest of them.
@@ -145,9 +145,9 @@ class SpaceTracker {
   public:
     explicit SpaceTracker(const SpaceTrackOptions& options = {}) : options_(options) {}
 
-    /// Processes the sighting of a frame. A sighting starts a new track if it is in another plane,
-    /// or if it is not later than the previous frame. An ambiguous sighting cannot start a track,
-    /// so the camera is then lost.
+    /// Processes the sighting of a frame. A sighting starts a new track if the camera is lost, if
+    /// the sighting is in another plane, or if it is not later than the previous frame. An
+    /// ambiguous sighting cannot start a track, so the camera is then lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
     /// Processes a frame without a sighting. The camera is lost if the frame is earlier than the
     /// previous frame, or too late (see `lost_after_us`).

@@ -1,5 +1,5 @@
-/// Sweep: the score of `locate` for simulated frames in which one condition is degraded step by
-/// step.
+/// Sweep: the score of `locate` as a function of one condition, such as blur or tilt, in simulated
+/// frames.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// The degraded condition, with its unit.
+/// The condition that is varied, with its unit.
 enum class SweepKind : std::uint8_t {
     noise,    ///< sensor noise, in grey levels
     blur,     ///< sigma of the lens blur, in px
@@ -68,7 +68,7 @@ struct Sweep {
 /// Simulates and locates the frames of all values. Throws Error if `progress` returned false before
 /// two values were complete, and BadArgument if there are no frames per value.
 Sweep run_sweep(SweepKind kind, const SweepOptions& options);
-/// Writes one line for each value and decoder.
+/// Writes one line for each combination of value and decoder.
 void write_sweep_csv(std::ostream& out, const Sweep& sweep);
 
 /// Writes sweep-KIND.csv, .svg and .png.

@@ -25,8 +25,8 @@ namespace dotpose {
 
 /// Minimum x and y of the cells that are reserved for test pages.
 inline constexpr std::uint32_t kTestPageCell = 410'000'000;
-/// Distance, in cells, between the first cells of two patches with adjacent settings. A patch has
-/// at most half this number of cells per axis.
+/// Distance, in cells, between the first cells of two patches whose settings differ by one unit
+/// (1/1200 inch). A patch has at most half this number of cells per axis.
 inline constexpr std::uint32_t kTestPatchCells = 10'000;
 /// Unit of spacings and diameters on a test page.
 inline constexpr double kTestUnit_mm = 25.4 / 1200;

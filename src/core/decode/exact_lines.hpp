@@ -1,6 +1,6 @@
 // Exact lines: a fast decoder for blocks with few misread bits (paper, sections II-B.6 and II-B.7).
-// Six adjacent bits of a line determine its roll. A single word comparison then checks all other
-// bits of the line. This decoder is ten times as fast as scoring the lines.
+// Six adjacent bits of a line determine its roll. A single comparison of two words then checks all
+// other bits of the line. This decoder is ten times as fast as scoring the lines.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"

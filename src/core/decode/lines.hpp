@@ -33,7 +33,8 @@ inline std::span<ScoredLine> scores_of(Axis axis, std::span<ScoredLine> storage)
 /// Scores all lines of an axis. `storage` needs at least one element per line.
 Lines score_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
-/// Returns the lines from the last call to `score_lines` with the same arguments.
+/// Returns the result of an earlier call to `score_lines` with the same arguments. `storage` must
+/// still contain the scores.
 Lines scored_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
 /// A position decoded from the lines of one axis.

@@ -39,7 +39,7 @@ class Voters {
     int across_;  ///< index step between adjacent lines
     int along_;   ///< index step within a line
     int length_;
-    int step_;  ///< distance between adjacent voters, in lines
+    int step_;  ///< distance between adjacent voting lines, in lines
     std::int8_t GridCell::*bit_;
 };
 
@@ -87,8 +87,8 @@ std::int32_t max_possible(const Voters& voters) {
     return sum;
 }
 
-/// Returns the best of four agreements: for each reading direction, with the bits as read and with
-/// the bits flipped.
+/// Returns the highest of four agreements: those of the bits as read and of the flipped bits, in
+/// both reading directions.
 std::int32_t best_agreement(const Voters& voters) {
     const auto [forwards, backwards] = agreement(voters);
     return std::max(std::max(forwards.as_is, forwards.flipped),

@@ -47,15 +47,15 @@ inline constexpr int kNearGraphics_5ths = 3;
 /// Reliability of a cell near graphics, in units of 1/16. The number of located frames is 1,993
 /// with a value of 3, and 1,994 with a value of 14.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
-/// If the darkest dot position of a cell is darker than this, it may be dirt. The unit is a tenth
-/// of the darkness of a typical dot.
+/// If the darkest dot position of a cell is darker than this limit, it may contain dirt instead of
+/// a dot. The unit is a tenth of the darkness of a typical dot.
 inline constexpr int kDark_10ths = 13;
-/// Reliability of a cell whose darkest dot position may be dirt, in units of 1/16.
+/// Reliability of a cell whose darkest dot position may contain dirt, in units of 1/16.
 inline constexpr int kReliabilityDark_q4 = 12;
-/// If the darkest dot position of a cell is darker than this, it is probably dirt. The unit is a
-/// tenth of the darkness of a typical dot.
+/// If the darkest dot position of a cell is darker than this limit, it probably contains dirt. The
+/// unit is a tenth of the darkness of a typical dot.
 inline constexpr int kTooDark_10ths = 16;
-/// Reliability of a cell whose darkest dot position is probably dirt, in units of 1/16.
+/// Reliability of a cell whose darkest dot position probably contains dirt, in units of 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Bit weight per unit of contrast, before clamping to 127. The contrast of a bit is the difference
 /// in darkness between the dot positions for bit values 1 and 0, relative to a typical dot. A

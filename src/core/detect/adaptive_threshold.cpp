@@ -67,7 +67,7 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// Stores the maximum mean and the maximum darkness over three bands, for each column of tiles.
+/// For each column of tiles, stores the maximum mean and the maximum darkness over three bands.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {
@@ -156,7 +156,7 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
     std::uint8_t* high_levels = threshold.high_levels.data();
     for (const std::uint8_t* const end = papers + tiles; papers != end; ++papers) {
         const unsigned paper = *papers;
-        // Makes the low threshold even, because the search for runs compares only the seven upper
+        // Makes the low threshold even, because the search for runs compares only the upper seven
         // bits of each level.
         const unsigned half_low = (paper - (paper * to_low_q16 >> 16)) >> 1;
         const unsigned high = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);

@@ -43,7 +43,7 @@ struct AdaptiveThreshold {
     int tiles_per_band = 0;
     int rows_taken = 0;
     bool has_contrast = false;  ///< true if any tile so far has contrast
-    /// Largest contrast between paper and ink in all tiles so far, in grey levels.
+    /// Largest contrast between paper and ink in any tile so far, in grey levels.
     int max_contrast = 0;
     /// Pixels of the two newest bands. Rows are padded to whole tiles.
     std::span<std::uint8_t> rows;
@@ -86,8 +86,8 @@ inline int band_end(const AdaptiveThreshold& threshold, int band) {
 inline int whole_width(const AdaptiveThreshold& threshold) {
     return threshold.tiles_per_band * kTileWidth_px;
 }
-/// Returns a stored row from one of the two newest bands, aligned to 8 bytes. The last pixel is
-/// repeated to fill the last tile.
+/// Returns a stored row from one of the two newest bands. The row is aligned to 8 bytes, and its
+/// last pixel is repeated to fill the last tile.
 inline std::uint8_t* kept_row(const AdaptiveThreshold& threshold, int v) {
     const int slot = v & (2 * threshold.band_px - 1);
     return threshold.rows.data() + slot * whole_width(threshold);

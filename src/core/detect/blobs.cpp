@@ -86,7 +86,7 @@ void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotLis
          blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
         static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
         static_cast<std::uint16_t>(blob.area_px)};
-    // Keeps every dot without comparing distances until the list is full for the first time.
+    // Until the list is full for the first time, keeps every dot without computing its distance.
     while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
@@ -191,8 +191,8 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
         run.blob = whole(run.blob);
 }
 
-/// Closes the blobs that do not continue in row `v`. Adds a closed blob to the list if it may be a
-/// dot. Also frees blobs that were merged into another blob.
+/// Closes the blobs that do not continue in row `v`. Adds each closed blob that may be a dot to the
+/// list. Also frees blobs that were merged into another blob.
 void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& threshold,
                  OpenBlobs& open, DotList list) {
     for (const Run& run : above) {

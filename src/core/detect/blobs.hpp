@@ -58,7 +58,7 @@ struct DotList {
 void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
 /// Finds the runs of row `v`, and connects them to the open blobs. Closes the blobs that do not
-/// continue in this row, and adds a closed blob to the list if it may be a dot.
+/// continue in this row. Adds each closed blob that may be a dot to the list.
 void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
 /// Removes blobs with too few pixels, a mass far below the upper quartile, or an area far above the

@@ -17,7 +17,7 @@ struct PaperMap {
     int columns = 0;
     int rows = 0;
     std::span<std::uint8_t> levels;  ///< paper levels of the blocks, row by row
-    /// Maximum paper level over each block and its adjacent blocks.
+    /// For each block, the maximum paper level over this block and the adjacent blocks.
     std::span<std::uint8_t> brightest;
 };
 

@@ -1,6 +1,6 @@
 // Smooth: the image filter for the second attempt. The filter normalises the illumination, averages
-// noise over about the area of a blurred dot, and removes isolated defective pixels. Unlike the
-// paper, the second attempt filters the image before it detects dots. See
+// out noise over an area about as large as a blurred dot, and removes isolated defective pixels.
+// Unlike the paper, the second attempt filters the image before it detects dots. See
 // docs/differs-from-paper.md.
 #pragma once
 
@@ -30,11 +30,11 @@ inline constexpr int kNormalLevel = 192;
 
 void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
-/// Returns the next row of the filtered image, from top to bottom. The filter clamps each pixel to
-/// the range of its eight neighbours, except at the image border. It then applies a 5 x 5 binomial
-/// filter (sigma 1 px), and scales the result so that the mean level of a rectangle around the
-/// pixel becomes kNormalLevel. This mean is computed from the unfiltered image. The row is valid
-/// until the next call.
+/// Returns the next row of the filtered image. The first call returns the top row. The filter
+/// clamps each pixel to the range of its eight neighbours, except at the image border. It then
+/// applies a 5 x 5 binomial filter (sigma 1 px), and scales the result so that the mean level of a
+/// rectangle around the pixel becomes kNormalLevel. This mean is computed from the unfiltered
+/// image. The row is valid until the next call.
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing);
 
 }  // namespace dotpose::core

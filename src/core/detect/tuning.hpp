@@ -32,8 +32,9 @@ namespace smooth {
 /// window shrinks to this size at the image border.
 inline constexpr int kMinHalf_px = 4;
 /// Level below which a pixel is assumed to be part of text or graphics, in tenths of the brightest
-/// paper level nearby. In the local mean, such pixels are replaced with the paper level, because
-/// this mean represents the illumination. With a value of 4 or 9, 1,995 frames are located.
+/// paper level nearby. Such pixels are replaced with the paper level when the local mean is
+/// computed, because this mean must depend only on the illumination. With a value of 4 or 9, 1,995
+/// frames are located.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are clamped to this
 /// level, so they are not darker than a weak dot. Otherwise, the required contrast near dark
@@ -46,8 +47,8 @@ namespace patch {
 /// A patch is small if its shorter side is below this limit, in patch pixels.
 inline constexpr int kSmall_px = 48;
 /// A tile has contrast if its darkest smoothed pixel is at least kMinDarkness grey levels darker
-/// than the paper. At least kMinTiles tiles of a patch must have contrast. In a small patch, it is
-/// enough if half the tiles have contrast.
+/// than the paper. At least kMinTiles tiles of a patch must have contrast. For a small patch, the
+/// minimum is half of its tiles.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
 /// Parameters of `DotTiles::pale`. The dot contrast is the 1/kPaleParts quantile of darkness over

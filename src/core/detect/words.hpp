@@ -15,7 +15,7 @@ constexpr Word in_all_bytes(std::uint8_t byte) {
     return static_cast<Word>(0x0101010101010101) * byte;
 }
 
-/// Mask of the top bit in every byte. Comparisons use only the seven upper bits of each grey level,
+/// Mask of the top bit in every byte. Comparisons use only the upper seven bits of each grey level,
 /// so the top bit is free for the result.
 inline constexpr Word kTops = in_all_bytes(0x80);
 

@@ -19,7 +19,7 @@ struct PoseFit {
     PlaneNormal normal;      ///< factored normal equations (see `Parameters`)
     std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters
     Surface surface = Surface::even;
-    /// Additional covariance of x, y and theta for an uneven sheet.
+    /// Covariance that the unevenness of the sheet adds to that of x, y and theta.
     std::array<std::array<float, 3>, 3> uneven{};
 };
 

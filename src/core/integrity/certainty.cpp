@@ -176,8 +176,8 @@ bool is_code_in_question(const Query& query) {
     return query.others != nullptr && query.others->log2_in_question_q8 >= 0;
 }
 
-/// Returns an upper bound on the probability that random bits agree with any place in the code at
-/// least as well as the bits of one axis do.
+/// Returns an upper bound on the probability that random bits agree with at least one place in the
+/// code at least as well as the bits of one axis do.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
@@ -287,7 +287,8 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
     for (const Confidence* bits : {&x, &y}) {
-        // Refuses a position with too many wrong bits, because they indicate two patterns in view.
+        // Refuses a position with too many wrong bits, because the view probably contains two
+        // patterns.
         if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
     }
     Confidence both = x;

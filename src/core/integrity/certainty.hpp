@@ -22,7 +22,7 @@ namespace dotpose::core {
 /// The hard bits of one axis, near the middle of the view. Each hard bit has the full weight, 127.
 struct AxisBits {
     std::span<const ComparedLine> lines;
-    AxisReading reading;  ///< reading at bit 0 of the first line
+    AxisReading reading;  ///< position of the first line, and its roll at bit 0
     /// Agreement of all bits of this axis with the code, including the bits outside the middle.
     Confidence confidence;
     std::span<const std::uint8_t> rolls;  ///< roll of each line

@@ -27,7 +27,7 @@ class CodedBlock {
         std::array<std::uint8_t, kMaxComparedLines> rolls;
         std::size_t first = 0;  ///< first line with bits
         std::size_t end = 0;    ///< one past the last line with bits
-        AxisReading reading;    ///< reading of line `first`
+        AxisReading reading;    ///< position and roll of line `first`
     };
     static Half half(const BitLines& lines, const std::uint8_t* rolls, int first_line, int count,
                      int first_cell);

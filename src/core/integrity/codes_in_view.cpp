@@ -6,8 +6,8 @@ namespace dotpose::core {
 namespace {
 
 /// If the odds of another code are below these limits, they are negligible and are not recomputed
-/// from more bits. kMaxOddsHere applies to the place of the reading in the other code, and
-/// kMaxOddsElsewhere to the sum over all other places.
+/// from all bits in the block. kMaxOddsHere applies to the place of the reading in the other code,
+/// and kMaxOddsElsewhere to the sum over all other places.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
@@ -21,7 +21,8 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     return own != theirs;
 }
 
-/// Returns true if more bits may change the odds of the other codes. This is the case if
+/// Returns true if the odds of the other codes may change when all bits in the block are used. This
+/// is the case if
 /// - the odds of other places in another code are not negligible, or
 /// - the block has lines that the certainty test did not use, and a code that is not ruled out has
 ///   different rolls in the block.

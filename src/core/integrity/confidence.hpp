@@ -53,15 +53,16 @@ class Confidence {
     }
 
   private:
-    /// For each level, the number of correct bits, followed by the number of wrong bits.
+    /// Element 2 * level is the number of correct bits, and element 2 * level + 1 is the number of
+    /// wrong bits.
     std::array<std::int32_t, 2 * kLevels> counts_{};
 };
 
 /// Returns the odds that a bit with weight 127 is correct, as log2 in units of 2^-8. The result is
 /// in [0, 16 * 256]. Assumes that the log odds of a bit are proportional to its weight. At the
-/// returned odds, the expected weight of wrong bits is the observed weight of wrong bits plus two
-/// full bits. See docs/integrity.md, "Alternatives: odds". Returns 0 if the bits contain no
-/// information.
+/// returned odds, the expected total weight of the wrong bits equals their observed total weight
+/// plus the weight of two hard bits. See docs/integrity.md, "Alternatives: odds". Returns 0 if the
+/// bits contain no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns the Chernoff bound on the probability that random bits with the same weights agree with
@@ -70,10 +71,10 @@ int odds_per_bit_q8(const Confidence& confidence);
 /// an upper bound on this probability for any value of `odds_per_bit_q8`.
 int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 
-/// Returns log2 of an upper bound on the probability that random bits agree with any place, in any
-/// section and orientation, at least as well as the bits that were read. See docs/integrity.md,
-/// "Chance: a bound". The result is an upper bound for any value of `odds_per_bit_q8`, and is
-/// smallest if this value is near the true odds.
+/// Returns log2 of an upper bound on the probability that random bits agree with at least one
+/// place, over all sections and orientations, at least as well as the bits that were read. See
+/// docs/integrity.md, "Chance: a bound". The result is an upper bound for any value of
+/// `odds_per_bit_q8`, and is smallest if this value is near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Variant of `chance_log2` with a result in units of 2^-8. Multiplies the number of hypotheses by

@@ -282,9 +282,8 @@ class Finder {
     AnchorBytes losses_{};
 };
 
-/// Returns, for each n, a lower bound on the loss of an alternative that does not share n of the
-/// anchors. The bound is the sum of the n smallest minimum losses of the anchors, minus the maximum
-/// gain.
+/// Returns, for each n, a lower bound on the loss of an alternative with n unshared anchors. The
+/// bound is the sum of the n smallest minimum losses of the anchors, minus the maximum gain.
 std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines, int anchors) {
     std::array<int, kMaxAnchors> losses{};
     std::size_t count = 0;

@@ -17,7 +17,7 @@
 
 namespace dotpose::core {
 
-/// Number of orientations in which a block may show the pattern: 0 to 3 quarter turns.
+/// Number of possible orientations of the pattern in a block. They differ by quarter turns.
 inline constexpr int kTurns = 4;
 
 /// Returns the class of a position, which is the position modulo 63.
@@ -46,10 +46,10 @@ class ScoredAxis {
     /// roll of each line is its roll in section 0 plus `added`.
     int agreeing(CodeVariant code, std::uint32_t position, std::size_t added) const;
 
-    /// Calls `use(position, sums)` for each position in `range`, taken as the position of the first
-    /// line. sums[r] is the number of bits that agree with the code if the roll of each line is its
-    /// roll in section 0 plus r. The true r depends on the section and on the position along the
-    /// other axis.
+    /// Calls `use(position, sums)` for each position in `range`. sums[r] is the number of bits that
+    /// agree with the code if the first line is at `position` and the roll of each line is its roll
+    /// in section 0 plus r. The true r depends on the section and on the position along the other
+    /// axis.
     template <typename Use>
     void visit(CodeVariant code, const PositionRange& range, Use use) const {
         constexpr std::uint32_t kChunk = 63;
@@ -98,9 +98,9 @@ struct ScoredTurn {
     }
 };
 
-/// Cache for the table of one axis. Sheets in the same file often have the same positions on one
-/// axis, so the next region reuses the table if its code and positions are the same. Every call to
-/// `of` must pass the same `axis` and `rest`.
+/// Caches the table of one axis. If the next region has the same code and the same positions on
+/// this axis, `of` returns the same table. Sheets in one file often have the same positions on one
+/// axis. Every call to `of` must pass the same `axis` and `rest`.
 template <typename Table>
 class KeptTable {
   public:

@@ -9,9 +9,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of agreeing bits on one axis, over all positions in a class. The first index is
-/// the class, which is the position modulo 63. The second index is the roll that is added to the
-/// rolls in section 0.
+/// Table of the maximum number of agreeing bits on one axis. Each element is the maximum over all
+/// positions in a class. The first index is the class, which is the position modulo 63. The second
+/// index is the roll that is added to the rolls in section 0.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {
@@ -44,8 +44,8 @@ std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const Posi
     return found;
 }
 
-/// Positions of the first column and row of a block, and the number of bits on each axis that agree
-/// with the code.
+/// Positions of the first column and the first row of a block and, for each axis, the number of
+/// bits that agree with the code.
 struct Peak {
     Cell corner;
     int x_agreeing = 0;

@@ -17,7 +17,7 @@ struct KnownPlace {
     int quarters = 0;            ///< argument of `turned` that makes the block upright
     Place place;                 ///< place of cell (0, 0) of the turned block
     int bits = 0;                ///< number of bits in the block, two per dot
-    std::array<int, 2> wrong{};  ///< number of wrong x bits and of wrong y bits
+    std::array<int, 2> wrong{};  ///< numbers of wrong x bits and wrong y bits
 
     /// Returns true if at most max_bit_error_q8 / 256 of the bits on each axis are wrong.
     bool is_plausible(const IntegrityOptions& options) const {
@@ -36,10 +36,9 @@ bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place
 std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,
                                            const KnownSheets& sheets);
 
-/// Returns an upper bound on the probability that `place` is wrong, because the true place is
-/// elsewhere on the sheets or because no known sheet is in view. `place` is the place of cell (0,
-/// 0) in the upright block. Returns 1 if `place` is not on the sheets, or if the bits contain no
-/// information.
+/// Returns an upper bound on the probability that `place` is wrong. The true place may be elsewhere
+/// on the sheets, or no known sheet may be in view. `place` is the place of cell (0, 0) in the
+/// upright block. Returns 1 if `place` is not on the sheets, or if the bits contain no information.
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place);
 

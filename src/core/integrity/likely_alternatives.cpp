@@ -136,9 +136,9 @@ class Finder {
         return equal_places_.count_different(fewer) < 2 || visit(line + 1, lost, fewer, with_line);
     }
 
-    /// Adds the odds of all combinations of the given places that share exactly the lines `shared`.
-    /// Lines without a positive minimum loss may or may not be shared. Returns false if the search
-    /// ends early.
+    /// Adds the odds of the alternatives that share exactly the lines `shared`. Each alternative is
+    /// a combination of the given places. They may also share lines without a positive minimum
+    /// loss. Returns false if the search ends early.
     bool add_all(const PlaceSets& places, LineSet shared) {
         std::size_t combinations = 1;
         for (std::size_t k = 0; k < lists_.size(); ++k) {
@@ -170,8 +170,8 @@ class Finder {
     }
 
     /// Combines pairs of places in the first two sequences with pairs of places in the last two
-    /// sequences. Uses only combinations whose total roll offset is the same before and after the
-    /// first gap, and before and after the second gap.
+    /// sequences. Uses only combinations whose total roll offset is the same on both sides of the
+    /// first gap, and the same on both sides of the second gap.
     void add_matches() {
         const auto& [a, b, c, d] = lists_;
         // The captures have new names because clang 14 cannot capture structured bindings.
@@ -233,11 +233,11 @@ class Finder {
     float max_odds_;
     EqualPlaces equal_places_;
     std::array<PlaceList, 4> lists_;
-    /// Masks with one byte for each line, which is 0 or 255. `is_compared_` selects the lines with
-    /// a positive minimum loss, and `is_shared_` selects the lines that must be shared.
+    /// Masks with one byte per line. Each byte is 0 or 255. `is_compared_` selects the lines with a
+    /// positive minimum loss, and `is_shared_` selects the lines that must be shared.
     RollOffsets is_compared_{};
     RollOffsets is_shared_{};
-    /// Linked lists of the pairs of places with the same key. `newest_` contains the newest pair
+    /// Linked lists of pairs of places, one list for each key. `newest_` contains the newest pair
     /// for each key. `before_` contains the next older pair for each pair.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;

@@ -37,10 +37,11 @@ void set_sums(const RollOffsets& a, const RollOffsets& b, std::size_t lines, Rol
     }
 }
 
-/// The places in one sequence where the digits of a run occur. A run is a group of adjacent lines,
-/// and its digits are the digits of the reading at the steps between these lines. For each place,
-/// the class stores the roll offset of each line relative to the first line of the run, or the
-/// negated offset (see `Sign`). The first place is the place of the reading.
+/// The twin places of a run in one sequence: the places where the digits of the run occur. A run is
+/// a group of adjacent lines, and its digits are the digits of the reading at the steps between
+/// these lines. For each place, the class stores the roll offset of each line relative to the first
+/// line of the run, or the negated offset (see `Sign`). The first place is the place of the
+/// reading.
 class TwinPlaces {
   public:
     enum class Sign : std::uint8_t { positive, negative };
@@ -84,9 +85,10 @@ class TwinPlaces {
     std::array<RollOffsets, code::kA4Restored.size()> twins_;
 };
 
-/// Sums the odds of the alternatives that share all lines of one run. Each alternative is a
-/// combination of twin places in the four sequences. Compares each combination in the first two
-/// sequences with 32 combinations in the last two sequences at a time.
+/// Sums the odds of the alternatives that share all lines of one run. Each alternative consists of
+/// one twin place in each of the four sequences. The pairs of places in the last two sequences are
+/// processed in batches of 32. Each batch is compared with every pair of places in the first two
+/// sequences.
 class RunSum {
   public:
     RunSum(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses, int run,

@@ -13,8 +13,8 @@ namespace dotpose::core {
 namespace {
 
 /// Safety factor for the expected odds of the sets that are not searched. On 3,798 axes of nominal
-/// frames, the ratio of the true odds of these sets to the expected odds was 0.03 in total, above 4
-/// on 6 axes, and at most 9.
+/// frames, the true odds of these sets were 0.03 times the expected odds in total. On single axes,
+/// the ratio was at most 9, and exceeded 4 on only 6 axes.
 constexpr float kPlanMargin = 4;
 
 /// Upper limit on kPlanMargin * (expected odds of the sets that are not searched). Keeps the result
@@ -31,8 +31,8 @@ constexpr int kSkippedBits = 46;
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
-/// Number of packed lines. Their roll offsets are packed into one word. `SetSearch` first computes
-/// only the loss of each alternative in these lines.
+/// Number of packed lines. Their roll offsets are packed into one word. For each alternative,
+/// `SetSearch` first computes the loss in these lines alone.
 constexpr std::size_t kPackedLines = 4;
 
 /// A set of shared lines, and the packed lines: the unshared lines with the largest minimum losses.
@@ -123,10 +123,11 @@ class KeyedPlaces {
 
 /// Finds the far alternatives that share given sets of lines, and adds up their odds. For each set,
 /// the search lists the places in each sequence at which an alternative may share these lines (see
-/// `EqualPlaces`). It then builds a table of all pairs of places in a1 and a3. The key of a pair is
-/// the sum of the keys of both places. For each pair of places in a2 and a4, the search looks up
-/// the pairs in a1 and a3 whose roll offsets after the first two gaps are opposite. The four places
-/// of such a match belong to an alternative that shares the lines at the ends of these gaps.
+/// `EqualPlaces`). The search then builds a table of all pairs of places in a1 and a3. The key of a
+/// pair is the sum of the keys of both places. For each pair of places in a2 and a4, the search
+/// looks up the pairs in a1 and a3 that cancel the roll offsets of this pair after the first two
+/// gaps. The four places of such a match belong to an alternative that shares the lines at the ends
+/// of these gaps.
 class SetSearch {
   public:
     SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)
@@ -185,8 +186,8 @@ class SetSearch {
     }
 
     /// Combines pairs of places in a2 and a4 with pairs of places in a1 and a3. Uses only
-    /// combinations whose total roll offset is the same before and after the first gap, and before
-    /// and after the second gap.
+    /// combinations whose total roll offset is the same on both sides of the first gap, and the
+    /// same on both sides of the second gap.
     void add_matches(const Pattern& pattern) {
         const auto& [first, second, third, fourth] = lists_;
         for (std::size_t n = 0; n < third.count(); ++n) {
@@ -267,7 +268,7 @@ class SetSearch {
     EqualPlaces equal_places_;
     std::span<const PlannedSet> earlier_;  ///< sets before the current set
     std::array<KeyedPlaces, 4> lists_;
-    /// Linked lists of the pairs of places with the same key. `newest_` contains the newest pair
+    /// Linked lists of pairs of places, one list for each key. `newest_` contains the newest pair
     /// for each key. `before_` contains the next older pair for each pair.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;

@@ -12,8 +12,8 @@ namespace {
 /// A fix is ambiguous if the summed odds of other places in other codes exceed this limit. Smaller
 /// odds may make the fix uncertain, but a second attempt may reduce them.
 constexpr float kAmbiguousOdds = 1e-3F;
-/// A code is ruled out by earlier frames if its odds relative to the likeliest code are at most
-/// this value. The locator does not try to read a code that is ruled out.
+/// Earlier frames rule out a code if its odds relative to the likeliest code are at most this
+/// value. The locator does not try codes that are ruled out.
 constexpr float kRuledOutOdds = 1e-9F;
 /// Two odds are considered equal if their ratio is at most this value. Such a small difference may
 /// result from rounding errors.

@@ -16,7 +16,8 @@ namespace dotpose::core {
 struct Judgement {
     bool is_certain = false;
     bool is_ambiguous = false;  ///< true if other places in other codes have summed odds above 1e-3
-    /// log2 of an upper bound on the probability that the fix is wrong, over all codes.
+    /// Upper bound on the probability that the fix is wrong, as log2. Covers the places in all
+    /// possible codes.
     int p_wrong_log2 = 0;
     CodeVariant other = CodeVariant::anoto;  ///< likeliest code except the code that was read
     float other_odds = 0;                    ///< odds of `other` relative to the code that was read

@@ -18,7 +18,7 @@ constexpr int kSingles_q8 = 2441;
 /// below this limit, no tighter bound is computed.
 constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit on the error probability, as log2 in units of 2^-8. If the caller's limit is
-/// larger, the bounds are still computed as tightly as for the default limit.
+/// larger, the default limit determines which bounds are tight enough.
 constexpr int kUsualLimit_q8 = -30 * 256;
 /// Upper bound on the odds of a single alternative that is not evaluated, as log2 in units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
@@ -191,7 +191,7 @@ class ByShift {
     const std::uint8_t* rolls_ = nullptr;
     std::uint32_t loss_limit_;
     std::size_t count_ = 0;               ///< number of lines with a positive minimum loss
-    std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
+    std::array<Loss, kMaxLines> losses_;  ///< losses of these lines, in decreasing order
     std::uint32_t in_all_ = 0;            ///< total of all losses
     /// Number of elements of `losses_` that `may_matter` adds before its first check, and the sum
     /// of these losses. An earlier check would be useless: an alternative that shares the first of
@@ -282,8 +282,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 
 /// Returns an upper bound on the odds of the single alternatives in one sequence that share a line,
 /// as log2 in units of 2^-8. Assumes that each alternative has the minimum loss for the sequence.
-/// An alternative is counted once for each shift where it shares a line, so at most
-/// `ratios.count()` times.
+/// An alternative is counted once for each shift at which it shares a line. There are at most
+/// `ratios.count()` such shifts.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();

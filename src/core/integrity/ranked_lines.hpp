@@ -15,8 +15,8 @@ class RankedLines {
 
     int count() const { return ratios.lines.count(); }
     int rank(std::uint32_t line) const { return ranks_[line]; }
-    /// Returns the odds of an alternative in each line, indexed by roll offset. The odds are at
-    /// least kNegligible. The last element for each line is padding and is 0.
+    /// Returns one table per line: the odds of an alternative in this line, indexed by roll offset.
+    /// The odds are at least kNegligible. The last element of each table is padding and is 0.
     std::span<const OddsByOffset> odds() const {
         return std::span(odds_).first(static_cast<std::size_t>(count()));
     }

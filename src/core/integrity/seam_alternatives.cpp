@@ -33,8 +33,8 @@ class LossesByBorder {
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
         std::fill_n(before_.begin(), in_view.size(), kNone);
         std::fill_n(from_.begin(), in_view.size(), kNone);
-        // Losses that the alternative avoids at each shift: the summed minimum losses of the lines
-        // that it shares at this shift.
+        // For each shift, the loss that the alternative avoids: the sum of the minimum losses of
+        // the lines that it shares at this shift.
         std::array<int, kSections> kept{};
         int in_all = 0;
         int max_kept = 0;
@@ -122,7 +122,7 @@ class QuickTest {
     bool may_lose_less(const RollOffsets& offsets) const {
         // For each line, the minimum loss in all lines before it, at the best shift.
         std::array<int, kMaxLines> before;
-        std::array<int, kSections> kept{};  // losses that the alternative avoids, by shift
+        std::array<int, kSections> kept{};  // for each shift, the avoided loss
         int in_all = 0;
         int max_kept = 0;
         const auto add = [&](std::size_t line) {

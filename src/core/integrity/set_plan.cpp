@@ -20,8 +20,9 @@ constexpr float kChanges = 54;
 /// Correction factors for the expected odds of alternatives that differ in two and in three
 /// sequences. The model assumes that the roll offsets in unshared lines are uniformly distributed.
 /// However, if few sequences differ, few changes of the roll are possible. On 700 axes of nominal
-/// frames, the ratio of the result of `sum_of_expected_alternatives` to the model was, on average,
-/// 10 to 17 for alternatives that differ in two sequences, 2 for three, and 0.6 for four.
+/// frames, `sum_of_expected_alternatives` exceeded the model by a mean factor of 10 to 17 for
+/// alternatives that differ in two sequences, and of 2 for three sequences. For four sequences, the
+/// mean factor was 0.6.
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
 /// Probabilities that the roll offset is 0 again after a gap, for alternatives that differ in two,
@@ -37,14 +38,14 @@ float odds_of_others(const OddsByOffset& odds) {
 
 }  // namespace
 
-/// A node of the search tree over all sets of lines: a choice of shared lines among the first
-/// compared lines. For the remaining compared lines, the choice is still open.
+/// A node of the search tree over all sets of lines. The node determines which of the first
+/// compared lines are shared. The remaining compared lines are undecided.
 struct SetPlan::Node {
     LineSet shared = 0;
     /// Product of the mean odds in the unshared lines and in the lines that are not compared.
     float odds = 1;
     int min_loss = 0;    ///< total minimum loss of the unshared lines
-    unsigned steps = 0;  ///< number of steps between adjacent shared lines
+    unsigned steps = 0;  ///< number of steps whose two lines are both shared
     unsigned gaps = 0;
     int last = -2;  ///< last shared line
     int run = 0;    ///< length of the run of shared lines that ends with `last`
@@ -86,8 +87,9 @@ void SetPlan::set_numbers() {
     }
 }
 
-/// Returns the summed expected odds of the far alternatives that share the lines of `node`. This is
-/// an upper bound on the total for all sets that extend `node`.
+/// Returns the summed expected odds of the far alternatives that share the lines of `node`. If some
+/// compared lines are still undecided, the result is an upper bound on the total for all sets that
+/// extend `node`.
 float SetPlan::expected(const Node& node) const {
     const ByDifferent& number = number_[node.steps];
     const ByDifferent& returned = returned_[node.gaps];

@@ -21,7 +21,7 @@ struct PlannedSet {
 
 /// Lists the sets of lines that far alternatives may share, in the order in which these sets should
 /// be searched. The sets contain only lines with a positive minimum loss. The alternatives of a set
-/// may or may not share lines without a positive minimum loss.
+/// may also share other lines.
 class SetPlan {
   public:
     explicit SetPlan(const RankedLines& lines);
@@ -46,8 +46,8 @@ class SetPlan {
 
   private:
     struct Node;
-    /// Separate values for the alternatives that differ from the reading in two, three, and four
-    /// sequences.
+    /// A value for each group of far alternatives: those that differ from the reading in two, in
+    /// three and in four sequences.
     struct ByDifferent {
         float two;
         float three;
@@ -73,8 +73,8 @@ class SetPlan {
     /// places_[n][k] is the expected number of places in sequence k that have the same digits as
     /// the reading at n given steps.
     std::array<std::array<float, 4>, kMaxLines + 1> places_;
-    /// number_[n] is the expected number of alternatives that have these digits in all four
-    /// sequences, times a correction factor (see kUnevennessOfTwo).
+    /// number_[n] is the expected number of alternatives that have the same digits as the reading
+    /// in all four sequences at n given steps, times a correction factor (see kUnevennessOfTwo).
     std::array<ByDifferent, kMaxLines + 1> number_;
     /// returned_[n] is the probability that the roll offset is 0 again after each of n gaps.
     std::array<ByDifferent, kMaxLines + 1> returned_;

@@ -24,8 +24,8 @@ class Losses {
     std::uint32_t excluded() const { return excluded_; }
 
   private:
-    /// Returns true if a bit is set. On small processors, testing the sign bit is faster than
-    /// masking any other bit.
+    /// Returns true if the given bit of `n` is set. Shifts this bit to the sign bit, because small
+    /// processors test the sign faster than a masked bit.
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }
@@ -57,7 +57,8 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     };
     int needed = loss_limit;
     if (excused == Excused::any_one) {
-        // The losses must reach `loss_limit` even without the largest loss.
+        // One different digit causes no loss. A place is therefore excluded only if its losses add
+        // up to at least `loss_limit` even without the largest of them.
         for (int step = 0; step < count; ++step)
             needed = std::max(needed, loss_limit + lost_at(step));
     }
@@ -72,7 +73,8 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
         std::uint8_t parts = 0;
         for (int lost = lost_at(step); lost >= part; lost -= part)
             ++parts;
-        // Ignores a loss of a single part. It would exclude too few places to be worth evaluating.
+        // Ignores a loss of a single part, because counting it would exclude only few additional
+        // places.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
         const int with_this = max_loss_before + parts;

@@ -16,18 +16,18 @@ inline constexpr int kMaxSteps = 18;
 /// that loses at least kLimitParts parts is excluded.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Number of steps at which the digit may differ from the digit of the reading without causing a
+/// Steps at which the digit of an alternative may differ from the digit of the reading without a
 /// loss: none, or any one step. `any_one` is for seam alternatives, which have no loss at the step
 /// across the border.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// Steps at which digits are compared, and the loss if a digit differs from the digit of the
-/// reading. An alternative with a different digit shares at most one of the two lines of the step,
-/// so it loses at least the smaller of their minimum losses.
+/// The steps at which digits are compared and, for each step, the loss of an alternative whose
+/// digit differs from the digit of the reading. Such an alternative shares at most one of the two
+/// lines of the step, so it loses at least the smaller of their minimum losses.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
-    int count;       ///< number of compared steps, which are centred in the view
+    int count;       ///< number of compared steps, in the middle of the view
     int first_line;  ///< first line of the first step
     /// Lower bound on the loss at each step, rounded down. The unit is 1/kLimitParts of the loss
     /// that excludes a place. Losses of one unit are replaced with 0.

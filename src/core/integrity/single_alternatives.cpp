@@ -18,7 +18,7 @@ int bits_of_skipped(int lines) {
     return lines <= 16 ? 52 : 56;
 }
 
-/// Returns the odds of a single alternative at the shift where it shares a line.
+/// Returns the odds of a single alternative at the shift where it shares the line `shared`.
 float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t shared) {
     // Adding `base` makes the offset in the shared line 126, which is 0 modulo 63, and keeps the
     // other offsets positive.
@@ -67,7 +67,7 @@ float sum_one_by_one(const RankedLines& lines) {
     return sum;
 }
 
-/// Lists the lines with their losses, sorted by decreasing loss.
+/// Sets `sorted` to the lines and their losses, in order of decreasing loss.
 void sort_losses(const CoarseLosses& losses, std::span<LineLoss> sorted) {
     for (std::size_t line = 0; line < sorted.size(); ++line) {
         std::size_t i = line;

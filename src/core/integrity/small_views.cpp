@@ -43,12 +43,12 @@ class SmallView {
         planned_work_ += work_of_planned_alternatives(plan, share * left_ / factor_);
         if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
         // The last axis is searched first. On each axis, the expected odds of the sets that are not
-        // searched may take up at most the fraction `share` of the remaining budget, because the
-        // earlier axes need the rest.
+        // searched may use up at most the fraction `share` of the difference between the maximum
+        // and the sum, because the earlier axes need the rest.
         const auto far = sum_of_planned_alternatives(lines, plan, share, left_ / factor_, work_);
         return far && spend(factor_ * *far);
     }
-    /// Returns the difference between the maximum and the sum.
+    /// Returns the maximum probability minus the sum so far.
     float left() const { return left_; }
 
   private:
@@ -68,7 +68,7 @@ class SmallView {
     const Kernels& kernels_;
     std::span<const UnsharedLines* const> axes_;
     float factor_;
-    float left_;  ///< maximum minus the sum
+    float left_;  ///< maximum probability minus the sum so far
     WorkLimit& work_;
     float planned_work_ = 0;  ///< estimated cost of the searches for far alternatives
 };

@@ -13,8 +13,8 @@ namespace dotpose::core {
 /// Returns an upper estimate of the probability that an alternative, rather than the reading, is
 /// correct on at least one of the axes. `axes` contains one or two axes. `codes` is the weighted
 /// number of possible codes. Returns 1 if the estimate reaches `max_wrong`, or if it cannot be
-/// computed within the work limit `work`. Usually, the function detects this before it searches for
-/// far alternatives.
+/// computed within the work limit `work`. Usually, both cases are detected before the search for
+/// far alternatives begins.
 float wrong_in_small_view(const Kernels& kernels, std::span<const UnsharedLines* const> axes,
                           float codes, float max_wrong, WorkLimit& work);
 

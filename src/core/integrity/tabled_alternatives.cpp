@@ -9,8 +9,8 @@ namespace dotpose::core {
 namespace {
 
 /// Upper bounds on the odds of the single alternatives that share a line, for each sequence. The
-/// bounds are computed from the table of `unshared`. The lines that this table covers are called
-/// table lines.
+/// bounds are computed from the table that `unshared` uses. The lines that this table covers are
+/// called table lines.
 class Bounds {
   public:
     explicit Bounds(const UnsharedLines& unshared) : unshared_(unshared) {
@@ -25,7 +25,8 @@ class Bounds {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
         // Adds the alternatives with more than kMaxCounted unshared table lines. An alternative is
-        // counted once for each shift where it shares a line, so at most `ratios.count()` times.
+        // counted once for each shift at which it shares a line. There are at most `ratios.count()`
+        // such shifts.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
         std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);

@@ -9,9 +9,10 @@
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of the single alternatives that share a line, in the
-/// sequences whose bits are set in `sequences`. Tries the tables for each sequence by decreasing
-/// number of lines, starting with the table of `widest`. If a bound is at most `max_odds`, adds it
-/// to the sum and clears the bit of the sequence. The sum excludes sequences whose bit remains set.
+/// sequences whose bits are set in `sequences`. For each sequence, tries the tables in order of
+/// decreasing number of lines, starting with the table that `widest` uses. If a bound is at most
+/// `max_odds`, adds it to the sum and clears the bit of the sequence. The sum excludes sequences
+/// whose bit remains set.
 float tabled_alternatives(const Kernels& kernels, const UnsharedLines& widest, float max_odds,
                           unsigned& sequences);
 

@@ -58,8 +58,9 @@ struct Doubt {
     /// Odds that a bit with weight 127 is correct, as log2 in units of 2^-8. The value is 0 if the
     /// bits contain no information, or if too many bits are wrong.
     int odds_per_bit_q8 = 0;
-    /// For each axis, log2 of an upper bound on the probability that random bits agree with any
-    /// place in the code at least as well as the bits that were read, in units of 2^-8.
+    /// Upper bound on the probability of a chance match on each axis, as log2 in units of 2^-8. A
+    /// chance match is a place in the code that random bits agree with at least as well as the bits
+    /// that were read.
     std::array<int, 2> by_chance_q8{};
 };
 
@@ -70,7 +71,8 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
-        // Refuses a position with too many wrong bits, because they indicate two patterns in view.
+        // Refuses a position with too many wrong bits, because the view probably contains two
+        // patterns.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
     // Combines both axes, because their bits come from the same dots and have the same error rate.
@@ -201,7 +203,8 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
         if (line.wrong != 0) wrong += bits_in(line.wrong);
     }
     result.confidence = Confidence::of_hard_bits(seen, wrong);
-    // Reading of the first line with bits, at its first cell.
+    // The reading contains the position of the first line with bits, and the roll of this line at
+    // its first cell.
     const auto ahead = static_cast<std::int32_t>(begin);
     result.reading = axis == Axis::x ? reading_of(code, moved(code, corner, ahead, 0), axis)
                                      : reading_of(code, moved(code, corner, 0, ahead), axis);
@@ -289,8 +292,8 @@ Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const 
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
-    // Even if the caller's limit is larger than the default limit, the result is as precise as the
-    // default limit requires.
+    // A tighter bound is computed if the quick bound exceeds this value: the caller's limit, but at
+    // most the default limit.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(

@@ -35,8 +35,9 @@ struct Losses {
         }
     }
 
-    /// Returns the step losses, in parts of the loss limit. A place whose step losses add up to at
-    /// least `StepLosses::kLimitParts` parts loses at least the limit.
+    /// Returns the step losses, rounded down. They are counted in parts of the loss limit: a place
+    /// whose step losses add up to at least `StepLosses::kLimitParts` parts loses at least the
+    /// limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
@@ -52,24 +53,25 @@ struct Losses {
         return steps;
     }
 
-    /// Returns true if a place loses more than `loss_limit`. `shared` is an upper bound on the sum
-    /// of `of` over the lines that the place shares at one shift, in units of kUnit.
+    /// Returns true if a place certainly loses more than `loss_limit` at a shift. `shared` is the
+    /// sum of `of` over the lines that the place shares at this shift, or an upper bound on this
+    /// sum, in units of kUnit.
     bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
     /// Unit of `all` and `of`, in score units. Losses are rounded down to this unit, because their
     /// sums must fit in 16 bits.
     static constexpr int kUnit = 8;
     int loss_limit;  ///< loss above which a place is skipped, in score units
-    int all = 0;     ///< loss without any shared line, in units of kUnit
-    /// Minimum loss at a shift without any shared line, in score units. This is the sum of all
-    /// minimum losses, including negative losses (gains).
+    int all = 0;     ///< sum of `of` over all lines, in units of kUnit
+    /// Minimum loss of a place at a shift where it shares no line, in score units. This is the sum
+    /// of the minimum losses of all lines, including negative losses (gains).
     int at_best = 0;
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
 
-/// Sums the odds of the places in one other code, along one axis. The *same place* is the place of
-/// the reading in the a4 of the other code, at the shift `shift_here_`. All other places and shifts
-/// are *other places*.
+/// Sums the odds of the places in one other code, along one axis. The *same place* has the same
+/// index in a4 as the place of the reading, but in the other code, at the shift `shift_here_`. All
+/// other places and shifts are *other places*.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
@@ -102,7 +104,8 @@ class OtherPlaces {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = unshared.min_loss(table) - ratios_.max_gain();
-        // A place is counted once for each shift where it shares a line, so at most `count_` times.
+        // A place is counted once for each shift at which it shares a line. There are at most
+        // `count_` such shifts.
         result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();

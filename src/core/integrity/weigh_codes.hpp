@@ -1,8 +1,9 @@
 // Weigh codes: computes the odds of places in the other codes, relative to the reading. The paper
 // uses only one code, but dotpose supports sheets whose code is unknown. The codes differ only in
-// a4. Only positions with the places of the reading in a1, a2 and a3 are compared with the bits.
-// All other positions in another code are assumed to have the same total odds as those in the code
-// of the reading (see `OtherCodes::log2_in_question_q8`). See docs/integrity.md, "Which code?".
+// a4. Only positions whose places in a1, a2 and a3 equal those of the reading are compared with the
+// bits. The remaining positions in each code are assumed to have the same total odds as the
+// corresponding positions in the code of the reading (see `OtherCodes::log2_in_question_q8`). See
+// docs/integrity.md, "Which code?".
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

@@ -1,4 +1,4 @@
-// Work limit: limits the computing time of the sums over alternatives.
+// Work limit: the computation budget for summing the odds of alternatives.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@ namespace dotpose::core {
 /// Remaining computation budget, in estimated processor instructions.
 class WorkLimit {
   public:
-    /// Budget for the sums over alternatives in one frame with a small view. All places tested in
-    /// the frame share this budget. docs/speed.md, "Small frames", compares several limits. All
-    /// other steps of a first attempt take about 200,000 instructions.
+    /// Budget for summing the odds of alternatives in one frame with a small view. All places
+    /// tested in the frame share this budget. docs/speed.md, "Small frames", compares several
+    /// budgets. All other steps of a first attempt take about 200,000 instructions.
     static constexpr std::size_t kOfFrame = 510'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}

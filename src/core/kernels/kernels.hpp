@@ -41,7 +41,7 @@ struct CellPass {
     /// Maximum distance between a dot and the nearest dot position of its cell, in spacings. The
     /// sums exclude dots beyond this limit.
     float max_off = 0;
-    /// Distance between the intersection and the four dot positions, in spacings. If 0, the
+    /// Distance from an intersection to each of its four dot positions, in spacings. If 0, the
     /// intersection is the only dot position.
     float displacement = 0;
     bool with_perspective = false;
@@ -124,7 +124,7 @@ inline constexpr float kMaxCentroidRadius_px = 24;
 /// measuring a larger one.
 inline constexpr float kSmallCentroidRadius_px = 4;
 /// Radius of the centroid window for predicted dots. It is small enough to limit noise, and large
-/// enough to include the edge of a dot at 8 to 13 px per spacing.
+/// enough to include the edge of a dot at spacings of 8 to 13 px.
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
 /// Sums over the inliers for a nine-parameter fit (see PlaneNormal). (u, v) is the pattern point of
@@ -149,7 +149,7 @@ struct FitSums {
 /// px. The offset is the measured centre minus the predicted point.
 struct DotOffsets {
     int points = 0;
-    float u = 0;  ///< sums of the predicted points
+    float u = 0;  ///< sums of the coordinates of the predicted points
     float v = 0;
     float squares = 0;  ///< sum of u^2 + v^2
     float squared = 0;  ///< sum of squared offsets
@@ -169,7 +169,7 @@ struct DotOffsets {
 struct BlockSums {
     static constexpr std::size_t kMaxAlong = 9;
     struct Block {
-        Four sums;  ///< stored as one vector, so that a dot is added in a single operation
+        Four sums;  ///< the sums below, in one vector, to add a dot in a single operation
         float inliers() const { return sums[0]; }
         float dots() const { return sums[1]; }  ///< number of measured dots, including outliers
         /// Sums of the residuals of the inliers along x and y, in spacings.
@@ -198,8 +198,8 @@ struct BitsRead {
 /// A line, with a lower bound on the loss of any alternative that does not share it. The caller
 /// chooses the unit of the loss. The *reading* is the position that was read, and an *alternative*
 /// is any other position. The *loss* of an alternative in a line is the score of the reading minus
-/// the score of the alternative. An alternative *shares* a line if its roll in this line is the
-/// roll of the reading.
+/// the score of the alternative. An alternative *shares* a line with the reading if both have the
+/// same roll in this line.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;

@@ -21,7 +21,7 @@ using Values = std::span<std::int32_t>;
 std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     std::size_t n = 0;
     for (const SeedEdge& edge : edges) {
-        // Half the squared length of the remaining edges fits in 32 bits.
+        // Skips long edges. Half the squared length of every other edge fits in 32 bits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);

@@ -77,8 +77,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
     }
 }
 
-/// Limit on the distance to a neighbour: it must be less than 128 px away along each axis. Larger
-/// grid spacings are not supported here.
+/// Exclusive upper bound on the distance to a neighbour along each axis: 128 px. Larger grid
+/// spacings are not supported here.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
 
 /// Returns a^2 modulo 2^32.

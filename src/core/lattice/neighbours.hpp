@@ -29,8 +29,9 @@ struct BucketedSeed {
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 
-/// Finds the four nearest neighbours of each seed, nearest first, less than 128 px away along each
-/// axis. Writes -1 for each missing neighbour. `memory` must have one more element than `seeds`.
+/// Finds the four nearest neighbours of each seed, and lists them nearest first. Ignores seeds that
+/// are 128 px or more away along an axis. Writes -1 for each missing neighbour. `memory` must have
+/// one more element than `seeds`.
 void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);

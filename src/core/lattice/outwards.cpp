@@ -170,8 +170,8 @@ float growth(float fraction) {
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// The distance from a dot to its kNearest-th nearest neighbour measures the local density of the
-/// dots. The first estimate of the grid spacing is computed from the smallest such distance.
+/// Rank of the neighbour whose distance from a dot measures the local density of the dots. The
+/// first estimate of the grid spacing is computed from the smallest of these distances.
 constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.

@@ -25,8 +25,8 @@ struct Regularity {
     int dots = 0;
     int near_intersections = 0;
     /// Largest distance from the origin to the cell of a dot, in cells. Unlike the other members,
-    /// it includes dots beyond the reach, up to kFarthest_cells. Callers skip dots that are farther
-    /// away.
+    /// it also includes dots beyond the reach, but not dots farther than kFarthest_cells, which
+    /// callers skip.
     int farthest_cell = 0;
 
     /// Returns true if at least kSettled_20th / 20 of the dots are near an intersection. Repeating

@@ -11,11 +11,11 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// Fraction of the dots, in units of 1/20, that must be near an intersection for the fit to extend
-/// to farther dots without another iteration. The fraction is less than 1, because some detected
-/// dots may be dirt.
+/// Minimum fraction of dots that are near an intersection, in units of 1/20. If the fraction is
+/// reached, the fit is extended to farther dots without another iteration. The value is less than
+/// 20, because some detected dots may be dirt.
 inline constexpr int kSettled_20th = 19;
-/// Minimum fraction of the dots in a grid that must be near an intersection, in tenths. If dots are
+/// Minimum fraction of the dots in a grid that are near an intersection, in tenths. If dots are
 /// placed randomly, half of them are near an intersection.
 inline constexpr int kMin_10ths = 7;
 }  // namespace regularity
@@ -73,9 +73,9 @@ inline constexpr int kMinDots = 40;
 /// improve the waves, but take longer, because each dot is evaluated in at least 12 directions.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
-/// Limits on the total power of the two waves, divided by the square of the number of dots. A grid
-/// without displacements has a power of about 2. Above kClearWaves, the search does not try other
-/// spacings. Waves below kFaintWaves are rejected.
+/// Limits on the normalized power: the total power of the two waves divided by the square of the
+/// number of dots. It is about 2 for a grid without displacements. If it exceeds kClearWaves, the
+/// search does not try further spacings. If it is below kFaintWaves, the waves are rejected.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
 /// Range of spacings in the smoothed patch, in patch pixels. In a finer grid, the dots merge. In a
@@ -88,8 +88,8 @@ inline constexpr float kCoarsest_px = 40;
 inline constexpr float kMinSpacing = 0.7F;
 inline constexpr float kMaxSpacing = 1.4F;
 inline constexpr float kMaxFold = 0.7F;
-/// Reach and maximum offset from an intersection in the first rounds, in spacings. These rounds
-/// treat displacements as noise.
+/// Parameters of the first rounds, in spacings: the reach, and the maximum offset of a dot from its
+/// intersection. These rounds treat displacements as noise.
 inline constexpr float kFirstReach = 3;
 inline constexpr float kFirstMaxOffset = 0.42F;
 /// Limits to which the displacement in a first grid is clamped, in spacings. The range is slightly

@@ -13,8 +13,9 @@ struct UnitVec {
     float sin = 0;
 };
 
-/// Returns the unit vector of an angle. The angle is clamped to [-1, 1] rad. The error is at most
-/// 3e-6. The result is bit-identical on every processor, unlike the results of C libraries.
+/// Returns the unit vector in the direction of an angle. The angle is clamped to [-1, 1] rad. The
+/// error is at most 3e-6. The result is bit-identical on every processor, unlike the results of C
+/// libraries.
 inline UnitVec small_unit(float rad) {
     rad = std::clamp(rad, -1.0F, 1.0F);
     const float q = rad * rad;
@@ -45,7 +46,7 @@ struct ReadoutTurn {
     FloatVec axis;   ///< point around which the scene rotates, at time 0
     FloatVec drift;  ///< velocity of `axis` at time 0, in px per row, with y < 1
 
-    /// Returns the point in the image without rotation that shows the same scene point as `seen`.
+    /// Returns the point that shows the same scene point as `seen`, in the image without rotation.
     FloatVec without_turn(FloatVec seen) const {
         const float row = seen.y;
         const FloatVec moved = displacement(row);
@@ -55,8 +56,8 @@ struct ReadoutTurn {
         return {p.x + axis.x + still_row * drift.x, still_row};
     }
 
-    /// Inverse of `without_turn`: returns the point in the image with rotation that shows the same
-    /// scene point as `still`. Uses `steps` steps of Newton's method. `row` is the approximate row
+    /// Inverse of `without_turn`: returns the point that shows the same scene point as `still`, in
+    /// the image with rotation. Uses `steps` steps of Newton's method. `row` is the approximate row
     /// of the result. The result is correct only where the scene moves down by less than one row
     /// while a row is read. Otherwise, several rows or none may show the scene point.
     FloatVec seen_from(FloatVec still, float row, int steps) const {

@@ -49,8 +49,8 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
                          FixedVec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
-    // Predicted dots are measured even if they were not detected as blobs, so more dots may be used
-    // than were seen.
+    // Increases `dots_seen` to at least `dots_used`. More dots may be used than were detected as
+    // blobs, because every predicted dot is measured.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));

@@ -6,8 +6,8 @@
 
 namespace dotpose::core {
 
-/// Sets the `covariance` of the fix at the reference point, and its `residual_px`, `dots_seen`,
-/// `dots_used` and `surface`. The fix must already contain the spacing.
+/// Sets `covariance`, `residual_px`, `dots_seen`, `dots_used` and `surface` in the fix. The
+/// covariance is that of the pose at the reference point. The fix must already contain the spacing.
 void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_image,
                          FixedVec reference_q8, Fix& fix);
 

@@ -5,7 +5,7 @@
 
 namespace dotpose::core {
 
-/// Position of a measured dot in the pattern, and its residual, in spacings.
+/// Pattern position of a measured dot, and its residual, both in spacings.
 struct DotOffset {
     FloatVec at;        ///< measured position
     FloatVec residual;  ///< vector from the measured to the printed position

@@ -71,7 +71,7 @@ class DotShape {
     static Terms changed(const Terms& terms, const Terms& step);
 
     Terms terms_{};
-    Normal normal_;  ///< normal equations at the fitted terms, decomposed
+    Normal normal_;  ///< decomposed normal equations at the fitted terms
     float misfit_ = 1;
 };
 

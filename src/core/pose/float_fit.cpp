@@ -10,9 +10,9 @@ namespace {
 
 namespace tuned = tuning::fit;
 
-/// Returns the convergence threshold for `moved`, the squared length of a step (see `solve`). The
-/// threshold is larger for planes with little perspective and lens distortion, because the fit of
-/// such planes is nearly linear, and a single step ends close to the solution.
+/// Returns the convergence threshold for `moved`, the squared length of the whitened step (see
+/// `solve`). The threshold is larger for planes with little perspective and lens distortion,
+/// because the fit of such planes is nearly linear, and a single step ends close to the solution.
 float settled(const FloatPlane& p, float reach) {
     const float nonlinear =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;

@@ -32,7 +32,7 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// Size of the measuring window, and width of the fitted dot.
+/// Half-width of the measurement window, and standard deviation of the fitted dot.
 struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;
@@ -99,7 +99,7 @@ struct BorderBackground {
 
 /// Computes the paper level from the window sides that are in the image. At least two sides are in
 /// the image, because an image that shows a grid is larger than a window. If only one of two
-/// opposite sides is in the image, the slope between them is set to 0.
+/// opposite sides is in the image, the slope in this direction is set to 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};

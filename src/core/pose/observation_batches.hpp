@@ -48,7 +48,7 @@ class ObservationBatches {
     /// Returns an evenly spaced sample of the dots, or all dots if they fit in one batch.
     const ObservationBatch& sample() const { return sample_; }
 
-    /// Calls `use` with all dots, in padded batches.
+    /// Calls `use` for each padded batch of dots.
     template <typename Use>
     void visit(Use use) const {
         if (sample_is_all_) return use(sample_);

@@ -337,8 +337,8 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // Returns a line with a gain of less than kPossible / 2 without refining its direction, because
-    // a small rotation of the line rarely doubles the gain.
+    // Does not refine the direction of a line with a gain of less than kPossible / 2, because a
+    // small rotation of the line rarely doubles the gain.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

@@ -12,7 +12,8 @@ namespace dotpose::core {
 struct PaperStep {
     /// Thresholds for `gain`. On 1 in 100 flat sheets, the largest gain exceeds kPossible by
     /// chance. A gain above kCertain almost never occurs on a flat sheet. The thresholds are high
-    /// because steps are rare, and because the search tries many lines with three parameters each.
+    /// because steps are rare, and because the search tries many lines and fits three parameters to
+    /// each line.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 

@@ -151,8 +151,8 @@ struct WindowBias {
     /// Returns the centroid error, in px, of a dot at offset `d` from its window centre. The error
     /// has three causes. First, the kernels take a single Newton step, which is exact only if the
     /// moment is linear in d. Second, they divide the moments of both axes by the slope along u.
-    /// Third, an oblique blur tilts the dot, so an offset along one axis also shifts the weighted
-    /// centroid along the other axis.
+    /// Third, an oblique blur stretches the dot diagonally, so an offset along one axis also shifts
+    /// the weighted centroid along the other axis.
     FloatVec at(FloatVec d) const {
         return {2 * bend * d.x * d.x * d.x + shear * d.y,
                 d.y * (slope_ratio * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1) + shear * d.x};

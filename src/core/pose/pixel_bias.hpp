@@ -11,16 +11,16 @@
 
 namespace dotpose::core {
 
-/// The centroid window in which the dots were measured.
+/// Parameters of the centroid windows in which the dots were measured.
 struct CentroidWindow {
-    float radius_px = 0;      ///< radius of the window, beyond which the weight is 0
+    float radius_px = 0;      ///< radius of each window, beyond which the weight is 0
     float dot_radius_px = 0;  ///< approximate dot radius
     /// Origin of the dot coordinates, in px relative to the centre of the top left pixel.
     FloatVec centre_px;
 };
 
 /// Moves each window to the current centre of its dot. The dots must be measured again afterwards.
-/// Drops dots whose window extends beyond the image.
+/// Drops dots whose windows extend beyond the image.
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
 /// Subtracts the bias from the centres of all inliers. The remaining bias makes the mean of all

@@ -36,8 +36,8 @@ class Scatter {
         by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMaxByNoise / mean_noise);
         always_ = 1 - by_noise_ * mean_noise;
     }
-    /// Returns the weight of a dot: the mean variance of all dots divided by the variance at this
-    /// noise.
+    /// Returns the weight of a dot with the given noise: the mean variance of all dots divided by
+    /// the variance of this dot.
     Four weight(Four noise) const { return 1.0F / (always_ + by_noise_ * noise); }
 
   private:

@@ -13,10 +13,10 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Finds the residual that most dots near a point have in common, in spacings. Sets `common` to the
-/// residual that agrees with the largest number of residuals, including itself. Two residuals agree
-/// if their squared difference is less than kAgreement. Returns false if this number is less than
-/// kMinAgreeing.
+/// Finds a residual that many dots near a point have in common. Sets `common` to the residual, in
+/// spacings, that agrees with the largest number of residuals, including itself. Two residuals
+/// agree if their squared difference is less than kAgreement. Returns false if fewer than
+/// kMinAgreeing residuals agree with `common`.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;

@@ -21,7 +21,7 @@ class StackedDots {
   public:
     struct Stack {
         float dots = 0;
-        FloatVec rest;  ///< sum of `Phase::rest`
+        FloatVec rest;  ///< sum of `Phase::rest` over the dots in the stack
         /// Summed darkness, as a fraction of the paper level around each dot.
         DotPixels darkness;
     };

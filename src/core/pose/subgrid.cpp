@@ -16,8 +16,8 @@ namespace {
 
 /// Writes the pose at the centre of an affine plane to `fix`.
 void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& place, Fix& fix) {
-    // The pose is the decoded position plus the vector to the reference point, in grid units
-    // (paper, equations 10-12).
+    // The pose is the decoded position plus the vector from there to the reference point, in
+    // spacings (paper, equations 10-12).
     const FixedVec t = there.at_centre_q16;
     const Place at = moved(code, place, t.x >> 16, t.y >> 16);
     fix.cell = at.cell;

@@ -11,8 +11,8 @@ namespace dotpose::core {
 /// origin of the pattern coordinates is at `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
-/// Sets the plane of the fix and the place of its origin. Also sets the position, section, angle
-/// and spacing at the reference point.
+/// Sets the plane of the fix, and the place of the plane's origin. Also sets the position, section,
+/// angle and spacing at the reference point.
 void write_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8, CodeVariant code,
                 const Place& place, Fix& fix);
 

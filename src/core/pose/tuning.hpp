@@ -18,8 +18,8 @@ namespace measure {
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in units of 1/128 of the spacing, and its minimum, in
-/// 1/256 px. kSigma_128ths is the sigma of a typical blurred dot. With a value of 6, the results
-/// are 1,994 frames, 2.19 µm and 5.36 µm. With 24, they are only 1,904 frames, 3.58 µm and 9.19 µm.
+/// 1/256 px. kSigma_128ths corresponds to a typical blurred dot. With a value of 6, the results are
+/// 1,994 frames, 2.19 µm and 5.36 µm. With 24, they are only 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance between a dot and its predicted image position, in units of sigma^2.
@@ -28,13 +28,13 @@ inline constexpr int kMinSigma_q8 = 230;
 /// the print errors.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton iterations. The fit ends early after a step shorter than
-/// kSettled_q8, in 1/256 px.
+/// kSettled_q8 / 256 px.
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
-/// Maximum mass of a dot, in halves of the typical mass. The minimum is half the typical mass.
+/// Maximum mass of a dot, in units of half the typical mass. The minimum is half the typical mass.
 /// These limits reject dirt, graphics, and bare paper where a dot is missing.
 inline constexpr int kTooDark_halves = 3;
-/// Maximum number of dots in the sample for the typical mass, which is the median of the sample.
+/// Maximum number of dots in the sample whose median mass is the typical mass.
 inline constexpr int kMedianSample = 256;
 }  // namespace measure
 
@@ -44,7 +44,7 @@ namespace fit {
 /// (kMaxRoundsOfFloats).
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// `refine_pose` stops if `moved`, the squared length of a step (see `solve` in
+/// `refine_pose` stops if `moved`, the squared length of the whitened step (see `solve` in
 /// fit/solve_plane.hpp), is at most this value, because the next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
 /// Outlier limit for squared residuals, in units of their median. The median is 1.39 sigma^2, where
@@ -54,8 +54,8 @@ inline constexpr int kOutlier_medians = 12;
 /// Outlier limit for squared residuals, in units of the known variance of one coordinate. The limit
 /// for the residual is 4.1 standard deviations. By chance, 1 dot in 4,000 exceeds this limit.
 inline constexpr float kOutlier = 16.6F;
-/// If the relative change of the outlier limit is less than this, the inliers are assumed to be
-/// unchanged.
+/// Minimum relative change of the outlier limit. If the change is smaller, the inliers are assumed
+/// to be unchanged.
 inline constexpr float kSameLimit = 0.04F;
 /// Maximum fraction of the residual variance that is attributed to pixel noise.
 inline constexpr float kMaxByNoise = 0.9F;
@@ -95,8 +95,8 @@ inline constexpr int kMaxRounds = 30;
 
 /// Bias of facing dots (pose/facing_dots).
 namespace facing {
-/// A bias is corrected only if it is significant: its ratio to its standard deviation must exceed
-/// this value.
+/// Minimum ratio of a bias to its standard deviation. A smaller bias is not significant, and is not
+/// corrected.
 inline constexpr float kSure = 4;
 }  // namespace facing
 
@@ -104,11 +104,11 @@ inline constexpr float kSure = 4;
 namespace bias {
 /// Maximum number of stacked dots. More dots do not make the fitted dot shape more accurate.
 inline constexpr int kDots = 256;
-/// Width of the border around a dot that is included in the stacked images, because it contains the
-/// blurred edge.
+/// Width of the border around a dot. The stacked images include this border, because it contains
+/// the blurred edge of the dot.
 inline constexpr float kBeyondEdge_px = 1.5F;
-/// If the blur variance exceeds this limit along both axes, the bias is not corrected: it is
-/// negligible, and dots may be larger than the model image.
+/// Maximum blur variance for which the bias is corrected. If the variance exceeds this limit along
+/// both axes, the bias is negligible, and dots may be larger than the model image.
 inline constexpr float kBlurred_px2 = 1.2F;
 /// Uncertainty of the bias correction. The variance of the remaining bias is f a^2, where a is the
 /// amplitude of the computed bias and f is kOfModel + kOfMisfit * max(misfit - kMisfit, 0). misfit
@@ -124,7 +124,7 @@ inline constexpr float kSlopes = 0.03F;
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
 /// Limits for the scatter between blocks. The limits apply to `GroupScatter::excess`, in standard
-/// deviations. `dotpose_tables slips` measures the fractions of flat sheets that exceed them.
+/// deviations. `dotpose_tables slips` measures the fraction of flat sheets above each limit.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
 ///   The limit is low because the plane fitted to all dots absorbs most of a step, and because dot
 ///   centres measured in the second attempt are noisier than those from the other attempts.
@@ -137,18 +137,18 @@ namespace uneven {
 ///   about 1 in 1,000 flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
 /// Maximum number of dots for which the second attempt uses kMaybeLine as the limit. With more
-/// dots, the limit is kMaybeLine * sqrt(dots / kMaybeLineDots), because block residuals become
-/// statistically more significant with the number of dots, even on flat sheets.
+/// dots, the limit is kMaybeLine * sqrt(dots / kMaybeLineDots), because more dots make block
+/// residuals statistically more significant, even on flat sheets.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
-/// Maximum expected number of outliers on a flat sheet: kFewOutliers plus kOutlierFraction times
-/// the number of dots.
+/// Maximum number of outliers that is normal on a flat sheet: kFewOutliers plus kOutlierFraction
+/// times the number of dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
-/// With more dots than this, each image side is divided into nine blocks. Otherwise, it is divided
-/// into at most kFewAlong blocks.
+/// Number of dots above which each image side is divided into nine blocks. With fewer dots, each
+/// image side is divided into at most kFewAlong blocks.
 inline constexpr int kManyDots = 1000;
 /// Limits on the number of blocks along each image side if there are at most kManyDots dots. Within
 /// these limits, the number is the largest for which a block contains at least kDotsPerBlock dots
@@ -167,8 +167,8 @@ inline constexpr float kOfTurn = 8;
 /// dots changes slowly across the view, the bias differs between blocks, but it averages out over
 /// the view and is therefore not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// If the reference point is at most this far from the dividing line, in spacings, it may be on
-/// either side of the line.
+/// Maximum distance from the reference point to the dividing line, in spacings, at which the
+/// reference point may be on either side of the line.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
@@ -180,15 +180,15 @@ inline constexpr float kOnPlane = 5;
 /// Maximum squared residual that a displaced part of the sheet can explain, in units of the
 /// residual variance.
 inline constexpr float kTogether = 36;
-/// Maximum distance by which the reference point may be beyond the line, in spacings.
+/// Maximum distance of the reference point beyond the line, in spacings.
 inline constexpr float kBehind = 0.5F;
 /// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;
 /// Outlier limit in the first iteration of a fit to one side, in spacings^2. The limit is large,
 /// because this iteration starts from a plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
-/// Dots belong to neither side of the line if their distance from the line is below this limit, in
-/// spacings. The position of the line is uncertain by about this distance.
+/// Minimum distance of a dot from the line, in spacings. Dots closer to the line belong to neither
+/// side, because the position of the line is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
 /// Parameters of the search for a residual that the dots beyond the line have in common. The search
 /// uses the dots within kReach spacings of the reference point along each axis. A residual agrees

@@ -170,9 +170,10 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
 }
 
 /// Returns the limit on `GroupScatter::excess` above which the second attempt searches for a line.
-/// The limit increases with the number of dots, because many dots make even the small block
-/// residuals of a flat sheet significant, for example those due to pixel bias. The residuals at a
-/// dividing line also become more significant, so they still exceed the limit.
+/// The limit increases with the number of dots, because with many dots, even the small block
+/// residuals of a flat sheet are significant, for example residuals due to pixel bias. The
+/// residuals at a dividing line also become more significant with the number of dots, so they still
+/// exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));
@@ -207,7 +208,7 @@ void fit_uneven(const Kernels& kernels, const Observations& observations, FixedV
         dots.row[k] = static_cast<float>(o.pattern_step.y);
         dots.bits[k] = static_cast<std::int32_t>(o.symbol);
     });
-    // The arrays need padding, because the kernels process eight dots at a time.
+    // Pads the arrays, because the kernels process eight dots at a time.
     for (std::size_t k = 0; k < 8; ++k)
         dots.x[static_cast<std::size_t>(dots.count) + k] = kNoDot_px;
     FloatPlane better = float_plane(plane);

@@ -26,8 +26,8 @@ struct Quality {
     int depth = kDepth;
 };
 
-/// Maximum time that a reliable message waits for space in the queue. Waiting delays the next
-/// frame.
+/// Maximum time that a reliable message waits for space in the queue. The time is short, because
+/// waiting delays the next frame.
 constexpr dds_duration_t kMaxWait_ns = DDS_MSECS(10);
 
 /// Maximum time to wait for slow readers. DDS uses the same time limit to drop readers that exited

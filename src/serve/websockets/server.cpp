@@ -18,8 +18,8 @@ std::string hostname() {
     return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "localhost";
 }
 
-/// Headers sent with all responses. They ensure that the page loads only its own files, that no
-/// other page shows it in a frame, and that no other site reads the responses.
+/// Headers sent with all responses. They ensure that the page loads only its own files, that pages
+/// of other sites cannot show it in a frame, and that other sites cannot read the responses.
 constexpr std::array<std::pair<const char*, const char*>, kSecurityHeaders> kHeaders = {{
     {"content-security-policy:",
      "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self'; "

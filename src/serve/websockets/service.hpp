@@ -30,8 +30,8 @@ struct Client {
     std::shared_ptr<const std::string> message;  ///< message that is being sent, or null
     std::size_t sent_bytes = 0;
     bool is_binary = false;
-    std::size_t newest_topic = 0;  ///< index of the topic of the last message
-    std::string incoming;          ///< part of a command received so far
+    std::size_t newest_topic = 0;  ///< index of the topic whose value was sent last
+    std::string incoming;          ///< the part of an incomplete command that has been received
     double messages_left = 0;      ///< number of messages that the client may send now
     Reports::Clock::time_point counted_at;
 };

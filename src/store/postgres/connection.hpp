@@ -36,8 +36,8 @@ class Rows {
 
 class PostgresConnection {
   public:
-    /// Connects to the server. Throws Error if the connection fails or takes too long (5 s, unless
-    /// the URL sets a different limit).
+    /// Connects to the server. Throws Error if the connection cannot be established within 5 s, or
+    /// within the time limit in the URL if it contains one.
     explicit PostgresConnection(const std::string& url);
 
     /// Runs statements without parameters, separated by semicolons. Throws Refused.

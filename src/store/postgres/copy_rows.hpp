@@ -1,4 +1,4 @@
-// Rows in the binary format of COPY, which needs no quoting.
+// Encodes rows in the binary format of COPY. Values in this format need no quoting.
 #pragma once
 
 #include <cstdint>

@@ -62,9 +62,9 @@ class Postgres : public Database {
             run([&] { copy(states, "states"); });
         } catch (const Refused& error) {
             if (error.sql_state != kUniqueViolation) throw;
-            // Some states may already be stored, for example if the connection broke after a
-            // transaction but before its result arrived. COPY cannot skip existing rows, so the
-            // states are first copied to a temporary table.
+            // Some states may already be stored, for example if the connection broke after the
+            // server committed a transaction but before it reported the success. COPY cannot skip
+            // existing rows, so the states are first copied to a temporary table.
             run([&] {
                 connection_->run(
                     "CREATE TEMPORARY TABLE batch (LIKE states INCLUDING DEFAULTS) ON COMMIT DROP");
@@ -82,8 +82,8 @@ class Postgres : public Database {
             const std::string first_kept = partition_name(day_of(time_us));
             for (int i = 0; i < partitions.size(); ++i) {
                 const std::string name(partitions.text(i, 0));
-                // The names end with the date, so names of equal length sort in chronological
-                // order.
+                // A name ends with the date, so the alphabetical order of names of equal length is
+                // chronological.
                 if (name.size() != first_kept.size() || name >= first_kept) continue;
                 if (name.find_first_not_of("states_0123456789") != std::string::npos) continue;
                 connection_->run("DROP TABLE " + name);

@@ -10,7 +10,7 @@
 namespace dotpose::video {
 namespace {
 
-const cv::Scalar kEmpty(224, 219, 213);  ///< colour of empty gauges and of directions not seen yet
+const cv::Scalar kEmpty(224, 219, 213);  ///< colour of empty gauges and of unseen directions
 constexpr int kMargin = 12;
 constexpr int kRowHeight = 44;
 
@@ -18,8 +18,8 @@ void write(cv::Mat& panel, const std::string& text, cv::Point at, const cv::Scal
     cv::putText(panel, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, 1, cv::LINE_AA);
 }
 
-/// Draws a compass aligned with the sheet. Green sectors show the directions of the image x axis
-/// seen so far, and an arrow shows the current direction.
+/// Draws a compass aligned with the sheet. Green sectors show the directions in which the image x
+/// axis has pointed so far, and an arrow shows its current direction.
 void draw_directions(const CalibrationScene& scene, cv::Point centre, int radius, cv::Mat& panel) {
     constexpr int kDirections = CalibrationCoverage::kDirections;
     for (int i = 0; i < kDirections; ++i) {

@@ -1,5 +1,5 @@
-// Draws the progress of a calibration: tints the parts of the frame that are not covered yet, and
-// draws gauges beside the frame.
+// Draws the progress of a calibration: tints the parts of the frame in which no dots have been seen
+// yet, and draws gauges beside the frame.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -12,7 +12,8 @@ namespace dotpose::video {
 /// was added to the calibration. `frame` is the region of the picture that contains the image.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
-/// Draws the gauges and, below them, a compass of the directions covered so far.
+/// Draws the gauges. Below them, draws a compass that shows which directions have been covered so
+/// far.
 void draw_gauges(const CalibrationScene& scene, cv::Mat panel);
 
 }  // namespace dotpose::video

@@ -40,7 +40,7 @@ void to_grey(const cv::Mat& picture, GreyImage& image) {
         image.pixels.insert(image.pixels.end(), grey.ptr(v), grey.ptr(v) + grey.cols);
 }
 
-/// Runs `action`. Converts exceptions thrown by drivers and decoders to an Error that names the
+/// Runs `action`. Converts an exception thrown by a driver or a decoder to an Error that names the
 /// source.
 template <typename Action>
 auto guarded(const std::string& name, const Action& action) {
@@ -164,7 +164,7 @@ class Camera : public capture::FrameSource {
         latest_.put(std::move(frame));
     }
 
-    /// Delivers an empty frame with the current time on the camera's clock.
+    /// Delivers an empty frame. Its timestamp is the current time on the camera's clock.
     void put_empty() {
         using namespace std::chrono;
         put({}, newest_us_ + duration_cast<microseconds>(steady_clock::now() - read_at_).count());
@@ -181,7 +181,7 @@ class Camera : public capture::FrameSource {
         if (frames_ > 0) put_empty();
         try {
             open();
-        } catch (const Error&) {  // the next read fails too, and calls `reopen` again
+        } catch (const Error&) {  // the next read fails, so `reopen` is called again
         }
     }
 

@@ -31,7 +31,7 @@ void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
         cv::line(picture, pixel(view.at_grid(i0, j0)), pixel(view.at_grid(i1, j1)), kGrid, 1,
                  cv::LINE_AA);
     };
-    // Lens distortion bends lines, so they are drawn as short segments.
+    // Lens distortion bends the grid lines, so each line is drawn as a series of short segments.
     for (int i = grid.i0; i < grid.i0 + grid.columns; i += step) {
         for (int j = grid.j0; j < grid.j0 + grid.rows; j += step) {
             if (i + step < grid.i0 + grid.columns) line(i, j, i + step, j);

@@ -37,7 +37,7 @@ class Recording : public GreyVideo {
     double fps_;
     Tell tell_;
     std::unique_ptr<H264File> h264_;
-    cv::VideoWriter writer_;  ///< open if the recording is not H.264
+    cv::VideoWriter writer_;  ///< open if the video is not encoded as H.264
     cv::Size size_;
     std::int64_t frames_ = 0;
 };

@@ -126,7 +126,8 @@ class VideoFile : public capture::FrameSource {
         const std::string url = "file:" + name_;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
-        // Reading packets adds entries to the index, so the index must be checked first.
+        // The index is checked here because reading packets adds entries to it.
+        // avformat_find_stream_info reads packets.
         for (unsigned i = 0; i < file->nb_streams; ++i) {
             const int entries = avformat_index_get_entries_count(file->streams[i]);
             has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);
@@ -151,13 +152,13 @@ class VideoFile : public capture::FrameSource {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is that of its longest stream, so the file's duration is used only
-        // if the video is the only stream.
+        // The duration of a file is that of its longest stream, so it is used only if the video is
+        // the only stream of the file.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
-    /// Returns the number of frames given in the file, or an estimate from the duration if no
-    /// number is given.
+    /// Returns the number of frames according to the file. If the file does not contain this
+    /// number, returns an estimate that is computed from the duration.
     std::int64_t expected_frames() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
@@ -233,8 +234,7 @@ class VideoFile : public capture::FrameSource {
         waits_for_key_frame_ = true;
     }
 
-    /// Converts the decoded picture to a frame. Returns false if parts of the picture may be
-    /// damaged.
+    /// Converts the decoded picture to a frame. Returns false if the picture may be partly damaged.
     bool take_picture(Frame& frame) {
         const std::int64_t time = picture_->best_effort_timestamp;
         if (time != AV_NOPTS_VALUE) {
@@ -271,8 +271,8 @@ class VideoFile : public capture::FrameSource {
     double begin_s_ = 0;  ///< time of the first picture in the file
     double time_s_ = 0;   ///< time of the latest picture, relative to the first picture
     bool is_lossy_ = false;
-    std::int64_t packet_bytes_ = 0;  ///< total size of the decoded packets
-    std::int64_t packet_px_ = 0;     ///< total number of pixels of the returned frames
+    std::int64_t packet_bytes_ = 0;  ///< total size of the packets that were decoded
+    std::int64_t packet_px_ = 0;     ///< total number of pixels in the returned frames
     bool has_begun_ = false;
     bool is_damaged_ = false;
     bool has_index_ = false;

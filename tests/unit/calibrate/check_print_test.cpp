@@ -135,7 +135,7 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.covered_share(), bars + edge);
 }
 
-// In this scan, most of the area of each tile is blank paper around the card.
+// In this scan, most of each tile is blank paper, because the card is small.
 TEST(CheckPrint, dots_of_a_small_card_on_a_noisy_scan_are_not_covered) {
     SheetOptions options;
     options.paper = {20, 20};
@@ -163,7 +163,7 @@ TEST(CheckPrint, maps_distortion) {
     settings.wave_mm = 0.3;
     const PrintCheck result = check(scan_page(make_sheet(options), settings), 300);
     ASSERT_EQ(result.fields.size(), 1U);
-    // The tolerance is large because the fitted scale absorbs part of the sine wave.
+    // The tolerance is large because the fitted scale compensates for a part of the sine wave.
     EXPECT_NEAR(result.fields[0].largest_distortion_mm, settings.wave_mm, 0.1);
     EXPECT_LT(result.fields[0].scatter_mm, 0.01);
     EXPECT_THAT(remarks(result), Contains("distorted"));
@@ -179,7 +179,8 @@ TEST(CheckPrint, maps_distortion) {
 }
 
 TEST(CheckPrint, bits_of_another_place_are_wrong) {
-    // The lower 12 rows show another part of the pattern, as if a driver printed the page in tiles.
+    // The lower 12 rows show another part of the pattern, as if a driver had printed the page in
+    // tiles.
     Sheet upper = small_sheet();
     Sheet lower = upper;
     upper.rows -= 12;
@@ -340,8 +341,8 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
 }
 
 TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
-    // The dots have a diameter of 0.27 mm. At a spacing of 0.38 mm, the centres of two neighbours
-    // may be only 0.25 mm apart, so their dots overlap.
+    // The dots have a diameter of 0.27 mm. At a spacing of 0.38 mm, the distance between the
+    // centres of two neighbours may be as small as 0.25 mm, so their dots overlap.
     TestPageOptions options;
     options.paper = {60, 60};
     options.margin_mm = 5;

@@ -1,5 +1,5 @@
-// Tests the coverage of a calibration: which requirements are not met yet, and how uncertain the
-// lens is in the corner of the image.
+// Tests the coverage of a calibration: which requirements have not been met yet, and how uncertain
+// the lens distortion is in the corner of the image.
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,4 +1,4 @@
-// Tests `check_print` on simulated scans of prints, each of which has one known fault. The scanner
+// Tests `check_print` on simulated scans. Each scanned print has one known fault. The scanner
 // simulation (tests/scanned_page.hpp) is independent of src/simulate.
 #include <ostream>
 #include <string>

@@ -17,15 +17,15 @@ constexpr int kRows = 30;
 constexpr std::uint32_t kDotSeed = 5;
 
 /// Returns the relative brightness of the paper at a pixel. It decreases by 40 % from the middle to
-/// the corners, and by a tenth from left to right.
+/// the corners, and by 10 % from left to right.
 double light_at(double u, double v) {
     const double x = 2 * u / (kColumns - 1) - 1;
     const double y = 2 * v / (kRows - 1) - 1;
     return (1 - 0.2 * (x * x + y * y)) * (0.95 - 0.05 * x);
 }
 
-/// Returns an image of white paper with this lighting. A tenth of the pixels, chosen at random, are
-/// dark.
+/// Returns an image of white paper with the lighting `light_at`. A tenth of the pixels, chosen at
+/// random, are dark.
 GreyImage dots_at_random(int index) {
     std::mt19937 random(kDotSeed + static_cast<std::uint32_t>(index));
     GreyImage image{{}, kColumns, kRows};

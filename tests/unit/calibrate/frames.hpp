@@ -83,8 +83,8 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
-/// Mean position error along the axes of the robot, and mean heading error. Averaging over many
-/// directions cancels the errors of single fixes, so only the calibration error remains.
+/// Mean position error along the axes of the robot, and mean heading error. The errors of single
+/// fixes average out over the directions of the robot, so only the calibration error remains.
 struct RobotError {
     Vec2 place_mm;
     double heading_rad = 0;
@@ -136,7 +136,8 @@ struct Lying {
 };
 using Table = std::array<Lying, 4>;
 
-/// A table whose sheets are separated by gaps of 0 to 3 mm and rotated by up to 1 degree.
+/// A table with four sheets. The gaps between the sheets are 0 to 3 mm wide, and the sheets are
+/// rotated by up to 1 degree.
 inline const Table kTable = {Lying{0, 0, 0}, Lying{kPage_mm + 0.2, 0.4, 0.6 * kDegree_rad},
                              Lying{-0.3, kPage_mm + 1.4, -0.3 * kDegree_rad},
                              Lying{kPage_mm + 2.6, kPage_mm + 1.9, -1.0 * kDegree_rad}};
@@ -193,8 +194,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // All sheets have the same lighting and noise, so the darkest value of a pixel is that of a
-        // dot if any sheet has a dot there.
+        // Each sheet is rendered with the same lighting and noise, so the darkest value of a pixel
+        // is that of a dot if any sheet has a dot there.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)
             result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);

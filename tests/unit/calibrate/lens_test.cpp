@@ -1,4 +1,5 @@
-// Tests lens calibrations of simulated cameras with known lens, tilt and focal length.
+// Tests lens calibrations of simulated cameras whose lens distortion, tilt and focal length are
+// known.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -80,8 +81,8 @@ TEST(CalibrateLens, FindsTheTiltOfAMountedCamera) {
     expect_near_truth(result.camera, "tilt_y_rad", result.camera.tilt->y_rad, -15 * kDegree_rad);
 }
 
-// Regression: with only the dots that `locate` reads, the focal length of a slightly tilted camera
-// was wrong by three standard deviations.
+// Regression: when the calibration used only the dots that `locate` reads, the focal length of a
+// slightly tilted camera was wrong by three standard deviations.
 TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
     const CameraModel truth = paper_camera();
     const double focal_px = truth.working_distance_mm / truth.mm_per_px;

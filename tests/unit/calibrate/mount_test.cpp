@@ -199,8 +199,8 @@ std::string refusal(const std::function<void()>& calibrate) {
     return "not refused";
 }
 
-/// Returns frames taken by a robot that turns by `step_deg` and moves by `drift_mm` along x between
-/// frames.
+/// Returns frames taken by a robot. From each frame to the next, the robot turns by `step_deg` and
+/// moves by `drift_mm` along x.
 FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     return [=](int i) {
         return robot_frame(model, 65, i, kPivot_x_mm + drift_mm * i, kPivot_y_mm,
@@ -208,8 +208,8 @@ FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     };
 }
 
-// A robot that drives and turns slowly does not turn on the spot, even if an arc about a distant
-// point fits its frames well.
+// A robot that drives and slowly turns does not turn on the spot, even if its frames fit an arc
+// about a distant point well.
 TEST(CalibrateSpin, RefusesADrive) {
     const CameraModel model;
     EXPECT_THAT(
@@ -223,7 +223,7 @@ TEST(CalibrateSpin, RefusesADrive) {
                 HasSubstr("the robot moved on while it turned"));
 }
 
-// The robot moves by 0.02 mm between frames, during one full turn of 12 frames.
+// The robot moves by 0.02 mm from frame to frame. The 12 frames cover one full turn.
 TEST(CalibrateSpin, CountsADriftInItsDeviation) {
     const CameraModel model;
     const SpinCalibration still = calibrate_spin(12, turning(model, 30, 0), {}, {});

@@ -66,7 +66,7 @@ TEST(Optics, IsThatOfAThinLens) {
     optics.height_px = 480;
     optics.pixel_um = 6;
     optics.focal_mm = 10;
-    optics.distance_mm = 30;  // the lens forms an image of half size, 15 mm behind it
+    optics.distance_mm = 30;  // the image is 15 mm behind the lens, at half size
     optics.f_number = 4;
     optics.exposure_s = 0.001;
     optics.speed_mm_s = 6;

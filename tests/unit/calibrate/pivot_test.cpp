@@ -1,4 +1,4 @@
-// Tests pen tip calibration on simulated frames from a pen with a known tip.
+// Tests pen tip calibration on simulated frames from a pen whose tip position is known.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -101,7 +101,7 @@ TEST(CalibratePivot, HasTrueDeviationsThoughAllFramesShowTheSamePrint) {
                    std::pow((camera.tip->y_mm - kTip.y_mm) / camera.sigma.at("tip_y_mm"), 2);
     }
     // The mean of 20 squared standard normal variables has a standard deviation of 0.32. The
-    // tolerance is three times as large.
+    // tolerance is three standard deviations.
     EXPECT_NEAR(squares / (2 * kPens), 1, 0.95);
 }
 

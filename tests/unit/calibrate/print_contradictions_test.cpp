@@ -1,5 +1,6 @@
 // Tests prints that contradict their description: places that occur twice, pages that belong to
-// none of the given sheets, and impossible resolutions. Also tests scans with few large dots.
+// none of the given sheets, and impossible resolutions. Also tests scans that contain only a small
+// number of large dots.
 #include <vector>
 
 #include <gmock/gmock.h>

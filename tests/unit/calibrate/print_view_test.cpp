@@ -14,9 +14,10 @@ namespace {
 constexpr double kLongerSide_px = 4000;
 const Eigen::Vector2d kMiddle_px(1999.5, 1499.5);
 
-/// Returns a photo of a 240 x 180 mm page with 3 dots per cm, from a camera with a focal length of
-/// 3000 px at a distance of 260 mm. The camera is tilted by `tilt` about an axis in the paper with
-/// the direction `azimuth`. The print is (1 + `wide`) times as wide as nominal.
+/// Returns the dots in a photo of a 240 x 180 mm page, which has 3 dots per cm. The camera has a
+/// focal length of 3000 px and is 260 mm from the page. It is tilted by `tilt` about an axis in the
+/// plane of the page, whose direction is `azimuth`. The print is (1 + `wide`) times as wide as
+/// nominal.
 std::vector<Match> photo(double tilt, double azimuth, double wide) {
     std::vector<Match> matches;
     for (double x_mm = -120; x_mm <= 120; x_mm += 10.0 / 3) {

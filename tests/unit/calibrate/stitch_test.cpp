@@ -30,8 +30,8 @@ GreyImage plain_frame(const CameraModel& camera, int index) {
     return table_frame(kTable, camera, 62, index, 30, 30, 0.1 * index);
 }
 
-/// Returns a table whose sheets have typical print scales, with errors of up to 0.3 % that differ
-/// between x and y. The mean scale of the first sheet is 1.
+/// Returns a table whose sheets have different print scales along x and y. As in typical prints,
+/// the scales are wrong by up to 0.3 %. The mean scale of the first sheet is 1.
 Table printed_table() {
     Table table = kTable;
     table[0].print = {1.0012, 1 / 1.0012};

@@ -47,13 +47,13 @@ Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
 }
 
 TEST(BmpKinds, HaveFieldsOfBits) {
-    // Pixels with opacity as written by GIMP and ImageMagick: opaque red and half-transparent
-    // black.
+    // Two pixels with opacity, as written by GIMP and ImageMagick. The first is opaque red, and the
+    // second is half-transparent black.
     EXPECT_THAT(pixels_of(bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
                                          {0xFFFF0000, 0x80000000})),
                 ElementsAre(76, 127));
-    // These pixels have five bits for red, six for green and five for blue. They are white and pure
-    // green.
+    // A white pixel and a pure green pixel, with five bits for red, six for green and five for
+    // blue.
     EXPECT_THAT(pixels_of(bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
                 ElementsAre(255, 150));
     // The file has no masks, so the fourth byte of a pixel is ignored.
@@ -67,7 +67,8 @@ TEST(BmpKinds, StartAtTheTopWhenTheHeightIsNegative) {
 }
 
 TEST(BmpKinds, HaveFewBitsAndTheHeaderOfOs2) {
-    // This image has 3 x 1 px, and a palette with two colours of three bytes each: blue and white.
+    // This image is 3 px wide and 1 px high. Its palette consists of two colours, blue and white,
+    // with three bytes each.
     const Bytes file = Writer(false)
                            .text("BM")
                            .integers(4, {0, 0, 14 + 12 + 6, 12})
@@ -91,7 +92,7 @@ TEST(BmpKinds, StateTheirResolution) {
     EXPECT_NEAR(resolution->x_dpi, 300, 0.01);
 }
 
-/// Writes TIFF files of 48 x 20 px.
+/// Fixture that writes TIFF files with images of 48 x 20 px.
 class TiffKinds : public testing::Test {
   protected:
     static constexpr std::uint32_t kWidth = 48;
@@ -224,7 +225,7 @@ TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     EXPECT_EQ(refused, static_cast<int>(file.size() - file.size() / 4));
 }
 
-// A file of a few kilobytes with thousands of scans would keep the decoder busy for hours.
+// Decoding a file of a few kilobytes could take hours if it contained thousands of scans.
 TEST(JpegKinds, AreRefusedWithTooManyScans) {
     Bytes file = progressive_jpeg();
     const Bytes marker{0xFF, 0xDA};

@@ -1,4 +1,5 @@
-// Tests WebP, HEIC and AVIF files, written by the programs of libwebp and libheif.
+// Tests the reading of WebP, HEIC and AVIF files that were written by the tools of libwebp and
+// libheif.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -16,7 +17,8 @@
 #include "dotpose/tools/image_file.hpp"
 #include "encoders.hpp"
 
-// The AVIF decoder dav1d 1.0 leaks memory when it refuses damaged data.
+// Suppresses reports about the AVIF decoder dav1d 1.0, which leaks memory when it refuses damaged
+// data.
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libdav1d";
 }
@@ -34,10 +36,10 @@ constexpr int kHeight_px = 48;
 
 struct PhoneFormat {
     const char* name;
-    /// Lossless encoding command. `converted` appends the name of the image, `-o` and the name of
-    /// the new file.
+    /// Command for lossless encoding. `converted` appends the name of the image, `-o` and the name
+    /// of the new file.
     const char* lossless;
-    const char* photo;  ///< encoding command that keeps EXIF data
+    const char* photo;  ///< command for lossy encoding that keeps the EXIF data
 };
 constexpr const char* kLosslessHeif = "heif-enc -L -p chroma=444 --matrix_coefficients=0";
 const PhoneFormat kPhoneFormats[] = {

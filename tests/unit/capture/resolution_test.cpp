@@ -125,7 +125,7 @@ TEST_F(ResolutionTest, finds_a_camera_in_png_and_tiff) {
 }
 
 // The reader must not read beyond the end of truncated or invalid EXIF data. A sanitizer would
-// report such a read. The data before the end may still contain a camera tag.
+// report such a read. A camera tag before the end of truncated data may still be found.
 TEST_F(ResolutionTest, survives_exif_data_that_are_damaged) {
     const std::string exif = test::exif_of({test::date_taken, test::focal_length}, false);
     const std::string jpeg = test::jpeg_of(image_, 90);

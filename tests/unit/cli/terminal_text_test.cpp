@@ -1,4 +1,4 @@
-// Tests the colouring of reports and the text of durations.
+// Tests the colouring of reports and the formatting of durations.
 #include "terminal_text.hpp"
 
 #include <gtest/gtest.h>

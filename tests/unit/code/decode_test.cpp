@@ -185,7 +185,7 @@ TEST(Decode, RefusesPublishedWindowsThatStandTwice) {
         EXPECT_EQ(ambiguous_places(7, 7, along_x), (std::set<std::uint32_t>{198, 218}));
         EXPECT_TRUE(ambiguous_places(8, 8, along_x).empty());
     }
-    // Only the number of columns matters for the x axis.
+    // On the x axis, only the number of columns determines which windows are ambiguous.
     EXPECT_EQ(ambiguous_places(6, 32, true), kTwinPlaces);
     EXPECT_TRUE(ambiguous_places(8, 6, true).empty());
 }
@@ -235,8 +235,8 @@ TEST(Decode, NeverGuessesFromAChanged6x6) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, grid)) << describe(CodeVariant::anoto, place);
         ++elsewhere;
     }
-    // An independent simulation in another language gives 70.6 %. The standard deviation for these
-    // draws is 0.3 %.
+    // An independent simulation in another language gives 70.6 %. With the number of draws used
+    // here, the standard deviation is 0.3 %.
     EXPECT_NEAR(static_cast<double>(elsewhere) / kDraws, 0.706, 0.013);
 }
 
@@ -289,8 +289,8 @@ TEST(Decode, RefusesOneSymbolAllOver) {
     }
 }
 
-/// Returns a window across the border of two sections. In the columns from `cut` onwards, the
-/// section is (`other_u`, `place.section.v`).
+/// Returns a window that extends across the border between two sections. In the columns from `cut`
+/// onwards, the section is (`other_u`, `place.section.v`).
 Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int cut) {
     Grid seam = reference_window(CodeVariant::anoto, place, columns, 8);
     const Place other{place.cell, {other_u, place.section.v}};
@@ -305,8 +305,8 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
     // Eleven columns have ten differences between adjacent rolls. The difference across the border
-    // of the sections is wrong. At least five of the correct differences are on one side of the
-    // border. They determine a position, which the wrong difference contradicts.
+    // between the sections is wrong. At least five of the correct differences are on one side of
+    // the border. They determine a position, which the wrong difference contradicts.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;
@@ -324,14 +324,14 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, eight)) << describe(CodeVariant::anoto, place);
         ++found_in_8;
     }
-    // 0.75 % of the windows with eight columns occur elsewhere in the code, according to an
-    // independent simulation in another language (400,000 draws). The standard deviation of the
-    // result here is 0.06 %.
+    // According to an independent simulation in another language (400,000 draws), 0.75 % of the
+    // windows with eight columns occur elsewhere in the code. The standard deviation of the
+    // fraction measured here is 0.06 %.
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// If a window is decoded in the wrong code variant, the place may be wrong. The expected numbers of
-// windows were computed from the sequences by a program in another language.
+// If a window is decoded in the wrong code variant, the result may be a wrong place. The expected
+// numbers of windows were computed from the sequences by a program in another language.
 TEST(Decode, AnotherVariantReadsSomeWindowsWrong) {
     using Pair = std::pair<CodeVariant, CodeVariant>;
     for (const auto& [printed, read] : {Pair{CodeVariant::anoto, CodeVariant::libdots},

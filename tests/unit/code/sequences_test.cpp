@@ -150,9 +150,9 @@ TEST(MainSequence, LongerStringsDifferInMorePlaces) {
     EXPECT_EQ(smallest_distance_to_turned(17), 2);
 }
 
-// Flips each bit of each 8-bit string of the main sequence, and then chooses the nearest 8-bit
-// string of the sequence, with ties broken at random. According to the paper (section II-B.7), 36 %
-// of these choices are correct. Enumeration gives 8/21, which is 38 %.
+// For each bit of each 8-bit string of the main sequence, flips the bit and then chooses the
+// nearest 8-bit string of the sequence, with ties broken at random. According to the paper (section
+// II-B.7), 36 % of these choices are correct. Enumeration gives 8/21, which is 38 %.
 TEST(MainSequence, TheNearestStringIsTheRightOneIn38Percent) {
     const auto all = main_strings(8);
     double right = 0;

@@ -54,7 +54,8 @@ TEST(Status, ValuesCountFromZero) {
     }
 }
 
-// Receivers in other languages use the numbers in docs/pose-packet.md.
+// Receivers written in other languages decode the numbers according to docs/pose-packet.md, so the
+// table there must be complete and correct.
 TEST(Status, NumbersAreThoseOfTheDocumentedPackets) {
     std::ifstream file(test::source_dir() + "/docs/pose-packet.md");
     const std::string text(std::istreambuf_iterator<char>(file), {});
@@ -65,7 +66,7 @@ TEST(Status, NumbersAreThoseOfTheDocumentedPackets) {
     }
 }
 
-// The numbers are sent between devices and hosts of different versions.
+// Devices and hosts of different versions exchange these numbers, so no number may ever change.
 TEST(Status, NumbersAreThoseOfTheFirstVersion) {
     EXPECT_EQ(static_cast<int>(Status::ok), 0);
     EXPECT_EQ(static_cast<int>(Status::grid_too_small), 8);

@@ -1,6 +1,6 @@
-// Tests the tables of the minimum number of lines that two places in a sequence do not share. Two
-// places share a line at shift s if their rolls in this line differ by s. The expected numbers are
-// obtained by counting lines.
+// Tests the tables that contain the minimum number of lines that two places in a sequence do not
+// share. Two places share a line at shift s if their rolls in this line differ by s. The tests
+// obtain the expected numbers by counting lines.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>

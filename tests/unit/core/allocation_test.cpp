@@ -10,7 +10,8 @@
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-// AddressSanitizer replaces operator new and must see the allocations made by the tests.
+// The operators are not replaced under AddressSanitizer. It replaces them itself, and must see the
+// allocations made by the tests.
 #ifndef __SANITIZE_ADDRESS__
 
 namespace {
@@ -91,7 +92,7 @@ int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& 
 
 TEST(Allocation, IsSeenWhereItHappens) {
     const int before = allocations;
-    // Compilers may remove new-expressions, but not direct calls to the operator.
+    // Calls the operators directly, because compilers may remove new-expressions.
     ::operator delete(::operator new(1));
     EXPECT_EQ(allocations - before, 1);
 }

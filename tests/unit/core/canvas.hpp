@@ -97,7 +97,7 @@ inline std::vector<DetectedDot> blobs_of(const GreyImage& image) {
     return blobs_of(image, workspace);
 }
 
-/// Returns the distance from `place` to the nearest dot.
+/// Returns the distance, in px, from `place` to the centroid of the nearest dot.
 inline double nearest_px(const std::vector<DetectedDot>& dots, Vec2 place) {
     double nearest = 1e9;
     for (const DetectedDot& dot : dots)

@@ -112,8 +112,7 @@ inline std::vector<DetectedDot> dots_of(const std::vector<PlacedDot>& placed) {
     return dots;
 }
 
-/// Returns a displacement by a sixth of the spacing in one of the four directions, chosen at
-/// random.
+/// Returns a displacement of a sixth of the spacing, in one of the four directions at random.
 inline Vec2 random_displacement(Rng& rng) {
     const auto symbol = static_cast<Symbol>(rng.below(4));
     return {dx(symbol) / 6.0, dy(symbol) / 6.0};
@@ -130,8 +129,8 @@ struct View {
     Vec2 image_px{188, 120};
 
     Vec2 centre_px() const { return {(image_px.x - 1) / 2, (image_px.y - 1) / 2}; }
-    /// Steps on the pattern, in spacings, that correspond to one px along u or v of the image.
-    /// These are the columns of R(theta) / spacing_px.
+    /// Displacements on the pattern, in spacings, that correspond to a displacement of one px along
+    /// the image axes u and v. These vectors are the columns of R(theta) / spacing_px.
     Vec2 du() const { return {std::cos(theta_rad) / spacing_px, std::sin(theta_rad) / spacing_px}; }
     Vec2 dv() const { return {-du().y, du().x}; }
     Vec2 pattern(Vec2 p_px) const {

@@ -1,5 +1,5 @@
-// Tests how predictions follow the motion of the camera, against plane geometry in double
-// precision.
+// Tests that predictions follow the motion of the camera. The expected values are computed from
+// plane geometry in double precision.
 #include "dotpose/prediction.hpp"
 
 #include <gtest/gtest.h>

@@ -10,8 +10,8 @@
 
 namespace dotpose::core_test {
 
-/// The matrices P of a view. The grid is rotated by the quarter turn `turn`, and its cell (0, 0) is
-/// near the image centre.
+/// A view, its dots, and the matrices P read from the dots. The grid is rotated by the quarter turn
+/// `turn`, and its cell (0, 0) is near the image centre.
 struct Reading {
     Reading(const View& view_, QuarterTurn turn_, std::vector<DetectedDot> dots_, int side = 64)
         : view(view_), turn(turn_), dots(std::move(dots_)), owned(side) {
@@ -40,7 +40,7 @@ struct Reading {
     QuarterTurn turn;
     std::vector<DetectedDot> dots;
     OwnedGrid owned;
-    FixedVec zero;  ///< pattern steps from `view.place` to the grid's cell (0, 0)
+    FixedVec zero;  ///< pattern steps from `view.place` to cell (0, 0) of the grid
     PlaneFromImage plane;
     Status status;
     Decoding decoding;  ///< only the regions to decode are set

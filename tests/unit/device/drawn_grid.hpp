@@ -16,12 +16,12 @@ namespace dotpose::core_test {
 struct Drawing {
     int columns = 6;
     int rows = 6;
-    int quarters = 0;    ///< quarter turns from the grid to the pattern
+    int quarters = 0;    ///< number of quarter turns from the grid to the pattern
     double wrong = 0;    ///< probability that a bit is wrong
     double missing = 0;  ///< probability that a cell is missing
 };
 
-/// A grid that contains the bits in a rectangle on a known sheet.
+/// A grid that contains the bits of a rectangle on a known sheet.
 class DrawnGrid {
   public:
     /// `at` is the upper left cell of the rectangle.

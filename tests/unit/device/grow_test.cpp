@@ -1,5 +1,5 @@
-// Tests `grow_grid`, which extends a rough estimate in the middle to a grid without perspective
-// over the whole image.
+// Tests `grow_grid`, which starts from a rough estimate in the middle of the image and extends the
+// grid over the whole image. The grids have no perspective.
 #include "device/grow.hpp"
 
 #include <gtest/gtest.h>
@@ -40,9 +40,9 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     }
 }
 
-/// `grow_grid` remembers the cells of a limited number of dots between fits. With more dots, each
-/// fit computes its sums over all dots instead of updating them for dots whose cell has changed.
-/// The result must be the same.
+/// Between fits, `grow_grid` stores the cells of a limited number of dots. With more dots, each fit
+/// computes its sums over all dots instead of updating them for dots whose cell has changed. The
+/// result must be the same.
 TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
     Rng rng(kSeed);
     for (int i = 0; i < 50; ++i) {

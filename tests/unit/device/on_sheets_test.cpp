@@ -1,4 +1,4 @@
-// Tests device locators with known sheets on small frames.
+// Tests device locators that locate small frames on known sheets.
 #include "device/on_sheets.hpp"
 
 #include <algorithm>

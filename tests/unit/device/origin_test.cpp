@@ -42,7 +42,7 @@ void expect_origin(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 
     EXPECT_LT(std::max(std::abs(g.x), std::abs(g.y)), 0.5 + tolerance);
 }
 
-/// Runs a check for grids with many spacings, angles and phases.
+/// Runs a check on grids with various spacings, angles and phases.
 template <typename Check>
 void for_many_grids(Check check) {
     Rng rng(kSeed);

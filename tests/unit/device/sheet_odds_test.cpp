@@ -1,5 +1,5 @@
-// Compares the upper bound on the probability of a wrong place on known sheets to a sum over all
-// places in double precision.
+// Compares the upper bound on the probability of a wrong place on known sheets with the sum over
+// all places, computed in double precision.
 #include "device/sheet_odds.hpp"
 
 #include <cmath>

@@ -21,7 +21,7 @@ template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
     static constexpr int kHeight_px = Height;
-    /// A fix must use more than this number of dots. The dots are 11 px apart.
+    /// Number of dots that a fix must exceed. The dots are 11 px apart.
     static constexpr int kMinDots = MinDots;
     /// log2 of the maximum probability of a wrong position. It is larger for the smallest frames
     /// because they have too few dots for the default maximum.
@@ -40,7 +40,7 @@ Shot shot_of(std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Returns the distance between the pose of a fix and the true pose, in spacings.
+/// Returns the distance between the position in a fix and the true position, in spacings.
 double distance(const Fix& fix, const Shot& shot) {
     return std::hypot(std::remainder(fix.x_grid() - x_grid(shot.pose), double{kPositionsPerAxis}),
                       std::remainder(fix.y_grid() - y_grid(shot.pose), double{kPositionsPerAxis}));

@@ -284,9 +284,9 @@ TEST(DrawFrame, head_and_note_of_a_panel_do_not_overlap) {
         const std::regex note(R"re(font-size="([0-9.]+)" text-anchor="end" [^>]*>([^<]*)<)re");
         int notes = 0;
         for (std::sregex_iterator found(svg.begin(), svg.end(), note), end; found != end; ++found) {
-            // DejaVu Sans is the widest of the fonts. In this font, the longer heading is 562 of
-            // the 1200 units wide, and a letter of a note is at most 0.634 times the font size
-            // wide.
+            // DejaVu Sans is the widest of the fonts. In this font, the longer heading is 562 units
+            // wide, and the width of a letter in a note is at most 0.634 times the font size. The
+            // drawing is 1200 units wide.
             const double size = std::stod((*found)[1]);
             EXPECT_LT(562 + 0.634 * size * static_cast<double>((*found)[2].length()), 1200)
                 << (*found)[2];

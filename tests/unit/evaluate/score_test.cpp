@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kBamPerDegree = 2147483648.0 / 180;
 
-/// Returns an outcome whose fix has the given errors. The truth is at (1000.25, 2000.5), 10
-/// degrees, section (3, 4).
+/// Returns an outcome whose fix has the given errors. The true pose is (1000.25, 2000.5) in section
+/// (3, 4), with an angle of 10 degrees.
 Outcome outcome(double dx_q16 = 0, double dy_q16 = 0, double dtheta_deg = 0) {
     Outcome outcome;
     outcome.truth = {true, 1000.25, 2000.5, 10 * std::numbers::pi / 180, Section{3, 4}, 0.5};

@@ -207,8 +207,8 @@ TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
     camera.centre_px = {93.5, 59.5};
     // The axes of the paper in the camera frame are (cy, sx sy, -cx sy) and (0, cx, sx), where sx,
     // cx, sy and cy are the sines and cosines of the two tilts. Their cross product is the normal
-    // n. The depth of a pixel is inversely proportional to the scalar product of n and its viewing
-    // ray.
+    // n. The depth of a pixel is inversely proportional to the scalar product of n and the viewing
+    // ray of the pixel.
     const double nx = std::sin(-0.2);
     const double ny = -std::sin(0.3) * std::cos(-0.2);
     const double nz = std::cos(0.3) * std::cos(-0.2);

@@ -106,8 +106,8 @@ TEST(SheetFile, allocates_regions_that_keep_their_distance) {
 }
 
 TEST(SheetFile, the_gap_is_wider_than_the_largest_frame) {
-    // The gap must be longer than the diagonal of the largest frame: 4096 x 4096 px at the minimum
-    // spacing of 6 px.
+    // The gap must exceed the diagonal of the largest frame: 4096 x 4096 px at the minimum spacing
+    // of 6 px.
     EXPECT_GT(kSheetGap_cells, std::sqrt(2.0) * 4096 / 6);
 }
 

@@ -95,7 +95,7 @@ void expect_refused(const std::string& text, const std::string& problem) {
     EXPECT_THAT([&] { (void)read_sheets(directory / "s.json"); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("s.json"), HasSubstr(problem))))
         << text;
-    // Opening the file to change it gives the same error, and the file remains unchanged.
+    // Opening the file for changes reports the same error, and the file remains unchanged.
     EXPECT_THAT([&] { const SheetFile file(directory / "s.json"); },
                 ThrowsMessage<Error>(HasSubstr(problem)));
     EXPECT_EQ(read_file(directory / "s.json"), text);

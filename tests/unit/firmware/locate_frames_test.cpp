@@ -1,5 +1,5 @@
-// Tests the program that is common to all devices. The functions of `host` read from and write to
-// strings.
+// Tests the program that is common to all devices. In this test, the functions of `host` read the
+// frames from a string and write the output to another string.
 #include "locate_frames.hpp"
 
 #include <cstring>

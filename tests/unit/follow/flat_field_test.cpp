@@ -1,4 +1,4 @@
-// Tests the correction of images with the flat field in a camera file.
+// Tests that images are corrected with the flat field from a camera file.
 #include "dotpose/tools/flat_field.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
-// Tests a Follower on simulated robots. The camera is mounted beside the robot's centre, and sees
-// the pattern with or without known sheets.
+// Tests a Follower on simulated robots. The camera is mounted beside the robot's centre. The sheets
+// are known in some tests and unknown in others.
 #include "dotpose/tools/follower.hpp"
 
 #include <cmath>
@@ -20,8 +20,8 @@ constexpr std::uint64_t kSeed = 2411;
 constexpr double kPivotCells_x = kPivot_x_mm / kDefaultSpacing_mm;
 constexpr double kPivotCells_y = kPivot_y_mm / kDefaultSpacing_mm;
 
-/// Returns the camera file of a robot whose camera is at `kCameraOnRobot_mm` and rotated relative
-/// to the robot. The reference point is the robot's centre.
+/// Returns the calibrated camera of a robot. The camera is at `kCameraOnRobot_mm` and rotated
+/// relative to the robot. The reference point is the robot's centre.
 Camera mounted_camera(const CameraModel& model, double theta_offset_rad) {
     Camera camera = true_camera(model);
     camera.reference_px = PixelPoint{camera.centre_px.u - kCameraOnRobot_mm.x / model.mm_per_px,

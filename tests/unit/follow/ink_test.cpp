@@ -1,4 +1,6 @@
-// Tests the ink of a pen. Paths come from simulate_handwriting, with noise or with rendered frames.
+// Tests the computation of ink from the positions of a pen tip. The paths come from
+// simulate_handwriting. The positions are the points of a path with added noise, or are measured in
+// rendered frames.
 #include "dotpose/tools/ink.hpp"
 
 #include <algorithm>
@@ -18,7 +20,7 @@ namespace {
 
 constexpr double kRate_hz = 200;
 
-/// Returns the samples of a path, with independent errors.
+/// Returns ink samples for a path, with independent errors.
 std::vector<InkSample> noisy(const std::vector<PenSample>& path, double sigma_mm) {
     Rng rng(3);
     std::vector<InkSample> samples;
@@ -103,7 +105,7 @@ TEST(Ink, OfRenderedFramesIsWithin10Micrometres) {
     ASSERT_EQ(pages.size(), 1U);
     expect_strokes(pages[0], path);
     EXPECT_LT(rms_mm(pages[0], path), 0.01);
-    EXPECT_LE(wrong_contacts, 2U);  // one wrong frame at each end of the lift
+    EXPECT_LE(wrong_contacts, 2U);  // one at each end of the lift
 }
 
 TEST(Ink, IsDividedByPagesAndGaps) {

@@ -142,9 +142,9 @@ TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
     EXPECT_LE(test.with.absolute_um(), 0.2);
 }
 
-/// The tracked attempt measures dots in windows at their nominal positions, which would pull the
-/// centres of dots with jitter towards these positions. Fixes in a sequence must be as accurate as
-/// fixes from single images.
+/// The tracked attempt measures each dot in a small window at its nominal position. This biases the
+/// measured centres of dots with jitter towards their nominal positions. Nevertheless, fixes in a
+/// sequence must be as accurate as fixes from single images.
 TEST_F(PrintMapping, FollowsAsExactlyAsItLocates) {
     FollowerOptions options;
     options.sheets = {print_->entry()};

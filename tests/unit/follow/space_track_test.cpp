@@ -1,4 +1,5 @@
-// Tests the tracker for a camera in space with simulated sightings of a known motion.
+// Tests the tracker for the pose of a camera in space. The sightings are simulated from a known
+// motion.
 #include "dotpose/tools/space_track.hpp"
 
 #include <algorithm>
@@ -317,7 +318,7 @@ TEST(SpaceTrack, RejectsOutliersAndFollowsAJump) {
         EXPECT_EQ(track.verdict, is_outlier ? SpaceVerdict::rejected : SpaceVerdict::accepted) << i;
         EXPECT_LT(std::abs(track.camera.x_mm - hand_at(t_s).x_mm), 0.5) << i;
     }
-    // The camera is now elsewhere. The third sighting starts a new track.
+    // The camera is now 500 mm away. The third sighting at this position starts a new track.
     for (int i = 0; i < 3; ++i) {
         const double t_s = 2 + i / 100.0;
         CameraInSpace truth = hand_at(t_s);

@@ -1,5 +1,5 @@
-// Tests fixes from frames whose code variant is not given. The fixes must equal those from the same
-// frames with the code variant given.
+// Tests locating frames whose code variant is not given. The fixes must equal those of the same
+// frames when the code variant is given.
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST_F(AnyCodeTest, GivenAProfileAllIsAsItWas) {
         for (std::uint64_t i = 0; i < 12; ++i) {
             SCOPED_TRACE(i);
             const GreyImage image = render(draw_shot(setup_of(preset), i));
-            // Fills the memory with other data, which must have no effect.
+            // Fills the memory with data from another call, which must have no effect.
             static_cast<void>(
                 Locator(*memory_, DeviceOptions{}).locate_in_any_code(image.view(), {}));
             const Fix fix = Locator(*memory_, DeviceOptions{}).locate_in_code(image.view()).fix;

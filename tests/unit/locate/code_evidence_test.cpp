@@ -60,8 +60,8 @@ TEST(CodeEvidence, CountsAPlaceAtMost32BitsHoweverManyFramesSayMore) {
     for (int frame = 0; frame < 3; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 60));
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), -32 * 256);
-    // Now 255 out of 256 frames are neutral, and the factor of each of the other frames is limited
-    // to 2^40. The mean factor is therefore 2^40 / 256 = 2^32.
+    // Of every 256 frames, 255 are now neutral. The factor of the other frame is limited to 2^40,
+    // so the mean factor is 2^40 / 256 = 2^32.
     for (int frame = 0; frame < 3 * 255; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 0));
     EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -32 * 256, kRounding);

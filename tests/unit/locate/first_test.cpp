@@ -87,8 +87,8 @@ TEST(LocateFirst, SettlesImagesWithTooFewDotsBeforeTheirGrid) {
 TEST(LocateFirst, SettlesSmallViewsWithFewCells) {
     int found = 0;
     for (std::uint64_t i = 0; i < 100; ++i) {
-        // A view of 64 cells is too small. The attempt must recognise this even if some dots are
-        // not clear.
+        // A view of 64 cells is too small. The attempt must report this even if some dots are not
+        // clear.
         const Fix fix = outwards(render(shot_of({9, 72, 72, Preset::nominal}, kSeed, i)));
         EXPECT_NE(fix.status, Status::ok) << "shot " << i;
         found += large_workspace().measurement.shows_too_few_cells ? 1 : 0;

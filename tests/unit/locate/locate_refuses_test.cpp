@@ -101,7 +101,7 @@ TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
 }
 
 TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
-    // One dark corner has contrast, and forms a blob that is too large for a dot.
+    // A single dark corner provides contrast, but forms a blob that is too large for a dot.
     GreyImage image{std::vector<std::uint8_t>(64 * 64, 255), 64, 64};
     for (std::size_t v = 0; v < 32; ++v)
         std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(64 * v), 32,

@@ -1,5 +1,6 @@
-// Tests the whole pipeline on simulated frames. A fix must not depend on the memory, on earlier
-// frames, or on whether the frame is passed as an image or row by row.
+// Tests the whole pipeline on simulated frames. A fix must not depend on the type or the previous
+// contents of the memory, on earlier frames, or on whether the frame is passed as an image or row
+// by row.
 #include "dotpose/locate.hpp"
 
 #include <cmath>
@@ -216,7 +217,8 @@ TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
 }
 
 TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
-    // Frames of other sizes and refused frames that come in between must have no effect.
+    // Before a frame is located, the locator processes frames of other sizes and frames that it
+    // refuses. These frames must have no effect.
     const auto used_memory = std::make_unique<LargeMemory>();
     Locator used(*used_memory, DeviceOptions{});
     const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));
@@ -316,8 +318,8 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
             const Fix fix = Locator(memory, options).locate(frame.view());
             ASSERT_EQ(fix.status, Status::ok);
-            // Pattern point seen by the pixel according to the camera model, in spacings relative
-            // to the true pose.
+            // Pattern point at the pixel according to the camera model, in spacings relative to the
+            // true pose.
             const Vec2 pixel = Vec2{93.5, 59.5} + offset;
             const Vec2 from_pose = 1 / kDefaultSpacing_mm *
                                    Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
@@ -354,8 +356,8 @@ TEST(Locate, ALensIsUndone) {
     }
 }
 
-// The second attempt also measures dots that were not found as blobs, at the positions predicted by
-// the code. These dots must be counted as seen, too.
+// At the positions predicted by the code, the second attempt also measures dots that were not found
+// as blobs. These dots must be counted as seen, too.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

@@ -1,5 +1,5 @@
-// Tests the options that are given in millimetres, pixels or ratios: units, ranges, and effects in
-// each attempt.
+// Tests the options that are given in millimetres, pixels or ratios: their units, their ranges, and
+// their effect in each attempt.
 #include "dotpose/locator_options.hpp"
 
 #include <algorithm>
@@ -162,7 +162,7 @@ TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
               Status::ok);
 }
 
-/// Returns the frame with its contrast scaled by `by`, relative to the grey level 128.
+/// Returns the frame with its contrast multiplied by `by`. The grey level 128 does not change.
 GreyImage paled(GreyImage image, double by) {
     for (std::uint8_t& grey : image.pixels)
         grey = static_cast<std::uint8_t>(std::lround(128 + by * (grey - 128)));

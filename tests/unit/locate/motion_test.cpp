@@ -49,7 +49,7 @@ MeasuredMotion draw_motion(double view_mm, Rng& rng) {
     return motion;
 }
 
-/// Returns the measurement of a motion, with normally distributed errors.
+/// Returns a measurement of a motion: the true motion plus normally distributed errors.
 MeasuredMotion measured(const MeasuredMotion& motion, float sigma_mm, float sigma_rad, Rng& rng) {
     MeasuredMotion seen = motion;
     seen.right_mm += static_cast<float>(rng.normal()) * sigma_mm;

@@ -36,9 +36,9 @@ core::BitBlock upright_block(CodeVariant code, const Place& place) {
     return block;
 }
 
-/// Returns a block of bits of the code, in the shape of a strip seen at an angle to the grid: 18
-/// columns of 5 cells, which step down by one cell every two columns. Most lines are too short to
-/// determine their rolls.
+/// Returns a block of bits of the code, in the shape of a strip at an angle to the grid. The strip
+/// has 18 columns of 5 cells, and steps down by one cell every two columns. Most lines are too
+/// short to determine their rolls.
 core::BitBlock slanted_block(CodeVariant code, const Place& place) {
     constexpr int kColumns = 18;
     constexpr int kHeight = 5;

@@ -85,7 +85,8 @@ core::BitBlock bits_in_view(const Shot& shot, const Place& place) {
     return block;
 }
 
-/// Returns true if the dots in view, read without an error, make the position certain.
+/// Returns true if the dots in view would make the position certain if they were read without
+/// error.
 bool carries_position(const Shot& shot) {
     const CodeVariant code = shot.page.pattern.code;
     const Place place{shot.pose.cell, shot.page.pattern.section};

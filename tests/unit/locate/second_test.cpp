@@ -1,4 +1,5 @@
-// Tests the second attempt: which frames reach it, and which frames only it can locate.
+// Tests which frames reach the second attempt, and which frames can be located only by the second
+// attempt.
 #include "locate/second.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Simulated frames of any spacing, and checks of their fixes.
+// Simulates frames with any grid spacing, and checks their fixes.
 #pragma once
 
 #include <cmath>

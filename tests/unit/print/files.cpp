@@ -88,7 +88,7 @@ Bitmap read_tiff(const fs::path& path) {
     TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x_dpi);
     TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y_dpi);
     // libtiff converts the samples to RGBA, so the test does not depend on which value is black in
-    // the file. It returns the rows from bottom to top.
+    // the file. libtiff returns the rows from bottom to top.
     std::vector<std::uint32_t> pixels(std::size_t{width} * height);
     const bool read = TIFFReadRGBAImage(tiff, width, height, pixels.data(), 1) == 1;
     TIFFClose(tiff);

@@ -98,9 +98,9 @@ Marks marks_of(const std::string& content, double height_mm) {
 TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const Sheet sheet = make_sheet(small_page(10));
     const Marks marks = marks_of(content_of_labels(sheet, {1, 1}, named()), sheet.height_mm);
-    // On each ruler, the last tick is at the last whole millimetre before the end of the dots: at
-    // 89 mm above the dots, and at 49 mm beside them. There are no ticks from 5 to 9 mm, where the
-    // arrows are.
+    // On each ruler, the last tick is at the last whole millimetre before the end of the dots. It
+    // is at 89 mm on the ruler above the dots, and at 49 mm on the ruler beside them. There are no
+    // ticks from 5 to 9 mm, where the arrows are.
     std::vector<double> expected_x = {1, 2, 3, 4};
     std::vector<double> expected_y = expected_x;
     for (int mm = 10; mm <= 89; ++mm) {

@@ -46,8 +46,8 @@ Sheet small_sheet() {
 constexpr int kFirst_px = 25;
 constexpr int kSpacing_px = 6;
 
-/// Returns the pixels of a dot at `scale` times 300 dpi, relative to the top left corner of its
-/// pixel at 300 dpi.
+/// Returns the pixels of a dot that is printed at `scale` times 300 dpi. Positions are relative to
+/// the top left corner of the pixel that the dot occupies at 300 dpi.
 Pixels dot_shape(int scale) {
     if (scale == 1) return {{0, 0}};
     if (scale == 2) return {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -101,7 +101,7 @@ TEST(write_raster, first_letters_are_those_of_the_code) {
     }
 }
 
-/// Distances, in pixels, of the centroids of the ink from the expected centres of the dots.
+/// Distances between the centroids of the printed dots and their expected centres.
 struct Errors {
     double largest_px = 0;
     double mean_px = 0;

@@ -31,7 +31,7 @@ Sheet page() {
     return make_sheet(options);
 }
 
-/// Limits the size of files to `limit_bytes` during its lifetime, as on a full disk.
+/// Simulates a full disk: during the lifetime of the object, no file can grow beyond `limit_bytes`.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t limit_bytes) {

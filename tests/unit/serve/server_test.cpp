@@ -71,7 +71,7 @@ std::string get(const Server& server, const std::string& path, const std::string
     return socket.receive(end);
 }
 
-/// A WebSocket client. The payloads of its frames are shorter than 126 bytes, so their length is a
+/// A WebSocket client. It sends only payloads shorter than 126 bytes, whose length is encoded in a
 /// single byte.
 class WebSocket : public Socket {
   public:

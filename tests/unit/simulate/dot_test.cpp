@@ -175,7 +175,7 @@ TEST(Dot, BlurAndMotionWidenItAsTheyShould) {
     EXPECT_NEAR(dot.variance_u, still + 1.8 * 1.8 / 12, 0.01);
 }
 
-// A printing error belongs to the dot on the paper. A camera must therefore measure the same error
+// The printing error of a dot is fixed on the paper. A camera must therefore measure the same error
 // from every pose.
 TEST(Dot, PrintingErrorsBelongToThePage) {
     Imperfections seen;

@@ -1,4 +1,4 @@
-/// Frames of a single dot, and measurements of the dot.
+/// Renders frames that show a single dot, and measures the dot in these frames.
 #pragma once
 
 #include <cmath>

@@ -9,7 +9,7 @@ namespace dotpose {
 namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
-constexpr std::int64_t kFrame_us = 20'000;  // period of a camera with 50 frames per second
+constexpr std::int64_t kFrame_us = 20'000;  // frame period at 50 frames per second
 
 Fix at(double x_grid, double y_grid = 50, double theta_deg = 0) {
     const auto q16 = [](double grid) { return static_cast<std::int64_t>(grid * 65536); };
@@ -64,11 +64,11 @@ TEST(FramePacer, TakesEveryFrameOfAMovingDevice) {
 
 TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     Device device;
-    // The device is at rest, and its fixes have a noise of 0.01 spacings.
+    // The device is at rest, and the positions of its fixes have noise of 0.01 spacings.
     device.run_until(65 * kSecond_us, [](std::int64_t t) {
         return at(100 + (t / kFrame_us % 2 == 0 ? 0.01 : -0.01));
     });
-    // Frames are taken from 0 s to 5 s, then at 6 s, 7 s, ... 64 s.
+    // Frames are taken every 20 ms from 0 s to 5 s, and then at 6 s, 7 s, ... 64 s.
     ASSERT_EQ(device.frames_us.size(), 251U + 59);
     EXPECT_EQ(device.frames_us[250], 5 * kSecond_us);
     EXPECT_EQ(device.motions[249], Motion::moving);

@@ -159,7 +159,8 @@ TEST(Tracker, IsKidnappedIfFoundBeyondReach) {
     Tracker tracker({.max_speed_mm_s = 300});
     drive(tracker, 0, 100'000);
     tracker.update(200'000, nullptr);  // lost
-    // At 300 mm/s, the robot moves by at most 90 mm in 0.3 s.
+    // At 300 mm/s, the robot can move by at most 90 mm in the 0.3 s from its last sighting to the
+    // first of these sightings.
     EXPECT_EQ(events_of(see(tracker, at(395'000, 130))), "");
     EXPECT_TRUE(tracker.track().is_lost);
     EXPECT_EQ(events_of(see(tracker, at(400'000, 130))), "");
@@ -187,8 +188,8 @@ TEST(Tracker, BelievesWeakSightingsThatThePriorSupports) {
     drive(tracker, 0, 100'000);
     const Track& track = see(tracker, weak(at(100'000, 10, 0, 0.2), -12));
     EXPECT_EQ(track.verdict, Verdict::with_prior);
-    // The gate extends at least 0.125 mm to each side (half of the permitted acceleration times the
-    // squared time), but is narrower than a cell. It therefore contains 2 to 4 of the 2^36
+    // The gate extends at least 0.125 mm to each side (half the permitted acceleration times the
+    // square of the time), but is narrower than a cell. It therefore contains 2 to 4 of the 2^36
     // hypotheses.
     EXPECT_GE(track.p_wrong_log2, -12 + 1 - 36);
     EXPECT_LE(track.p_wrong_log2, -12 + 2 - 36);
@@ -202,7 +203,7 @@ TEST(Tracker, RefusesOtherWeakSightings) {
         return see(tracker, sighting).verdict;
     };
     // Three sightings must be refused: one outside the gate, one whose p_wrong is hardly better
-    // than chance, and one of a lost robot.
+    // than chance, and one that arrives while the robot is lost.
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 12, 0, 0.2), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 10, 0, 0.2), -9)), Verdict::too_weak);
     EXPECT_EQ(verdict(165'000, weak(at(165'000, 16.5, 0, 0.33), -12)), Verdict::too_weak);

@@ -8,7 +8,7 @@ export interface Layers {
     /** Draws rings around the detected dots. */
     found?: boolean;
     grid?: boolean;
-    /** Draws the symbols of the code in view, as dots of four colours. */
+    /** Draws the symbols of the code in view, as dots in four colours. */
     symbols?: boolean;
     /** Draws arrows from the reference point along the x and y axes of the paper. */
     pose?: boolean;

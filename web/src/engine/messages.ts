@@ -71,7 +71,7 @@ export interface CellsInView {
     symbols: Uint8Array;
 }
 
-/** Quality of an image, measured on a sample of its pixels. */
+/** Quality of an image, measured from a sample of its rows. */
 export interface ImageQuality {
     /** Mean grey level. */
     brightness: number;

@@ -44,7 +44,7 @@ function axesOf(reading: Reading): Axes {
     return { at, x: towards(pixelOf(reading, x + 1, y)), y: towards(pixelOf(reading, x, y + 1)) };
 }
 
-/** Returns the frame of a reading with its overlay. */
+/** Returns the frame of a reading, together with the overlay. */
 export function drawnFrame(reading: Reading): DrawnFrame {
     const { fix, cells, picture, width_px, height_px } = reading;
     return {

@@ -1,4 +1,4 @@
-// Measures the brightness, contrast and sharpness of an image on a sample of its rows.
+// Measures the brightness, contrast and sharpness of an image from a sample of its rows.
 import type { Image } from "dotpose";
 import type { ImageQuality } from "./messages.js";
 

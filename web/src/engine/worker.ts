@@ -12,7 +12,7 @@ const port = self as unknown as {
     onmessage: ((event: MessageEvent<Request>) => void) | null;
 };
 
-/** The locator used for the newest reading, with its options as the key. */
+/** The locator used for the newest reading. `key` contains its options as JSON. */
 let current: { key: string; locator: Promise<Locator> } | undefined;
 let previous: Fix | null = null;
 

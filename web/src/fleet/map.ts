@@ -12,7 +12,10 @@ import { boundsOf, touches, union, Viewport, type Bounds_mm } from "./viewport.j
 
 const kAskPeriod_ms = 150;
 const kRateSpan_ms = 2000;
-/** Time between two updates of the displayed counts. Each update makes the browser lay out part of the page. */
+/**
+ * Time between two updates of the displayed counts. It is long because each update makes the browser lay out part of
+ * the page.
+ */
 const kCountPeriod_ms = 500;
 /** Minimum number of robots in view at which their marks are copied as pixels. */
 const kMinCopied = 500;
@@ -52,7 +55,7 @@ export class FleetMap {
     /** `choose` is called with the number of the robot that the user clicks. */
     constructor(connection: Connection, choose: (id: number) => void) {
         this.#connection = connection;
-        // An opaque canvas need not be blended with the page.
+        // Makes the canvas opaque. The browser then need not blend it with the page.
         this.#canvas.getContext("2d", { alpha: false });
         listen(this.#canvas, {
             begin: () => {},

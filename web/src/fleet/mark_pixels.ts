@@ -5,7 +5,7 @@ import { addMark, kDrawingOrder, kSquare, paintMarks, paintSquares, radiusFor } 
 import { kConditions, type Positions } from "./messages.js";
 import type { Viewport } from "./viewport.js";
 
-/** Number of distinct headings of the marks. */
+/** Number of headings for which marks are prepared. Headings are rounded to the nearest of these. */
 const kHeadings = 64;
 const kFirstHeading = kConditions.length;
 const kSquareMark = kFirstHeading + kHeadings;
@@ -46,7 +46,7 @@ export class MarkPixels {
     #ground = new Uint32Array(0);
     #image: ImageData | null = null;
     #pixels = new Uint32Array(0);
-    /** The marks for each condition and each heading, and the square for unknown robots. */
+    /** A mark for each condition, a mark for each heading of a moving robot, and the square for unknown robots. */
     #marks: Mark[] = [];
     /** Scale, radius and colour for which `#marks` were drawn. */
     #look = "";

@@ -17,7 +17,7 @@ export const kSymbols: Record<Condition, string> = { moving: "▲", still: "●"
 
 /** Order in which the conditions are drawn. Robots that need attention are drawn last, on top of the others. */
 export const kDrawingOrder: readonly Condition[] = ["gone", "still", "moving", "lost", "silent"];
-/** Half the side of the square around an unknown robot, relative to the radius of the mark. */
+/** Half the side length of the square around a robot on an unknown sheet, relative to the radius of the mark. */
 export const kSquare = 1.8;
 
 /** Returns the radius of a mark. It decreases with the number of robots in view. */
@@ -25,7 +25,7 @@ export function radiusFor(count: number): number {
     return count > 500 ? 3.5 : count > 100 ? 5 : 7;
 }
 
-/** Adds a mark to the path. `angle` is the heading on the canvas, or null. */
+/** Adds a mark to the current path of the canvas. `angle` is the heading on the canvas, or null. */
 export function addMark(context: CanvasRenderingContext2D, condition: Condition, x: number, y: number, angle: number | null, r: number): void {
     if (condition === "silent") {
         context.moveTo(x - r, y - r);

@@ -85,7 +85,7 @@ function leansText(leans: CalibrationState["leans"]): string {
 function draw(id: string, text: string, paint: (canvas: HTMLCanvasElement) => void): void {
     const canvas = element(id, HTMLCanvasElement);
     canvas.setAttribute("aria-label", text);
-    // A canvas in a hidden part of the page has no size.
+    // Draws nothing if the canvas is in a hidden part of the page, where it has no size.
     if (canvas.clientWidth > 0) paint(canvas);
 }
 

@@ -6,7 +6,10 @@ const kMissing = "rgba(213, 60, 40, 0.34)";
 /** Values at the rim of the tilt drawing: the change of the scale for a lens, and the tangent of the tilt for a pen. */
 export const kMaxTilt = 0.15;
 export const kMaxLean = Math.tan((45 * Math.PI) / 180);
-/** Minimum residual that an arrow of maximum length represents. Arrows that show only noise therefore stay short. */
+/**
+ * Lower limit of the residual that is represented by an arrow of maximum length. Arrows that show only noise therefore
+ * stay short.
+ */
 const kMinFullScale_px = 0.05;
 
 /** Marks the parts of the image in which no dots have been seen. The frame must already be on the canvas. */
@@ -20,8 +23,8 @@ export function drawMissing(canvas: HTMLCanvasElement, { columns, covered }: Len
 }
 
 /**
- * Draws the sectors of a full turn, filled if they have been seen, and the direction of the newest frame. The first
- * sector begins `begin` sectors after direction 0.
+ * Draws the sectors of a full turn, with those already seen in a different colour, and an arrow in the direction of the
+ * newest frame. The first sector begins `begin` sectors after direction 0.
  */
 export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], theta_rad: number | null, begin = 0): void {
     const { context, width, height } = surfaceOf(canvas);

@@ -7,15 +7,15 @@ export type Phase = "idle" | "collecting" | "solving" | "solved" | "failed" | "s
 export interface Gauge {
     label: string;
     text: string;
-    /** Fraction of the goal, at most 1. */
+    /** Fraction of the goal that has been reached, at most 1. */
     share: number;
     is_reached: boolean;
 }
 
-/** Coverage of image parts, directions and tilts by the frames accepted for the lens calibration. */
+/** Parts of the image, directions and tilts covered by the frames accepted for the lens calibration. */
 export interface LensCoverage {
     columns: number;
-    /** A digit for each part of the image, row by row: 1 if dots have been seen in this part. */
+    /** A digit for each part of the image, row by row: 1 if dots have been seen in this part, otherwise 0. */
     covered: string;
     directions: boolean[];
     /** Direction of the newest frame. Null if the frame was not located. */
@@ -45,7 +45,7 @@ export interface Result {
     /** Rows of the report, as pairs of a label and its text. */
     rows: [string, string][];
     is_good: boolean;
-    /** Improvements that more frames could bring. */
+    /** Improvements that could be achieved with more frames. */
     improvements: string[];
     residuals: Residuals | null;
     stations_mm: Station[];
@@ -62,15 +62,19 @@ export interface CalibrationState {
     gauges: Gauge[];
     advice: string;
     lens: LensCoverage | null;
-    /** For each direction of a turn, or of a pen's tilts, true if the direction has been seen. */
+    /**
+     * True for each direction seen so far: headings of a robot during a turn, or directions in which a pen was tilted.
+     */
     directions: boolean[];
     /** Tilts of a pen. The components are tangents, to the right and down on the sheet. */
     leans: [number, number][];
-    /** Requirements that are not met yet, in a step with a moving robot or pen. */
+    /** In a step with a moving robot or pen, the requirements that have not been met yet. */
     needs: string[];
     problem: string;
     result: Result | null;
-    /** Result of each step in the camera file, as text. Empty if the file does not contain the result. */
+    /**
+     * For each step, the result that the camera file contains, as text. Empty if the file does not contain a result.
+     */
     values: Record<StepName, string>;
 }
 

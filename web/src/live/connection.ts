@@ -51,7 +51,7 @@ export class Connection {
         this.send({ ...request, do: "subscribe", topic });
     }
 
-    /** Changes the request of a topic. The next value is for the new request. */
+    /** Changes the request for a subscribed topic. The server then sends a value for the new request. */
     ask(topic: string, request: Request): void {
         const subscribed = this.#topics.get(topic);
         if (subscribed !== undefined) this.subscribe(topic, subscribed.show, request);

@@ -4,7 +4,7 @@ import { element, show } from "../page/dom.js";
 import type { Point_mm } from "../page/sheet_frame.js";
 import type { Line, Path, Setup } from "./messages.js";
 
-/** Maximum number of positions that are stored between two messages with the path. */
+/** Maximum number of positions that are stored until the next path arrives. */
 const kMaxRecent = 2000;
 
 function pointsOf(coordinates: readonly number[]): Point_mm[] {
@@ -18,7 +18,7 @@ export class PathMap {
     #setup: Setup | null = null;
     #strokes: Point_mm[][] = [];
     #visited = new Set<string>();
-    /** Positions that the strokes do not contain yet. */
+    /** Positions received after the newest path. The strokes do not contain them. */
     #recent: Point_mm[] = [];
     #sheet: string | null = null;
     #now: Point_mm | null = null;

@@ -20,7 +20,7 @@ export function sourceText({ source }: Setup): string {
     return source === "-" ? "standard input" : source;
 }
 
-/** The keys that the page shows from a line printed by `dotpose watch` (docs/schema/lines-1.json). */
+/** Those keys of an output line of `dotpose watch` that the page shows (docs/schema/lines-1.json). */
 export interface Line {
     frame: number;
     t_s: number;
@@ -66,13 +66,13 @@ export interface State {
     recording: { is_on: boolean; name: string; frames: number; notice: string; files: string[] };
 }
 
-/** Numbers of frames by status, for each second with frames. */
+/** Number of frames with each status, for each second in which there were frames. */
 export interface History {
     seconds: { second: number; frames: Record<string, number> }[];
 }
 
 export interface Path {
-    /** Strokes of the path, with alternating x and y. */
+    /** Strokes of the path. Each stroke contains alternating x and y. */
     strokes_mm: number[][];
     visited: string[];
 }

@@ -51,7 +51,7 @@ class Meter {
         });
     }
 
-    /** Resets the maximum steepness, for example after the lens was changed. */
+    /** Resets the maximum steepness, for example after the lens has been changed. */
     restart(): void {
         this.#best = 0;
     }
@@ -78,7 +78,10 @@ export class Picture {
         this.request();
     }
 
-    /** Requests frames in the displayed size. Requests none while the page or the picture is hidden. */
+    /**
+     * Requests large or small frames, depending on the displayed size and on the frame rate. Requests none while the
+     * page or the picture is hidden.
+     */
     request(): void {
         const shown_px = this.#canvas.clientWidth * window.devicePixelRatio;
         const wanted = document.hidden || shown_px === 0 ? "" : this.#is_slow || shown_px <= kSmall_px ? kSmall : kLarge;

@@ -13,7 +13,10 @@ interface Place {
     angle_deg: number;
 }
 
-/** Returns the pose on the sheet or, in a world, the tracked pose. Returns null if neither is known. */
+/**
+ * Returns the pose on the sheet. In a world, or if the sheet is not known, returns the tracked pose instead. Returns
+ * null if there is no pose.
+ */
 export function placeOf(line: Line, setup: Setup | null): Place | null {
     if (setup?.plane !== "world" && typeof line.x_sheet_mm === "number") {
         return {

@@ -38,7 +38,9 @@ export class Refusals {
         return this.#inks.get(reason)!;
     }
 
-    /** Draws one bar per second. The height of a bar is the fraction of refused frames. */
+    /**
+     * Draws one bar per second. The height of a bar represents the fraction of frames that were refused in this second.
+     */
     redraw(): void {
         const { context, width, height } = surfaceOf(this.#canvas);
         const { seconds } = this.#history;

@@ -28,7 +28,10 @@ export class SheetCommands {
         });
     }
 
-    /** Stops waiting for answers, because they would not arrive over a new connection. */
+    /**
+     * Called when the connection breaks. Treats all commands that have not been answered as failed, because their
+     * answers would not arrive over a new connection.
+     */
     disconnected(): void {
         for (const id of [...this.#waiting.keys()])
             this.#take({

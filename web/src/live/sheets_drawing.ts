@@ -62,7 +62,8 @@ function gridStep(scale: number): number {
 }
 
 /**
- * Returns the multiples of a step in a range. Their number is bounded, even if the step is below the rounding error.
+ * Returns the multiples of a step in a range, but at most 200. The limit matters if the step is below the rounding
+ * error.
  */
 function multiples(from: number, to: number, step: number): number[] {
     const kMax = 200;

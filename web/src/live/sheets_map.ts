@@ -8,7 +8,7 @@ import type { Pose, Sheet } from "./sheets_messages.js";
 
 const kMargin_px = 24;
 const kZoom = 1.25;
-/** Time after the last key press at which a pose changed with the keyboard is saved. */
+/** Delay from the last key press until a pose changed with the keyboard is saved. */
 const kKeyPause_ms = 700;
 
 export interface MapEvents {
@@ -32,7 +32,7 @@ export class SheetsMap {
     #may_edit = false;
     #selected = "";
     #robot: RobotOnSheet | null = null;
-    /** Pose of a sheet that is being moved, or whose new pose is not saved yet. */
+    /** Pose of a sheet that is being moved, or whose new pose has not been saved yet. */
     #changed: { name: string; pose: Pose } | null = null;
     #drag: Drag | null = null;
     #key_timer: ReturnType<typeof setTimeout> | undefined;

@@ -95,7 +95,7 @@ export class CameraFrames {
         }
     }
 
-    /** Requests the next frame. Called after the previous frame was drawn. */
+    /** Requests the next frame. Called after the previous frame has been drawn. */
     next(): void {
         if (this.#loop) this.#loop.next();
         else this.engine.next();

@@ -42,7 +42,9 @@ function listenToPointers(canvas: HTMLCanvasElement, gestures: Gestures): void {
         canvas.addEventListener(type, (event) => fingers.delete(event.pointerId));
 }
 
-/** Step sizes for the keys, in CSS pixels and degrees, and the factor for the height. */
+/**
+ * Step sizes for the keys: distances in CSS pixels, an angle in degrees, and the factor by which the height changes.
+ */
 const kStep = 12;
 const kFarStep = 120;
 const kTurn = 5;
@@ -71,7 +73,7 @@ function listenToKeys(canvas: HTMLCanvasElement, gestures: Gestures): void {
     });
 }
 
-/** Calls `gestures` for all gestures on the picture. */
+/** Calls the functions in `gestures` when the user makes gestures on the picture. */
 export function listen(canvas: HTMLCanvasElement, gestures: Gestures): void {
     listenToPointers(canvas, gestures);
     listenToKeys(canvas, gestures);

@@ -29,7 +29,7 @@ export function pageFromPattern(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): P
     };
 }
 
-/** Returns true if a pattern point, in this code and section, is on the sheet. */
+/** Returns true if `at`, a pattern point with its code and section, is on the page of the sheet. */
 export function isOnSheet(
     sheet: SheetLayout,
     at: Point_mm & { code: string; section: { u: number; v: number } },

@@ -1,15 +1,15 @@
-// A panel with the pose of a camera in space: numbers, and a drawing of the camera over the sheet.
+// A panel that shows the pose of a camera in space as numbers, and as a drawing of the camera over the sheet.
 import { element, show } from "./dom.js";
 import { length } from "./format.js";
 import { leanOf, type Angle, type SpacePose } from "./lean.js";
 
-/** Points in the drawing: the point on the paper, and the centre of the view from above. */
+/** Points in the drawing: the point on the paper in the view from the side, and the centre of the view from above. */
 const kPaper = { x: 50, y: 88 };
 const kAbove = { x: 150, y: 50 };
 const kRadius = 40;
 /**
- * Maximum standard deviation of an angle that is shown. For example, the azimuth of a camera without tilt is undefined
- * and therefore not shown.
+ * An angle is shown only if its standard deviation is at most this value. For example, the azimuth of a camera without
+ * tilt is undefined and therefore not shown.
  */
 const kMaxSigma_deg = 45;
 const kNothing = "–";
@@ -105,8 +105,8 @@ export class SpacePanel {
 
     /**
      * Draws the camera. SVG angles are clockwise on the screen, like the azimuth and the turn on the paper. The view
-     * from above shows the axes of the paper or of the world. The view from the side is in the plane in which the
-     * camera leans.
+     * from above shows the axes of the paper or of the world. The view from the side shows the vertical plane
+     * in which the camera is tilted.
      */
     #draw(tilt_deg: number, azimuth_deg: number, turn_deg: number, is_in_world: boolean): void {
         const part = (name: string) => element(`${this.#id}-space-${name}`, SVGElement);

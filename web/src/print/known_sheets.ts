@@ -10,7 +10,7 @@ export interface KnownSheet {
 }
 
 const kKey = "dotpose-sheets";
-/** The list of sheets, kept in memory if the browser does not allow storage. Null otherwise. */
+/** The list of sheets if the browser does not allow storage. Null if the list is in the browser's storage. */
 let unstored: KnownSheet[] | null = null;
 
 /** Returns true for an integer from `min` to `max`. */

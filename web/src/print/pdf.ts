@@ -1,4 +1,5 @@
-// Makes the PDF of a sheet. The dots are the same as those of `dotpose print` at 600 dpi, and use only black ink.
+// Makes the PDF of a sheet. The dots are the same as those of `dotpose print` at 600 dpi. They are printed with black
+// ink only.
 //
 // Dots are drawn with a font of four glyphs. At the default spacing, dots consist of whole printer
 // pixels at 300, 600 and 1200 dpi, and renderers place glyphs on whole pixels.
@@ -49,7 +50,7 @@ function dotFont(context: PDFContext): PDFRef {
     return context.register(
         context.obj({
             ...{ Type: "Font", Subtype: "Type3", FontMatrix: [0.001, 0, 0, 0.001, 0, 0] },
-            // Renderers cache glyphs as bitmaps if their bounding boxes are small.
+            // The bounding box is small, because renderers then cache the glyphs as bitmaps.
             FontBBox: [-kUnitsPerEm / 2, -kUnitsPerEm / 2, kUnitsPerEm / 2, kUnitsPerEm / 2],
             ...{ FirstChar: first, LastChar: last, Widths: Array(last - first + 1).fill(kUnitsPerEm) },
             Encoding: {

@@ -65,8 +65,8 @@ function sheetOf(entry: unknown, i: number): KnownSheet {
 }
 
 /**
- * Returns the sheets in a sheet file. If a key is not valid, throws an Error that names the key. The print scales of
- * the pages and their poses in the world are not read.
+ * Returns the sheets in a sheet file. If a key is not valid, throws an Error that names the key. Ignores the print
+ * scale of each page and its pose in the world.
  */
 export function sheetsOfFile(text: string): KnownSheet[] {
     let document: unknown;

@@ -37,7 +37,7 @@ export interface ImageSize {
     width_px: number;
     height_px: number;
     /**
-     * Width of the field of view, in pixels of the default image size. Images with more pixels than `field_px` show the
+     * Width of the field of view, in pixels of the default image size. Images that are wider than `field_px` show the
      * field in more detail.
      */
     field_px: number;

@@ -1,5 +1,5 @@
-/* Locates frames as a microcontroller does: the memory has a fixed size, and each row is pushed as
- * soon as it has been read. The input is a file of golden frames (wrappers/golden/README.md).
+/* Locates frames as a microcontroller does: it uses a fixed amount of memory, and pushes each row
+ * as soon as it has been read. The input is a file of golden frames (wrappers/golden/README.md).
  * Locates the first frame of each pair, and prints its golden line for `device`, which must equal
  * the line written by the C++ library. */
 #include <dotpose.h>

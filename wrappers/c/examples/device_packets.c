@@ -1,4 +1,4 @@
-/* Processes a frame as a microcontroller does: uses memory of a fixed size, processes each row as
+/* Processes a frame as a microcontroller does: uses a fixed amount of memory, processes each row as
  * the camera delivers it, and sends a packet of 32 bytes. In this example, the rows are read from a
  * file, and the packet is written to standard output for `dotpose listen`:
  *

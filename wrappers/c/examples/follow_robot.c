@@ -1,5 +1,5 @@
-/* Tracks a robot over the frames of its camera, which are 5 ms apart. Prints the position and
- * velocity of the robot:
+/* Tracks a robot whose camera takes a frame every 5 ms. Prints the position and velocity of the
+ * robot:
  *
  *     ./follow_robot frame_*.pgm */
 #include <dotpose.h>

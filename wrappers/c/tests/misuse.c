@@ -1,4 +1,5 @@
-/* Checks that every misuse of a function returns the matching status and has no other effect. */
+/* Checks that a misused function returns the status that describes the misuse, and has no other
+ * effect. */
 #include <dotpose.h>
 #include <float.h>
 #include <math.h>

@@ -73,7 +73,7 @@ std::vector<GreyImage> drive(int frames) {
     return images;
 }
 
-/// Returns a view of six by six cells of a sheet.
+/// Returns a view of a sheet. At the default size, the view shows six by six cells.
 GreyImage small_view_of(const KnownRegion& sheet, int side_px = 66) {
     dotpose::Setup setup;
     setup.camera.width_px = side_px;
@@ -84,7 +84,8 @@ GreyImage small_view_of(const KnownRegion& sheet, int side_px = 66) {
     return render(shot);
 }
 
-/// Returns frames from distant places on a sheet that is printed in a non-default code.
+/// Returns frames taken at random places on sheets printed in the code libdots, which is not the
+/// default.
 std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     dotpose::Setup setup;
     setup.pattern.code = CodeVariant::libdots;

@@ -44,8 +44,8 @@ class Fields {
         const double value_deg = value_rad * kDegrees;
         number(name, value_deg <= -180 ? value_deg + 360 : value_deg);
     }
-    /// Sets the nine elements of a covariance, row by row. Each element is multiplied by the
-    /// factors of its row and its column. Sets nothing if the covariance is unknown.
+    /// Sets the nine elements of a covariance, row by row. Each element is multiplied by two
+    /// factors: one for its row and one for its column. Sets nothing if the covariance is unknown.
     template <typename Matrix>
     void covariance(const char* name, const Matrix& matrix,
                     const std::array<double, 3>& factors) const {

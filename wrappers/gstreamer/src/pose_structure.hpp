@@ -7,7 +7,8 @@
 
 namespace dotpose::gstreamer {
 
-/// Name of the messages that the element posts and of the custom meta that it attaches to buffers.
+/// Name used for the messages that the element posts and for the custom meta that it attaches to
+/// buffers.
 inline constexpr const char* kPoseName = "dotpose";
 
 /// Sets the fields of a reading. Names, units and frames of reference are the same as in the output

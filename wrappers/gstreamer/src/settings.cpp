@@ -30,7 +30,7 @@ enum Property : guint {
 
 constexpr GParamFlags kAlways = static_cast<GParamFlags>(
     G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_PLAYING);
-/// Flags of a property that takes effect when the element starts.
+/// Flags for properties that take effect only when the element starts.
 constexpr GParamFlags kAtStart =
     static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_READY);
 

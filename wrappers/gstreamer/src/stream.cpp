@@ -11,7 +11,8 @@ namespace {
 FollowerOptions options_of(const Settings& settings) {
     FollowerOptions options = settings.options;
     options.track.spacing_mm = static_cast<float>(options.spacing_mm);
-    // The overlay draws the dots, which are stored only in the trace.
+    // The overlay draws the dots. The locator stores them in the trace only if `show_stages` is
+    // set.
     options.locate.show_stages = settings.has_overlay;
     if (!settings.camera.empty()) options.camera = read_camera(settings.camera);
     if (settings.sheets.empty()) return options;

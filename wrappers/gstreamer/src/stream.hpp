@@ -14,8 +14,9 @@ namespace dotpose::gstreamer {
 struct Reading {
     std::uint64_t frame = 0;  ///< frame number, counted from 0
     Located located;
-    std::optional<Track> track;  ///< none if each frame is located independently
-    bool is_in_world = false;    ///< true if the track is in the sheet file's world frame
+    /// Track of the robot. None if each frame is located independently.
+    std::optional<Track> track;
+    bool is_in_world = false;  ///< true if the track is in the sheet file's world frame
 };
 
 class Stream {

@@ -1,4 +1,4 @@
-// Sends the frames of a simulated drive over two sheets through the element, in all supported
+// Simulates a drive over two sheets, and sends its frames through the element in all supported
 // formats. The poses must equal those of `dotpose watch`, no frame may be lost, and timestamps and
 // pixels must not change.
 #include <string>
@@ -32,8 +32,8 @@ class GstreamerDrive : public WatchCommand {
             stream << grey.substr(at, size) << std::string(size / 2, '\x80');
     }
 
-    /// Reads a file of frames in `format` at 200 frames per second, and passes them through the
-    /// element.
+    /// Runs a pipeline that reads raw frames in `format` from a file, at a frame rate of 200 per
+    /// second, and passes them through the element.
     Outcome run_element(const std::string& frames, const std::string& format,
                         const std::string& properties) {
         return run_pipeline("filesrc location=" + (directory_ / frames).string() +
@@ -114,8 +114,8 @@ TEST_F(GstreamerDrive, WithoutSheetsTheCodeIsFoundOut) {
     expect_lines(watch(""), run_element("drive.raw", format, ""));
     expect_lines(watch("--code anoto --spacing 0.5"),
                  run_element("drive.raw", format, "code=anoto spacing-mm=0.5"));
-    // The sheets are not printed in this code, so no frame has a fix. The messages must report the
-    // same failures as `watch`.
+    // The sheets are not printed in the code microdots, so no frame has a fix. The messages must
+    // report the same failures as `watch`.
     expect_lines(watch("--code microdots"), run_element("drive.raw", format, "code=microdots"));
 }
 
@@ -177,7 +177,8 @@ TEST_F(GstreamerDrive, OverlayIsDrawnOnTheLumaAlone) {
         const std::string& drawn = outcome.frames[i].bytes;
         const std::string before = frames.substr(i * kLuma * 3 / 2, kLuma * 3 / 2);
         EXPECT_TRUE(drawn.substr(kLuma) == before.substr(kLuma));
-        // Rings around 600 dots cover about 12,000 pixels, many of which are already dark.
+        // The rings around 600 dots cover about 12,000 pixels. Many of these pixels are already
+        // dark and do not change.
         std::size_t changed = 0;
         for (std::size_t at = 0; at < kLuma; ++at)
             changed += drawn[at] != before[at] ? 1 : 0;

@@ -40,7 +40,7 @@ class GstreamerElement : public testing::Test {
     }
     void TearDown() override { stop(); }
 
-    /// Returns a frame of the drive in a buffer.
+    /// Returns a buffer that contains one frame of the drive.
     GstBuffer* frame(int index, GstClockTime pts) const {
         const GreyImage image = camera_.frame(drive_, index);
         GstBuffer* buffer = gst_buffer_new_memdup(image.pixels.data(), image.pixels.size());
@@ -94,7 +94,7 @@ TEST_F(GstreamerElement, FollowsAnewAfterAJumpBack) {
     start("");
     EXPECT_EQ(locate(frame(170, 10 * GST_SECOND))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 10 * GST_SECOND + 5 * GST_MSECOND))["attempt"], "tracked");
-    // The time goes backwards, as after a seek. Without a restart of tracking, the tracker would
+    // The time goes backwards, as after a seek. If tracking were not restarted, the tracker would
     // ignore all frames for ten seconds.
     EXPECT_EQ(locate(frame(170, 0))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 5 * GST_MSECOND))["verdict"], "accepted");

@@ -1,5 +1,5 @@
-/// Compares the fields of the element's messages with the lines that `dotpose watch` writes for the
-/// same frames.
+/// Compares the fields of the element's messages with those in the output lines of `dotpose watch`
+/// for the same frames.
 #pragma once
 
 #include <algorithm>
@@ -56,8 +56,8 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
     }
 }
 
-/// Expects that the message contains all fields of the line with the same values. The message may
-/// contain no other fields except times and the frame number.
+/// Expects that the message contains all fields of the line with the same values. Apart from times
+/// and the frame number, the message must not contain other fields.
 inline void expect_told(const nlohmann::json& line, nlohmann::json told) {
     for (const auto& [key, value] : line.items()) {
         if (is_only_in_lines(key)) continue;

@@ -45,7 +45,7 @@ inline nlohmann::json json_of(const GstStructure* structure) {
     return fields;
 }
 
-/// Returns the fields of the meta of a buffer, or null if the buffer has no meta.
+/// Returns the fields of the buffer's custom meta, or null if the buffer has no such meta.
 inline nlohmann::json meta_of(GstBuffer* buffer) {
     GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, "dotpose");
     if (meta == nullptr) return nullptr;
@@ -58,7 +58,7 @@ inline std::string bytes_of(GstBuffer* buffer) {
     return bytes;
 }
 
-/// A buffer that arrived at the end of a pipeline.
+/// A buffer that the sink of a pipeline received.
 struct Arrived {
     GstClockTime pts = GST_CLOCK_TIME_NONE;
     GstClockTime duration = GST_CLOCK_TIME_NONE;
@@ -99,8 +99,8 @@ inline bool take(GstMessage* message, Outcome& outcome) {
 
 }  // namespace pipeline_detail
 
-/// Runs a pipeline to its end. `description` must not contain a sink, because this function appends
-/// a sink.
+/// Runs a pipeline until the end of the stream or the first error. `description` must not contain a
+/// sink, because this function appends one.
 inline Outcome run_pipeline(const std::string& description) {
     Outcome outcome;
     GError* error = nullptr;

@@ -1,4 +1,4 @@
-// Tests the element with GStreamer's tools and from Python.
+// Tests the element through GStreamer's command-line tools and through its Python bindings.
 #include <cstdlib>
 #include <fstream>
 #include <string>

@@ -1,4 +1,6 @@
-// Camera files and the pose of a mounted camera. Used by Camera.read, Camera.write and Locator.
+// Functions of the module _tools that read and write camera files, and `with_camera`, which
+// computes the pose of a mounted camera. Camera.read, Camera.write and Locator call these
+// functions.
 #include "camera_files.hpp"
 
 #include "dotpose/files/camera_file.hpp"

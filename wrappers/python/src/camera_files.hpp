@@ -1,4 +1,4 @@
-/// Type of the function that the module _tools provides to _dotpose for mounted cameras.
+/// Function pointer type through which the module _tools provides `with_camera` to _dotpose.
 #pragma once
 
 #include "binding.hpp"

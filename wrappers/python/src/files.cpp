@@ -1,4 +1,4 @@
-// Bindings for image files.
+// Bindings for the functions that read and write image files.
 #include "binding.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "image.hpp"

@@ -46,7 +46,7 @@ struct SeenPrediction {
     Prediction prediction;
     CodeVariant code = CodeVariant::anoto;
     double spacing_mm = 0;
-    FixedVec pivot_q8;  ///< reference point in the image
+    FixedVec pivot_q8;  ///< reference point, in 2^-8 px from the centre of the first pixel
 
     static SeenPrediction like(const SeenFix& fix);
 };

@@ -1,4 +1,4 @@
-/// Conversions of images: views of numpy arrays without copying, and arrays of grey images.
+/// Conversions between images and numpy arrays.
 #pragma once
 
 #include "binding.hpp"

@@ -19,7 +19,7 @@ namespace dotpose::python {
 struct LocatorSetup {
     std::optional<CodeVariant> code;  ///< none if the code is detected from all frames
     std::optional<Camera> camera;
-    WithCamera with_camera = nullptr;  ///< null if the camera file has neither a view nor a heading
+    WithCamera with_camera = nullptr;  ///< null if `camera` has neither a view nor a heading
     std::optional<PixelPoint> reference_px;
     DeviceOptions options;
     bool keep_stages = false;

@@ -1,4 +1,4 @@
-/// Conversions of sheets and their entries.
+/// Conversions between Python values and sheets, their entries and patterns.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ Section section_of_pair(const Whole& pair);
 Pattern pattern_of(const std::string& code, double spacing_mm, const std::optional<double>& dot_mm,
                    const std::optional<double>& displacement_mm, const Whole& section);
 
-/// Returns the method of drawing dots with the given name: "auto", "glyphs" or "strokes". Throws
+/// Converts "auto", "glyphs" or "strokes" to the method of drawing dots that has this name. Throws
 /// BadArgument for any other name.
 DotDrawing drawing_named(const std::string& name);
 

@@ -1,4 +1,4 @@
-// Conversions of poses in space to Python.
+// Converts poses in space to Python objects.
 #pragma once
 
 #include "binding.hpp"

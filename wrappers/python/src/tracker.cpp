@@ -1,5 +1,5 @@
-// Bindings for Tracker, which follows a robot from the fixes of its frames, and for its result,
-// Track.
+// Bindings for Tracker, which tracks a robot using the fixes of its frames, and for Track, the
+// result of Tracker.
 #include "tracker.hpp"
 
 #include <array>

@@ -62,7 +62,7 @@ def test_the_tip_of_a_pen():
     shot, camera = tilted_view()
     follower = dotpose.Follower(camera=camera, space=True)
     assert follower.locate(shot.render()).tip is None
-    # The tip is where the optical axis meets the paper, so it touches the paper.
+    # The tip is at the point where the optical axis meets the paper, so the pen touches the paper.
     camera.tip = dotpose.PenTip(0, 0, DISTANCE_MM)
     located = dotpose.Follower(camera=camera, space=True).locate(shot.render())
     assert (located.tip.x_mm, located.tip.y_mm) == pytest.approx((shot.x_mm, shot.y_mm), abs=0.02)

@@ -88,8 +88,8 @@ TEST(RosRawImage, SaysWhatIsWrongAndWhatToDo) {
     const Bytes data(640 * 480);
     EXPECT_THAT(problem_of({"32FC1", 64, 64, 256, false, data}),
                 AllOf(HasSubstr("'32FC1'"), HasSubstr("set the camera's driver to mono8")));
-    // In each case, a row is longer than the step, the data has too few rows, or the image has no
-    // pixels.
+    // Invalid sizes: rows longer than the step, too few rows in the data, no pixels, and rows far
+    // longer than the step.
     const auto is_size = AllOf(HasSubstr("640 x 480 px in bgr8 need a step of 1920"),
                                HasSubstr("these have a step of"), HasSubstr("correct width"));
     EXPECT_THAT(problem_of({"bgr8", 640, 480, 640, false, data}), is_size);

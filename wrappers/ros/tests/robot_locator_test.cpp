@@ -88,8 +88,8 @@ TEST_F(RosLocator, DiagnosticsComeAtChangesAndOnceASecond) {
     int messages = 0;
     for (int i = 0; i < 300; ++i)
         messages += static_cast<int>(take(i).messages.status.status.size());
-    // A status is published for the first image, when the robot comes to rest, and then once per
-    // second.
+    // A status is published for the first image, for the image at which the robot comes to rest,
+    // and then once per second.
     EXPECT_GE(messages, 3);
     EXPECT_LE(messages, 5);
 }

@@ -1,5 +1,5 @@
-// Compares the times of the WebAssembly modules and of the C++ library without AVX2. The modules
-// and the library are measured alternately.
+// Compares the time per frame of the WebAssembly modules with that of the C++ library without AVX2.
+// The modules and the library are measured alternately.
 //
 //   node wrappers/wasm/bench/time.mjs [ROUNDS [GOLDEN]]
 //
@@ -50,7 +50,8 @@ function keepLeast(least, times_us) {
 }
 
 /**
- * Returns the mean time of the frames without (`way` 0) or with (`way` 1) a prediction.
+ * Returns the mean time per frame, in µs: without a prediction if `way` is 0, and with a prediction
+ * if `way` is 1.
  */
 function mean(times_us, way) {
     const chosen = times_us.filter((_, i) => i % 2 === way);

@@ -38,7 +38,7 @@ export interface LocatorOptions {
      */
     lens_k_per_px2?: number;
     /**
-     * Distortion centre minus the image centre, to the right and down. Default: 0, 0.
+     * Offset of the distortion centre from the image centre, to the right and down. Default: 0, 0.
      */
     lens_centre_offset_px?: readonly [number, number];
     /**
@@ -66,8 +66,8 @@ export interface LocatorOptions {
      */
     space?: SpaceCamera;
     /**
-     * Contents of a print map file written by `dotpose calibrate --print-map`. Fixes and poses in
-     * space on the pages of the map are corrected (`Fix.map_use`). For the highest accuracy, locate
+     * Contents of a print map file written by `dotpose calibrate --print-map`. On the pages of the
+     * map, fixes and poses in space are corrected (`Fix.map_use`). For the highest accuracy, locate
      * without predictions, because tracking measures the dots in windows at their nominal
      * positions. Like `space`, this option makes the locator use the larger module. Default: none.
      */

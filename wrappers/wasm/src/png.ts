@@ -49,7 +49,10 @@ function size(dpi: number): Uint8Array {
     return bytes;
 }
 
-/** Returns the rows in PNG format. Each row begins with its filter number, and 0 is black. */
+/**
+ * Returns the rows in PNG format. Each row begins with the number of its filter. In the pixels, a 0
+ * bit is black.
+ */
 function scanlines({ width_px, height_px, bits }: Raster): Uint8Array<ArrayBuffer> {
     const stride = Math.ceil(width_px / 8);
     const lines = new Uint8Array((stride + 1) * height_px);

@@ -27,7 +27,7 @@ export interface SheetOptions {
     margin_mm?: number;
 }
 
-/** Size and optics of the simulated camera. The defaults describe the device in the paper. */
+/** Size and optics of the simulated camera. The defaults describe the device in the published paper. */
 export interface Camera {
     /** Width of the image, 1 to 16384. Default: 188. */
     width_px?: number;
@@ -70,13 +70,19 @@ export interface Imperfections {
     paper_level?: number;
     /** Reflectance of ink, relative to paper. Default: 0.15. */
     ink_reflectance?: number;
-    /** Standard deviation of the ink reflectance from dot to dot. */
+    /** Standard deviation of a dot's reflectance, relative to paper. */
     ink_variation?: number;
-    /** Contrast of the palest ink relative to the darkest ink. Default: 1. */
+    /**
+     * Contrast of the palest ink relative to the darkest ink. Each of the four directions of
+     * displacement has its own ink. Default: 1.
+     */
     palest_ink?: number;
     /** Fraction of the light that is lost in the corners, 0 to 1. */
     vignetting?: number;
-    /** Change in brightness from one side of the image to the other, 0 to 2. */
+    /**
+     * Linear change in illumination across the image, relative to the illumination at the centre, 0
+     * to 2.
+     */
     fall?: number;
     /** Direction of decreasing brightness: angle from the image x axis towards the y axis
      * (down). */
@@ -92,7 +98,7 @@ export interface Imperfections {
     motion_y_px?: number;
     /** Standard deviation of the noise, in grey levels. */
     noise_sigma?: number;
-    /** Fraction of the pixels that are black or white. */
+    /** Fraction of the pixels that are replaced with black or white at random. */
     salt_and_pepper?: number;
     /** Standard deviation of the position of a printed dot, per axis. */
     jitter_mm?: number;
@@ -116,7 +122,7 @@ export interface Scene {
     page_seed?: number;
     /** Reflectance of the table, relative to paper. Default: 0.2. */
     table_reflectance?: number;
-    /** Size and optics of the camera. Default: the device in the paper. */
+    /** Size and optics of the camera. Default: the device described in the published paper. */
     camera?: Camera;
     /** Pose of the camera on the page. */
     pose: CameraPose;

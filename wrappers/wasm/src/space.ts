@@ -15,7 +15,10 @@ export interface SpaceCamera {
      * Point at which the optical axis intersects the undistorted image. Default: the image centre.
      */
     axis_px?: readonly [number, number];
-    /** Printed length divided by the nominal length of the sheet, above 0.1 and below 10. Default: 1. */
+    /**
+     * Ratio of a printed length on the sheet to its nominal length, above 0.1 and below 10.
+     * Default: 1.
+     */
     print_scale?: number;
 }
 

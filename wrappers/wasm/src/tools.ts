@@ -63,7 +63,8 @@ export class Tools {
     }
 
     /**
-     * Returns the layout of a sheet: whole cells inside the margins, starting at the upper left.
+     * Returns the layout of a sheet. The grid starts at the upper left and contains all whole cells
+     * that fit inside the margins.
      */
     layout(sheet: SheetOptions = {}): SheetLayout {
         const kLayoutBytes = 32;
@@ -102,8 +103,8 @@ export class Tools {
     }
 
     /**
-     * Returns the sheet as a PNG file with 1 bit per pixel. The file contains the resolution, so it
-     * prints at true size.
+     * Returns the sheet as a PNG file with 1 bit per pixel. The file contains the resolution, so
+     * programs can print the sheet at true size.
      */
     png(sheet: SheetOptions = {}, dpi = 600): Promise<Uint8Array<ArrayBuffer>> {
         return pngOf(this.raster(sheet, dpi));

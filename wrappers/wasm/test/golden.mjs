@@ -63,8 +63,8 @@ function lineOf(fix) {
 }
 
 /**
- * Locates the frames of a set with all methods that have lines in the golden file. Returns the
- * number of frames, and the lines that differ in any bit.
+ * Locates the frames of a set with every method in the golden file except "device". Returns the
+ * numbers of lines, fixes and tracked fixes, and the lines whose results are not bit-identical.
  */
 export async function compareSet({ Locator }, frames, csv, wasm) {
     const images = [...imagesOf(frames)];

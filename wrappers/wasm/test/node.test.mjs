@@ -83,8 +83,7 @@ describe("Locator", () => {
     test("frames of a moving camera that are not certain alone are read together", async () => {
         const camera = { width_px: 80, height_px: 80 };
         const imperfections = { noise_sigma: 3, blur_sigma_px: 0.5 };
-        // The standard deviations of the motion are larger than necessary, because the motion is
-        // exact.
+        // The motion is exact, so its standard deviations are larger than necessary.
         const step_mm = 3 * 0.508;
         const motion = { right_mm: step_mm, down_mm: step_mm, sigma_mm: 0.02, sigma_rad: 0.005 };
         const frame = (k) => {

@@ -97,7 +97,7 @@ TEST(BitLines, ABlockTurnsAsTheCodeDoes) {
         const FixedVec most{1 + static_cast<int>(rng.below(31)),
                             1 + static_cast<int>(rng.below(31))};
         const BitBlock seen = seen_block(code, zero, quarters, least, most, {}, rng);
-        // A camera that is not rotated sees the same cells.
+        // The same cells, as seen by a camera that is not rotated.
         const FixedVec a = cell_turned(quarters, least);
         const FixedVec b = cell_turned(quarters, most - FixedVec{1, 1});
         const BitBlock upright =
@@ -205,8 +205,8 @@ TEST(BitLines, OneWrongBitMakesALineInexact) {
             const std::uint64_t here = std::uint64_t{1} << cell;
             const bool bit = main_bit(roll + static_cast<unsigned>(cell)) == 1;
             bits = bit ? bits | here : bits & ~here;
-            // The first six adjacent bits are always present because six bits are needed to
-            // determine the roll. Any other bit may be missing.
+            // Six adjacent bits are needed to determine the roll, so the first six bits are always
+            // present. Any other bit may be missing.
             if (cell < first + 6 || rng.below(8) != 0) valid |= here;
         }
         EXPECT_EQ(core::exact_roll(bits, valid), roll);

@@ -1,5 +1,5 @@
-// Compares the weighted correlation with the main sequence (paper, section II-B.7) to a brute-force
-// sum over the digits of the sequence.
+// Tests the weighted correlation of bits with the main sequence (paper, section II-B.7) against a
+// brute-force sum over the digits of the sequence.
 #include "core/decode/correlation.hpp"
 
 #include <gtest/gtest.h>

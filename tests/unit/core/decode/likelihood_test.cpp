@@ -11,7 +11,7 @@ namespace {
 
 using namespace core;
 
-/// Returns f(r) of equation 9 for the nominal offset of a sixth of the spacing.
+/// Returns f(r) of equation 9. The nominal offset in this equation is one sixth of the spacing.
 double f(double r) {
     constexpr double kR0 = 1.0 / 6;
     if (r * r >= 3 * kR0 * kR0) return 0;

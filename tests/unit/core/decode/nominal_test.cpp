@@ -14,8 +14,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 31;
 constexpr std::uint32_t kL = code_test::kL;
 
-/// Converts a position that may be past the end of an axis to the equivalent place at the beginning
-/// of the code.
+/// Returns the place at a position (x, y). If a coordinate is past the end of the code, the place
+/// is the equivalent one near the beginning of the code.
 Place wrapped(CodeVariant code, std::uint64_t x, std::uint64_t y, Section section) {
     int u = section.u;
     int v = section.v;
@@ -32,8 +32,8 @@ Place wrapped(CodeVariant code, std::uint64_t x, std::uint64_t y, Section sectio
             {static_cast<std::uint8_t>(u % 63), static_cast<std::uint8_t>(v % 63)}};
 }
 
-/// Checks a grid that contains a window of the pattern, rotated by quarter turns. The symbol at
-/// index `known` of the window is at cell (0, 0).
+/// Checks all symbols of a grid that contains a window of the pattern, rotated by `turn`. The
+/// symbol at index `known` of the window is at cell (0, 0).
 void check(CodeVariant code, const Place& first, int columns, int rows, QuarterTurn turn,
            FixedVec known) {
     const code_test::Grid expected = code_test::reference_window(code, first, columns, rows);
@@ -82,7 +82,7 @@ TEST(Nominal, ContinuesPastBothEndsOfTheCode) {
     for (int i = 0; i < 120; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
         Place first = random_place(rng);
-        // The end of the code is inside the grid on one or both axes, before or after `known`.
+        // On one axis or both, the code ends inside the grid, before or after `known`.
         if (i % 3 != 0) first.cell.x = kL - 1 - rng.below(29);
         if (i % 3 != 1) first.cell.y = kL - 1 - rng.below(29);
         const FixedVec known{static_cast<std::int32_t>(rng.below(30)),
@@ -97,7 +97,7 @@ TEST(Nominal, CellZeroNeedNotBeInTheGrid) {
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
         Place first = random_place(rng);
-        // Half of the places are at the ends of the code.
+        // Half of the places are near the end of the code on both axes.
         if (i % 2 == 0) first.cell = {kL - 1 - rng.below(50), kL - 1 - rng.below(50)};
         check(CodeVariant::anoto, first, 20, 12, QuarterTurn{i % 4},
               {20 + static_cast<std::int32_t>(rng.below(100)),

@@ -75,14 +75,15 @@ TEST(SampleCells, ReadsTheBitsOfACleanFrame) {
         sampled.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
             SCOPED_TRACE(testing::Message()
                          << "view " << i << " at " << at.x << ", " << at.y << ", seed " << kSeed);
-            // Bits are unknown where all four possible positions of the dot are outside the image.
+            // If all four possible positions of the dot are outside the image, the bits of the cell
+            // are unknown.
             const double outside = view.spacing_px / 6 + 1;
             if (at.x < -outside || at.y < -outside || at.x > view.image_px.x - 1 + outside ||
                 at.y > view.image_px.y - 1 + outside) {
                 EXPECT_EQ(cell.x, 0);
                 EXPECT_EQ(cell.y, 0);
             }
-            // Bits are known where the whole blurred dot is in the image.
+            // If the whole blurred dot is inside the image, the bits of the cell are known.
             const double margin = view.spacing_px / 6 + 2;
             if (at.x < margin || at.y < margin || at.x > view.image_px.x - 1 - margin ||
                 at.y > view.image_px.y - 1 - margin) {

@@ -16,7 +16,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 43;
 
-/// A window with the x bits as weights, and storage for the scores of its columns.
+/// A window in which only the x bits are set, as weights, and storage for the scores of its
+/// columns.
 struct ScoredWindow {
     ScoredWindow(int columns, int rows) : owned(std::max(columns, rows)) {
         owned.grid.columns = columns;
@@ -84,8 +85,8 @@ TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
 }
 
 TEST(FindAxis, FindsThePositionAmongWrongBits) {
-    // Longer lines tolerate more wrong bits. With 12 rows, for example, only half of the windows
-    // are found if every fifth bit is wrong.
+    // Longer lines tolerate a larger fraction of wrong bits. If every fifth bit is wrong, for
+    // example, only half of the windows with 12 rows are found.
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         EXPECT_GE(found_of_200(code, 12, 0.08), 198) << "seed " << kSeed;
         EXPECT_GE(found_of_200(code, 20, 0.12), 198) << "seed " << kSeed;
@@ -157,9 +158,9 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         ScoredWindow lines = window(CodeVariant::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
-        // Each line has 12 random bits. The best of its 63 rolls agrees with 9 or 10 of them. The
-        // search selects a run of 6 lines with such rolls, but the other 14 lines score 0 on
-        // average. The total score is therefore far below the maximum.
+        // Each line has 12 random bits. The best of the 63 rolls of a line agrees with 9 or 10 of
+        // them. The search selects a run of 6 lines that all have such rolls, but the other 14
+        // lines score 0 on average. The total score is therefore far below the maximum.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }

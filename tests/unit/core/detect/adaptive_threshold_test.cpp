@@ -11,8 +11,8 @@ namespace {
 
 using namespace core;
 
-/// Returns an image of uniform paper with dark squares of 2 x 2 px every 8 px. Only some rows of a
-/// tile are measured, and each square intersects one of these rows.
+/// Returns an image of uniform paper with a dark square of 2 x 2 px in every block of 8 x 8 px.
+/// Only some rows of a tile are measured, and each square intersects one of these rows.
 GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     GreyImage image = blank(width_px, height_px, paper);
     for (int v = 2; v + 2 <= height_px; v += 8) {
@@ -52,7 +52,7 @@ TEST(AdaptiveThreshold, EveryBandBecomesReadyOnceWhateverTheHeight) {
             for_each_band(image, {}, w.threshold, [&](int band) {
                 EXPECT_EQ(band_begin(w.threshold, band), covered);
                 covered = band_end(w.threshold, band);
-                // The rows of the band are still stored.
+                // All rows of the band must still be stored.
                 for (int v = band_begin(w.threshold, band); v < covered; ++v) {
                     EXPECT_EQ(kept_row(w.threshold, v)[image.width_px - 1], 200);
                 }

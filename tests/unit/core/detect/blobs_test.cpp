@@ -41,7 +41,7 @@ TEST(Blobs, ABlurredDotIsFoundAtEverySubPixelPhase) {
         double squares = 0;
         for (int phase = 0; phase < 64; ++phase) {
             const Vec2 centre{40 + phase % 8 / 8.0, 33 + phase / 8 / 8.0};
-            // Large dots are drawn in a larger image because they occur only with a large spacing.
+            // Large dots occur only with a large spacing, so they are drawn in a larger image.
             GreyImage image = sigma < 4 ? blank(80, 64) : blank(256, 256);
             darken(image, centre, sigma, 0.7);
             const auto dots = blobs_of(image);
@@ -75,7 +75,8 @@ TEST(Blobs, DotsThatTouchAreOneAndDotsThatDoNotAreTwo) {
     }
 }
 
-/// Expects that the picture yields one blob, with the area and the centroid of all its ink.
+/// Expects exactly one blob in the picture. Its area and centroid must be those of all ink in the
+/// picture.
 void expect_one(std::initializer_list<std::string_view> picture) {
     Vec2 sum;
     int area = 0;
@@ -300,7 +301,8 @@ void compare_with_flooding(GreyImage image) {
                 continue;
             }
             ++all;
-            // The detector may reject larger blobs because dots are always smaller than 30 px.
+            // Dots are always smaller than 30 px, so the detector may reject blobs that are wider
+            // or higher.
             if (blob.right - blob.left > 30 || blob.bottom - blob.top > 30) continue;
             ++least;
             ASSERT_TRUE(contains(blob))

@@ -1,5 +1,5 @@
-// Tests the removal of a rotation during the readout, from images and from points. The expected
-// results come from a simulated camera that does not rotate.
+// Tests that a rotation during the readout is removed correctly, from images and from single
+// points. The expected results come from a simulated camera that does not rotate.
 #include "core/detect/derotate.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Tests the measured paper level on drawn images with known paper.
+// Tests the measurement of the paper level on drawn images in which this level is known.
 #include "core/detect/paper.hpp"
 
 #include <array>

@@ -57,7 +57,8 @@ TEST(Patch, IsNeverLargerThanItsMemory) {
     EXPECT_EQ(patch->height_px, Patch::kMaxHeight_px);
 }
 
-/// Returns a patch whose tiles have a given paper level and a given darkest pixel.
+/// Returns a patch in which all tiles have the paper level `paper` and the darkest pixel level
+/// `darkest`.
 std::unique_ptr<Patch> lit_patch(int width_px, int height_px, int paper, int darkest) {
     auto patch = std::make_unique<Patch>();
     patch->width_px = width_px;

@@ -21,7 +21,7 @@ struct Set {
     bool passes_high = false;
 };
 
-/// The result of comparing each pixel with the low and the high threshold of its tile.
+/// The pixels of an image, marked according to the low and the high threshold of their tiles.
 struct Marked {
     std::vector<char> is_dark;
     std::vector<char> is_below_high;

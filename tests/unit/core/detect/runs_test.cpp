@@ -24,8 +24,7 @@ struct Row {
 
     void draw(Rng& rng, int width_px) {
         std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width_px));
-        // Fraction of dark pixels. In half of the tiles, every grey level equals one of the two
-        // thresholds or is one below it.
+        // Fraction of dark pixels.
         const double dark_share = rng.uniform(0, 1);
         begin_threshold(width_px, kMinFrameSide_px, threshold);
         for (int u = 0; u < whole_width(threshold); u += kTileWidth_px) {
@@ -37,6 +36,7 @@ struct Row {
                 threshold.high_levels[static_cast<std::size_t>(k)] =
                     static_cast<std::uint8_t>(high);
             }
+            // If true, every grey level equals one of the two thresholds or is one below it.
             const bool is_close = rng.below(2) == 0;
             for (int k = u; k < std::min(u + kTileWidth_px, width_px); ++k) {
                 const bool is_dark = rng.uniform(0, 1) < dark_share;

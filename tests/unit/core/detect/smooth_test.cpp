@@ -1,4 +1,4 @@
-// Tests the filter of the second attempt on drawn images.
+// Tests the filter that the second attempt applies, using drawn images.
 #include "core/detect/smooth.hpp"
 
 #include <gtest/gtest.h>

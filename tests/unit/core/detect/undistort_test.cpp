@@ -1,4 +1,4 @@
-// Tests the undistortion (paper, equations 1-2) against double precision.
+// Tests the undistortion (paper, equations 1-2) against a computation in double precision.
 #include "core/detect/undistort.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@ TEST(Undistort, IsEquations1And2) {
     Rng rng(kSeed);
     for (const Vec2 size : {Vec2{64, 64}, Vec2{188, 120}, Vec2{640, 480}, Vec2{4096, 4096}}) {
         const Vec2 centre{(size.x - 1) / 2, (size.y - 1) / 2};
-        // The lens scales the distance of the corner from the centre by a factor from 1/2 to 2.
+        // The lens changes the distance of the corner from the centre by a factor between 1/2 and
+        // 2.
         for (const double at_corner : {-0.5, -0.2, -0.01, 0.0, 0.01, 0.3, 1.0}) {
             const double k = at_corner / (centre.x * centre.x + centre.y * centre.y);
             std::vector<DetectedDot> dots;

@@ -1,4 +1,5 @@
-// Tests the normal equations of the fit against derivatives and solutions in double precision.
+// Tests the normal equations of the fit against derivatives and solutions that are computed in
+// double precision.
 #include "core/fit/plane_normal.hpp"
 
 #include <cmath>
@@ -84,13 +85,13 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             const Vec2 change =
                 (1 / (2 * static_cast<double>(kStep))) * (formula(scaled(plane).changed(more), px) -
                                                           formula(scaled(plane).changed(less), px));
-            // The tolerance for the lens term, kBend, is larger because its derivative neglects
-            // tilt and shear.
+            // The tolerance for the lens term, kBend, is larger because the derivative with respect
+            // to this term neglects tilt and shear.
             const double most = k == kBend ? 0.15 : 0.002;
             ASSERT_NEAR(derivatives[0][k], change.x, most);
             ASSERT_NEAR(derivatives[1][k], change.y, most);
         }
-        // `changed` is exact even for a large change of the tilt.
+        // `changed` is exact even for a large change in tilt.
         const Vec2 place = formula(seen, px) - formula(seen, {});
         const double by = 1 + (0.3 * place.x - 0.2 * place.y) / 9;
         const auto unit = scaled(plane).scale();
@@ -135,8 +136,8 @@ TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
     EXPECT_NEAR(plain.du_y, -plain.dv_x, 2e-5);
 }
 
-/// Normal equations of many points. The residual of each point is its displacement if the
-/// parameters change by `step`.
+/// Normal equations of many points. The residual of each point is the displacement that results
+/// from changing the parameters by `step`.
 struct Problem {
     static constexpr int kPoints = 150;
     PlaneNormal normal;

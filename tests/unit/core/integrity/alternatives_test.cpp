@@ -1,4 +1,4 @@
-// Tests the odds of alternatives against sums in double precision.
+// Tests the odds of alternatives against sums that are computed in double precision.
 #include "core/integrity/alternatives.hpp"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 42;
 
-/// Returns log2 of the total odds of all alternatives for an error-free window of 12 rows.
+/// Returns log2 of the total odds of all alternatives on the x axis. The odds are those of an
+/// error-free window with 12 rows.
 int alternatives_of_window(CodeVariant code, const Place& place, int columns, int odds_q8) {
     constexpr int kRows = 12;
     OwnedGrid owned(std::max(columns, kRows));
@@ -41,7 +42,7 @@ int alternatives_of_window(CodeVariant code, const Place& place, int columns, in
     reading.position = place.cell.x;
     reading.roll = static_cast<std::uint8_t>(
         (roll(code, place.cell.x) + place.section.u + static_cast<int>(place.cell.y % 63)) % 63);
-    // All bits of the line agree with the roll of the code at this position.
+    // All bits of the first line agree with the main sequence at this roll.
     EXPECT_EQ(lines[0][reading.roll], 127 * kRows);
     return alternatives_log2(kernels(), LikelihoodRatios(code, lines, reading, odds_q8));
 }
@@ -63,7 +64,7 @@ TEST(Alternatives, AreNotMoreWithMoreColumns) {
         // are 2^29 such positions. The limit is much larger than the sum of these odds because
         // small odds are counted as 2^-56.
         EXPECT_LE(before, -40);
-        // If a bit is more reliable, the alternatives must not become more probable.
+        // Increasing the reliability of the bits must not make the alternatives more probable.
         EXPECT_LE(alternatives_of_window(code, place, 8, 2 * kOdds_q8),
                   alternatives_of_window(code, place, 8, kOdds_q8));
     }

@@ -1,5 +1,5 @@
-// Tests p_wrong, the upper bound on the probability that a fix of the first or tracked attempt is
-// wrong. The expected values are sums over all alternatives in double precision.
+// Tests p_wrong, the upper bound on the probability that a fix of the first or the tracked attempt
+// is wrong. The expected values are double-precision sums over all alternatives.
 #include "core/integrity/certainty.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Returns the verdict on the claim that the bits of a block are at the place `claimed`.
+/// Judges the claim that the bits of `block` are at the place `claimed`, and returns the verdict.
 Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& options = {}) {
     core::BitBlock words;
     core::Evidence evidence;

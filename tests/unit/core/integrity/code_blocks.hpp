@@ -1,4 +1,5 @@
-// Blocks of the code with known damage, and exact sums over their alternatives.
+// Blocks of cells cut out of the code, with random bit errors and missing bits, and exact sums over
+// the alternatives to the place of a block.
 #pragma once
 
 #include <algorithm>

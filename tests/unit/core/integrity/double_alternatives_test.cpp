@@ -1,5 +1,5 @@
-// Tests the odds of double alternatives (positions that differ in two sequences) against a sum over
-// all of them in double precision.
+// Tests the odds of double alternatives (positions that differ in two sequences) against a
+// double-precision sum over all of them.
 #include "core/integrity/double_alternatives.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Tests the expected odds of double alternatives (positions that differ in two sequences) against a
-// sum in double precision over all strings of digits in both sequences.
+// double-precision sum over all strings of digits in these two sequences.
 #include "core/integrity/expected_double_alternatives.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Tests the search for places on known sheets against an exhaustive search in double precision.
+// Tests the search for places on known sheets against an exhaustive search that computes in double
+// precision.
 #include "core/integrity/known_places.hpp"
 
 #include <cmath>

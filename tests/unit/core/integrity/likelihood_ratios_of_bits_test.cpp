@@ -1,5 +1,5 @@
 // Tests the likelihood ratios of hard bits. They must equal the ratios of scored lines whose bits
-// all have weight 127. Estimates of sums of these ratios must be upper bounds.
+// all have weight 127. Estimated sums of likelihood ratios must not be smaller than the exact sums.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -160,8 +160,8 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
     EXPECT_GT(told, 100);
 }
 
-/// Returns the expected odds of one set of far alternatives in double precision (docs/integrity.md,
-/// "The quick bound"). The result is the sum of two parts: the odds of alternatives that share a
+/// Computes the expected odds of one set of far alternatives (docs/integrity.md, "The quick bound")
+/// in double precision. The result is the sum of two parts: the odds of alternatives that share a
 /// run of lines with the reading, and the odds of all other alternatives.
 double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     const auto power = [](int log2_q8) { return std::exp2(log2_q8 / 256.0); };

@@ -22,7 +22,8 @@ std::optional<float> likely(const RatiosCase& c, float max_rest, float max_odds)
     return sum_of_likely_alternatives(kernels(), RankedLines(ratios), max_rest, max_odds);
 }
 
-/// Returns the first case in which the search for likely alternatives is short enough to be used.
+/// Returns a random case for which `sum_of_likely_alternatives` returns a sum. In other cases, the
+/// search would take too long.
 SimilarCase short_case(Rng& rng, unsigned different) {
     for (;;) {
         const SimilarCase c(rng, different);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 77;
 
-/// Returns `lines` lines of a code variant, in which 8 % of the bits are wrong.
+/// Returns `lines` lines of the code variant `code`. 8 % of their bits are wrong.
 RatiosCase random_case(int lines, CodeVariant code, Rng& rng) {
     RatiosCase c = at_random_place(rng, lines);
     while (c.code != code)

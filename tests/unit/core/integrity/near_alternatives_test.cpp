@@ -1,6 +1,5 @@
-// Tests sum_of_near_alternatives against a sum in double precision. For every run of adjacent
-// lines, an exhaustive search finds the alternatives whose digits in this run equal those of the
-// reading.
+// Tests sum_of_near_alternatives against a double-precision sum. For every run of adjacent lines,
+// an exhaustive search finds the alternatives whose digits in this run equal those of the reading.
 #include "core/integrity/near_alternatives.hpp"
 
 #include <gtest/gtest.h>

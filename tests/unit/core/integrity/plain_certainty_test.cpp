@@ -1,4 +1,5 @@
-// Tests p_wrong of error-free bits against sums over all alternatives in double precision.
+// Tests the p_wrong that is computed for error-free bits. Compares it with sums over all
+// alternatives in double precision.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Returns the verdict on the claim that the bits of a block are at the place `claimed`.
+/// Judges the claim that the bits of `block` are at the place `claimed`, and returns the verdict.
 Verdict judge_plainly(const Block& block, const Place& claimed,
                       const IntegrityOptions& options = {}) {
     Block there = block;
@@ -123,7 +124,7 @@ TEST(IsPlainlyCertain, RefusesWhatASeamExplainsBetter) {
         SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
         Block block = cut_block(CodeVariant::anoto, any_place(rng), 16, 16);
         alone += judge_plainly(block, block.place).is_certain;
-        // The block now shows another section in most of its columns.
+        // Replaces the x bits of columns 5 to 15 with those of another section.
         Place other = block.place;
         other.section.u = static_cast<std::uint8_t>((other.section.u + 30) % 63);
         const Block beyond = cut_block(CodeVariant::anoto, other, 16, 16);

@@ -60,7 +60,7 @@ TEST(PlannedAlternatives, DoNotIncludeSingleAlternatives) {
     }
 }
 
-/// Returns a view of ten lines with nine correct bits each, as in a frame of 64 x 64 px.
+/// Returns a view of ten lines, each with nine correct bits, as in a frame of 64 x 64 px.
 RatiosCase small_view(Rng& rng) {
     RatiosCase c = at_random_place(rng, 10);
     c.odds_q8 = 1650;
@@ -85,8 +85,8 @@ TEST(SmallViews, EndAtTheWorkLimit) {
     int found = 0;
     for (int i = 0; i < 50; ++i) {
         const std::array axis{small_view(rng)};
-        // The preparation takes 80,000 instructions, which leaves 5,000 for the search. The search
-        // of one set of lines takes at least 1,500.
+        // The preparation takes 80,000 instructions, which leaves 5,000 for the search. Searching
+        // the alternatives for one set of lines takes at least 1,500 instructions.
         EXPECT_GE(wrong_in(kernels(), axis, 0x1p-30F, 85'000), 1) << i;
         found += wrong_in(kernels(), axis, 0x1p-30F, kPlenty) < 0x1p-30F ? 1 : 0;
     }
@@ -102,7 +102,7 @@ TEST(SmallViews, UseOneLimitForBothAxes) {
         if (both >= 1) continue;
         ++found;
         EXPECT_LE(both, 0x1p-30F) << i;
-        // The result for a single axis must also be within the limit.
+        // The result for each axis alone must also be within the limit.
         for (const RatiosCase& axis : axes)
             EXPECT_LE(wrong_in(kernels(), std::span(&axis, 1), 0x1p-30F, kPlenty), 0x1p-30F) << i;
     }

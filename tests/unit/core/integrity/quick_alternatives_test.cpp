@@ -1,4 +1,4 @@
-// Tests the quick estimate of alternatives against sums in double precision.
+// Tests the quick estimate of the odds of alternatives against double-precision sums.
 #include "core/integrity/quick_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -54,8 +54,8 @@ double sum_of_singles(const RatiosCase& c) {
                     lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
                             c.storage[line].scores[static_cast<std::size_t>(other)];
                 }
-                // Each bit that disagrees only with the alternative reduces the score by twice its
-                // weight.
+                // The loss is halved, because each bit that disagrees only with the alternative
+                // reduces the score by twice its weight.
                 if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
             }
         }

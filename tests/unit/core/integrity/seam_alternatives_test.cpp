@@ -1,5 +1,5 @@
 // Tests the odds of seam alternatives, which have different shifts on the two sides of a border,
-// against a sum over all places, borders and shifts in double precision.
+// against a double-precision sum over all places, borders and shifts.
 #include "core/integrity/seam_alternatives.hpp"
 
 #include <algorithm>
@@ -81,8 +81,8 @@ Sum sum_of_all(const RatiosCase& c) {
         for (std::size_t border = 1; border < c.rolls.size(); ++border) {
             const double lost = min_loss(c, alternative, 0, border) +
                                 min_loss(c, alternative, border, c.rolls.size());
-            // Each bit that disagrees only with the alternative reduces the score by twice its
-            // weight.
+            // The loss is halved, because each bit that disagrees only with the alternative reduces
+            // the score by twice its weight.
             const double odds = -lost / 2 / 127 * c.odds_q8 / 256;
             if (odds <= kMinLog2) continue;
             sum.odds += std::exp2(odds + kSeamLog2);

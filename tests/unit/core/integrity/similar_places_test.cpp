@@ -24,7 +24,8 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns true if `place` differs from `own` and is not excluded by a loss of kLimitParts or more.
+/// Returns true if `place` differs from `own` and its loss is less than kLimitParts. If the steps
+/// cannot exclude any place, the loss is not tested.
 bool is_similar(const code::Secondary& a, std::uint32_t own, std::uint32_t place,
                 const Steps& steps) {
     if (place == own) return false;

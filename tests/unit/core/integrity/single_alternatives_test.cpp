@@ -1,5 +1,5 @@
-// Tests the odds of single alternatives (positions that differ in one sequence) against a sum over
-// all of them in double precision.
+// Tests the odds of single alternatives (positions that differ in one sequence) against a
+// double-precision sum over all of them.
 #include "core/integrity/single_alternatives.hpp"
 
 #include <gtest/gtest.h>

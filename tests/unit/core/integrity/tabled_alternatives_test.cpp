@@ -1,5 +1,5 @@
-// Tests the upper bounds that are computed from tables against sums over all alternatives in double
-// precision.
+// Tests the upper bounds that are computed from tables. They must not be smaller than the sums over
+// all alternatives, which the tests compute in double precision.
 #include "core/integrity/tabled_alternatives.hpp"
 
 #include <algorithm>
@@ -80,7 +80,8 @@ class Comparison {
     double min_factor_ = std::numeric_limits<double>::infinity();
 };
 
-/// Returns a position near the end of the code, near the end of a sequence, or anywhere else.
+/// Returns a random position. Depending on `i`, the position is near the end of the code, near the
+/// end of a period of a sequence, or anywhere.
 std::uint32_t any_position(Rng& rng, int i) {
     const auto before = static_cast<std::uint32_t>(rng.below(20));
     if (i % 8 == 0) return kPositionsPerAxis - 1 - before;
@@ -91,7 +92,7 @@ std::uint32_t any_position(Rng& rng, int i) {
     return anywhere - anywhere % length + length - 1 - std::min(before, length - 1);
 }
 
-/// Lines of hard bits, some of which are missing or wrong.
+/// Lines of hard bits. Some of the bits are missing or wrong.
 struct BitsCase {
     BitsCase(CodeVariant code_, Rng& rng, int i) : code(code_) {
         reading.position = any_position(rng, i);

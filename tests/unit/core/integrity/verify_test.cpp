@@ -163,7 +163,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         Reading reading(random_view(rng), QuarterTurn{i % 4});
-        // Half of the bits disagree with the code, as if the frame showed another pattern.
+        // Flips about half of the bits at random, as if the frame showed another pattern.
         for (GridCell& cell : reading.owned.cells) {
             if (rng.below(2) == 0) cell.x = static_cast<std::int8_t>(-cell.x);
             if (rng.below(2) == 0) cell.y = static_cast<std::int8_t>(-cell.y);
@@ -178,8 +178,8 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns a difficult view: a small view in which some dots are missing, displaced, or have a
-/// wrong symbol.
+/// Returns a difficult view: it is small, and some of its dots are missing, are displaced, or have
+/// a wrong symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
     view.code = kCodeVariants[static_cast<std::size_t>(rng.below(3))];

@@ -1,5 +1,5 @@
-// Compares the odds of places in other code variants to sums over all places that differ from the
-// reading in a4, and to the window decoder.
+// Tests the odds of places in other code variants. Compares them with sums over all places that
+// differ from the reading only in a4, and tests that the decoder finds the same places.
 #include "core/integrity/weigh_codes.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 83;
 
-/// Returns the same lines, treated as lines of another code variant.
+/// Returns a copy of the case in which the lines are treated as lines of the code variant `code`.
 RatiosCase as_in(CodeVariant code, const RatiosCase& c) {
     RatiosCase other;
     other.code = code;
@@ -23,7 +23,7 @@ RatiosCase as_in(CodeVariant code, const RatiosCase& c) {
     return other;
 }
 
-/// Returns the rolls of the lines at the same place in the other code variant.
+/// Returns the rolls of the lines if the reading is at the same place in the code variant `other`.
 std::vector<int> rolls_here(const RatiosCase& c, CodeVariant other) {
     const int further = roll(other, c.position) - roll(c.code, c.position) + kSections;
     std::vector<int> rolls = rolls_from(as_in(other, c), own_places(c), 0);

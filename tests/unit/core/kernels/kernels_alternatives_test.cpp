@@ -15,8 +15,9 @@ namespace {
 
 using namespace core;
 
-/// The places of a reading in the four sequences. `offset` returns the roll of a line at another
-/// place in sequence `k`, relative to its roll in the reading.
+/// The places of a reading in the four sequences. `offset` compares the rolls of a line at two
+/// places in sequence `k`: it returns the roll at `place` minus the roll at the place of the
+/// reading, modulo 63.
 struct OwnPlaces {
     const code::Basis& basis;
     std::array<std::uint32_t, 4> own;
@@ -49,8 +50,8 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                     ASSERT_FALSE(is_similar);
                     continue;
                 }
-                // Computes the maximum total loss over all sets of steps with different digits in
-                // which no two steps are adjacent.
+                // Computes the maximum total loss over all sets of steps. A set contains only steps
+                // with different digits, and no two adjacent steps.
                 int most = 0;
                 int max_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
@@ -123,7 +124,7 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
 
 TEST(KernelsAlternatives, LeastLossesAreThoseOfSortedLosses) {
     repeat_with_each_form(50, [&](const Kernels& kernels, Rng& rng) {
-        // Small ranges produce many equal losses.
+        // In half of the rounds, the losses are between -1 and 3, so many of them are equal.
         const int most = whole(rng, 0, 1) == 0 ? 3 : INT16_MAX;
         std::vector<std::int16_t> losses;
         const int count = whole(rng, 8, 16);
@@ -196,7 +197,7 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 
 /// Expected odds in double precision, indexed by the roll offset and by the length of the current
 /// run. The current run consists of adjacent lines in which the alternative has the roll offset 0
-/// and the digits of the reading. The run ends with the newest line.
+/// and the digits of the reading. Its last line is the line that was processed last.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
 /// Calls `use` for every choice of digits at one step. Digits are chosen only in sequences with
@@ -250,8 +251,8 @@ double expected_in_double(const OwnPlaces& places, unsigned different,
 }
 
 /// In a view of two patterns, 12 adjacent lines make the alternatives less probable, and the other
-/// 9 lines make them more probable. The product of the odds of the 12 lines is far outside the
-/// range of a float.
+/// 9 lines make them more probable. The product of the odds of the 12 lines is far below the
+/// smallest float.
 TEST(KernelsAlternatives, ExpectationsOfTwoPatternsAreThoseInDoublePrecision) {
     repeat_with_each_form(3, [&](const Kernels& kernels, Rng& rng) {
         const OwnPlaces places(rng);

@@ -1,4 +1,5 @@
-// Tests the kernels for centroid windows and centres of dots against simple reference computations.
+// Tests the kernels that measure centroid windows and compute the centres of dots. Compares them
+// with simple reference computations.
 #include <cmath>
 #include <cstdint>
 #include <utility>

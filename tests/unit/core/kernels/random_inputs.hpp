@@ -1,4 +1,4 @@
-// Random inputs for kernels, and records of kernel outputs for bitwise comparison.
+// Random inputs for kernels, and records of kernel outputs that can be compared bit by bit.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using core::MeasuredDots;
 using core::Patch;
 using core::PatchDots;
 
-/// Returns all forms of the kernels (portable, wide, AVX2) that this processor can run.
+/// Returns the kernel implementations (portable, wide, AVX2) that this processor can run.
 inline std::vector<const core::Kernels*> forms() {
     std::vector<const core::Kernels*> all{&core::portable_kernels(), &core::wide_kernels()};
     if (core::avx2_kernels() != nullptr) all.push_back(core::avx2_kernels());
@@ -51,8 +51,8 @@ class Record {
     std::vector<unsigned char> bytes_;
 };
 
-/// Calls `run(kernels, record)` for every form of the kernels, and expects every record to equal
-/// that of the portable form.
+/// Calls `run(kernels, record)` for every kernel implementation, and expects every record to equal
+/// that of the portable implementation.
 template <typename Run>
 void expect_same(Run run) {
     Record expected;
@@ -66,8 +66,8 @@ void expect_same(Run run) {
 
 inline constexpr std::uint64_t kPlainSeed = 20262;
 
-/// Calls `use(kernels, rng)` `times` times for each form. The random numbers differ between calls,
-/// but are the same for all forms.
+/// Calls `use(kernels, rng)` `times` times for each kernel implementation. The random numbers
+/// differ between calls, but are the same for all implementations.
 template <typename Use>
 void repeat_with_each_form(int times, Use use) {
     for (const core::Kernels* form : forms()) {
@@ -179,7 +179,8 @@ class DotTable {
     std::array<std::vector<std::int32_t>, 7> ints_;
 };
 
-/// Returns the plane of a camera over a rotated pattern, with some tilt and lens distortion.
+/// Returns the map from an image to the pattern. The pattern is rotated, and the camera has some
+/// tilt and lens distortion.
 inline core::FloatPlane random_plane(Rng& rng, double spacing_px, double tilt, double bend) {
     const double turn = rng.uniform(0, 6.283);
     const double unit = 1 / spacing_px;

@@ -80,8 +80,8 @@ TEST(Axes, AreNearlyExactWithoutDisplacements) {
         const auto dots = dots_of(placed_dots(mesh, 20, image, [](int, int) { return Vec2{}; }));
         Lattice lattice;
         ASSERT_EQ(axes_of(edges_of(dots, image), lattice), Status::ok) << angle;
-        // Displaced dots have neighbours that are closer than a spacing. The stage uses nearest
-        // neighbours, and lengthens the axes by 4 % to compensate for this.
+        // The distance from a displaced dot to its nearest neighbour is usually shorter than the
+        // spacing. The stage lengthens the axes by about 4 % to compensate for this.
         EXPECT_NEAR(length(mesh_of(lattice).u), 11 * 1.043, 0.05) << angle;
         EXPECT_NEAR(std::remainder(degrees(mesh_of(lattice).u) - angle, 90), 0, 0.2) << angle;
     }

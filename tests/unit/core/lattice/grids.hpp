@@ -51,10 +51,10 @@ inline std::vector<PlacedDot> displaced_dots(const Mesh& mesh, int reach, Vec2 i
     return placed_dots(mesh, reach, image_px, [&](int, int) { return random_displacement(rng); });
 }
 
-/// Returns the tolerance of a fit of three parameters per axis, at a corner of the image. Each of
-/// the n dots is displaced by 1/6 spacing along one random axis, which is 0.118 spacings rms per
-/// axis. In units of the variance of one dot, the variance at the corner is 1 / n for the mean plus
-/// 3 / n for each of the two slopes. The tolerance is five standard deviations.
+/// Returns the tolerance at a corner of the image, in spacings, for a fit with three parameters per
+/// axis. Each of the n dots is displaced by 1/6 spacing along one random axis, which is 0.118
+/// spacings rms per axis. In units of the variance of one dot, the variance at the corner is 1 / n
+/// for the mean plus 3 / n for each of the two slopes. The tolerance is five standard deviations.
 inline double affine_tolerance(const std::vector<PlacedDot>& dots) {
     return 5 * 0.118 * std::sqrt(7.0 / static_cast<double>(dots.size()));
 }

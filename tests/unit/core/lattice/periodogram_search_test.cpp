@@ -1,4 +1,5 @@
-// Tests the search for the grid in the periodogram of the dots, from inaccurate first estimates.
+// Tests the search for the grid in the periodogram of the dots. The search starts from inaccurate
+// first estimates.
 #include "core/lattice/periodogram_search.hpp"
 
 #include <gtest/gtest.h>
@@ -13,8 +14,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 46;
 
-/// Returns the difference between two directions, in degrees, modulo the quarter turns of a square
-/// grid.
+/// Returns the difference between two directions, in degrees, modulo 90 degrees, because quarter
+/// turns do not change a square grid.
 double turned_degrees(double a_rad, double b_rad) {
     return std::remainder(a_rad - b_rad, std::numbers::pi / 2) * 180 / std::numbers::pi;
 }
@@ -59,7 +60,7 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
 }
 
 TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
-    // The camera is tilted by 30 degrees about a random axis, which foreshortens the grid in one
+    // The camera is tilted by 30 degrees about a random axis. The tilt foreshortens the grid in one
     // direction by a factor of cos(30 degrees).
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {

@@ -1,5 +1,5 @@
-// Tests the refinement of a grid over the whole image, starting from a rough estimate in the
-// middle.
+// Tests `refine_grid`, which starts from a rough estimate in the middle of the image and refines
+// the grid over the whole image.
 #include "core/lattice/refine_grid.hpp"
 
 #include <gtest/gtest.h>

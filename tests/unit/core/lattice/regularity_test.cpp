@@ -1,5 +1,6 @@
-// Tests the behaviour common to `grow_grid` and `refine_grid`. Both extend the grid from a rough
-// estimate in the middle over the whole image, and refuse dots that do not form a grid.
+// Tests the behaviour common to `grow_grid` and `refine_grid`. Both start from a rough estimate in
+// the middle of the image, extend the grid over the whole image, and refuse dots that do not form a
+// grid.
 #include "core/lattice/regularity.hpp"
 
 #include <ostream>
@@ -18,9 +19,9 @@ using namespace core;
 constexpr std::uint64_t kSeed = 47;
 constexpr Vec2 kImage_px{188, 120};
 
-/// Returns the tolerance of a fit to displaced dots, in spacings. The displacements act as noise of
-/// 0.12 spacings rms per axis. A fit of 8 parameters to at least 100 dots has an rms error of 0.12
-/// sqrt(8 / 100) = 0.034, and up to 3 times as much at the corners.
+/// Returns the tolerance, in spacings, for a fit to displaced dots. The displacements act as noise
+/// of 0.12 spacings rms per axis. A fit of 8 parameters to at least 100 dots has an rms error of
+/// 0.12 sqrt(8 / 100) = 0.034, and up to 3 times as much at the corners.
 double perspective_tolerance(const std::vector<PlacedDot>&) {
     return 0.25;
 }
@@ -28,9 +29,9 @@ double perspective_tolerance(const std::vector<PlacedDot>&) {
 struct Stage {
     const char* name;
     decltype(grow_grid)* find_grid;
-    /// Returns the tolerance, in spacings, of a fit to displaced dots.
+    /// Returns the tolerance, in spacings, for a fit to displaced dots.
     double (*tolerance)(const std::vector<PlacedDot>& dots);
-    double plain_tolerance;  ///< tolerance of a fit to dots on their intersections, in spacings
+    double plain_tolerance;  ///< tolerance for a fit to undisplaced dots, in spacings
 };
 void PrintTo(const Stage& stage, std::ostream* out) {
     *out << stage.name;

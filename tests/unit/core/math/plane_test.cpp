@@ -14,8 +14,9 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 26;
 
-/// Returns the plane of a camera above the paper. The camera may be tilted and may have a
-/// wide-angle lens. Tilt and lens each change the scale by up to 10 % towards the corners.
+/// Returns the map from the image to the paper, for a camera above the paper. The camera may be
+/// tilted and may have a wide-angle lens. Tilt and lens each change the scale by up to 10 % towards
+/// the corners.
 PlaneFromImage random_plane(Rng& rng, double side_px, bool is_bent) {
     PlaneFromImage plane = affine_plane(side_px, rng.uniform(6, 60), 1.2, rng);
     if (is_bent) {

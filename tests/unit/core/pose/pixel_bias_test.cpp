@@ -21,7 +21,7 @@ constexpr double kContrast = 0.85;
 constexpr double kNoise = 3;
 constexpr double kBlur_px = 0.3;
 
-/// Error of the mean measured centre before and after the correction, in px.
+/// Mean error of the measured centres before and after the correction, in px.
 struct MeanError {
     Vec2 before;
     Vec2 after;

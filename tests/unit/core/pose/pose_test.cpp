@@ -1,4 +1,5 @@
-// Compares the pose computed from the place in the code to a camera of known geometry.
+// Compares the pose computed from the place in the code with the true pose of a camera of known
+// geometry.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -60,8 +61,8 @@ TEST(Pose, FittedToExactDotsIsExact) {
         const Reading reading = reading_off_grid(i, rng);
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
-        // Dot centres are rounded to 1/256 px. The rounding error varies across the image, which
-        // the fit interprets as a slight lens distortion.
+        // Dot centres are rounded to 1/256 px. The rounding error varies across the image. The fit
+        // interprets this variation as a slight lens distortion.
         expect_pose(reading, fit.pose, reading.view.centre_px(), 2e-4);
         EXPECT_GE(fit.fix.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
     }

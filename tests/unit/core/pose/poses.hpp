@@ -19,7 +19,7 @@ inline Vec2 error_at(const Reading& reading, const PlaneFromImage& found, Vec2 p
     return real(core::plane_point_q16(found, fixed(pixel, 8)), 16) - expected;
 }
 
-/// Expects the plane to be correct at a pixel, in value and slope.
+/// Expects that the value and the slopes of the plane are correct at a pixel.
 inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec2 pixel,
                         double tolerance) {
     const Vec2 error = error_at(reading, found, pixel);

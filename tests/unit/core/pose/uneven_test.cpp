@@ -1,5 +1,5 @@
-// Tests fits on sheets that are not planar. The positions of the dots are computed from a plane in
-// double precision and a known displacement.
+// Tests fits on sheets that are not planar. The positions of the dots are computed in double
+// precision from a plane and a known displacement.
 #include "core/pose/uneven.hpp"
 
 #include <functional>
@@ -27,8 +27,8 @@ constexpr double kMaxSigmas = 4.5;
 /// The displacement of the paper, in spacings, at a position relative to the image centre.
 using Shift = std::function<Vec2(Vec2)>;
 
-/// A sheet whose paper is displaced by a `Shift`, its dots in an image of 188 x 120 px, and the
-/// pose fitted to these dots.
+/// A sheet whose paper is displaced by a `Shift`. Contains its dots in an image of 188 x 120 px,
+/// and the pose fitted to these dots.
 struct Sheet {
     FloatPlane truth;
     OwnedDots owned;
@@ -65,7 +65,7 @@ struct Sheet {
         return std::equal(columns.begin(), columns.end(), owned.dots.column.begin());
     }
     Vec2 off() const { return formula(plane, {}) - formula(truth, {}); }
-    /// Returns the larger of the errors of x and y, each divided by its standard deviation.
+    /// Divides the errors of x and y by their standard deviations, and returns the larger quotient.
     double sigmas_off() const {
         return std::max(std::abs(off().x) / std::sqrt(double{fix.covariance[0][0]}),
                         std::abs(off().y) / std::sqrt(double{fix.covariance[1][1]}));

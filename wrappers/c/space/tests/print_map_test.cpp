@@ -31,9 +31,9 @@ class PrintMapInC : public SpaceInC {
         ASSERT_EQ(dotpose_fix_init(&fix_, sizeof fix_), DOTPOSE_OK);
     }
 
-    /// Returns the contents of a map of the page in view, with all dots displaced along x. The
-    /// map's noise is set high, so the map is accepted although the print does not have these
-    /// displacements.
+    /// Returns the contents of a map file for the page in view. In the map, all dots are displaced
+    /// along x. The noise stored in the map is set high, so the map is accepted although the print
+    /// does not have these displacements.
     std::string displaced_map() const {
         PrintMap map;
         MapPage& page = map.pages.emplace_back();

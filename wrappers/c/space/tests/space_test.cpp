@@ -1,5 +1,5 @@
-// Tests the C functions for poses in space: compares the poses with the true poses and with the C++
-// library, and checks misuse.
+// Tests the C functions for poses in space: compares the poses with the true poses and with those
+// of the C++ library, and checks misuse.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -22,7 +22,7 @@
 namespace dotpose {
 namespace {
 
-// Programs in other languages rely on the layout in the header.
+// Programs in other languages rely on the struct layouts documented in the header.
 static_assert(sizeof(dotpose_space_camera) == 80);
 static_assert(offsetof(dotpose_space_camera, print_scale) == 72);
 static_assert(sizeof(dotpose_space_pose) == 488);
@@ -116,8 +116,8 @@ TEST_F(SpaceInC, FindsTheTipOfAPen) {
     ASSERT_EQ(dotpose_space_pen_init(&pen, sizeof pen), DOTPOSE_OK);
     dotpose_space_tip tip;
     ASSERT_EQ(dotpose_space_tip_init(&tip, sizeof tip), DOTPOSE_OK);
-    // The tip is where the optical axis meets the paper, so it touches the paper at the image
-    // centre.
+    // The tip is at the point where the optical axis meets the paper. It therefore touches the
+    // paper, and its position is the pattern point at the image centre.
     pen.z_mm = kDistance_mm;
     ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
     const double mm = shot_.page.pattern.spacing_mm;

@@ -1,4 +1,5 @@
-/// Creates the node for programs. Component containers load the node as dotpose_ros::LocatorNode.
+/// Creates the node in a program. Component containers instead load it as the component
+/// dotpose_ros::LocatorNode.
 #pragma once
 
 #include <memory>
