@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct AccuracyOptions {
     fs::path out;
     bool is_quick = false;
-    int share(int frames) const { return is_quick ? frames / 10 : frames; }
+    int scaled(int frames) const { return is_quick ? frames / 10 : frames; }
 };
 
 /// A combination of decoder and effort, with its name in the tables.
@@ -61,7 +61,7 @@ std::string frame_row(Preset preset, const Way& way, const Score& score) {
     const std::string normalised =
         std::isfinite(x) ? fmt::format("{:.2f} / {:.2f} / {:.2f}", x, y, theta) : "-";
     return fmt::format("| {} | {} | {} | {:.2f} % | {} | {} | {} | {} |\n", name(preset), way.name,
-                       score.frames, 100 * score.located_share(), score.wrong,
+                       score.frames, 100 * score.located_fraction(), score.wrong,
                        three(score.position_um, 2), three(score.angle_deg, 3), normalised);
 }
 
@@ -89,7 +89,7 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
         setup.preset = condition.preset;
         setup.seed = run.seed;
         FrameRun frame_run;
-        frame_run.frames = options.share(condition.frames);
+        frame_run.frames = options.scaled(condition.frames);
         frame_run.frame_at = frames_of_setup(setup);
         frame_run.options.assign(kWays.size(), {});
         for (std::size_t i = 0; i < kWays.size(); ++i) {
@@ -107,11 +107,12 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
 }
 
 /// Returns the most difficult value of a condition at which the fraction of located frames is at
-/// least `share`. For the spacing, returns the range between its lower and its upper limit.
-std::string reach(const Sweep& sweep, Decoder decoder, double share) {
+/// least `fraction`. For the spacing, returns the range between its lower and its upper limit.
+std::string reach(const Sweep& sweep, Decoder decoder, double fraction) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];
-        return (decoder == Decoder::window ? point.window : point.all).located_share() >= share;
+        return (decoder == Decoder::window ? point.window : point.all).located_fraction() >=
+               fraction;
     };
     std::size_t first = 0;
     while (first < sweep.points.size() && !located(first))
@@ -137,7 +138,7 @@ void print_sweeps(const AccuracyOptions& accuracy, TableRun& run) {
         cli::ProgressLine line(fmt::format("sweep {}", name(kind)));
         SweepOptions options;
         options.setup.seed = run.seed;
-        options.frames_per_value = accuracy.share(500);
+        options.frames_per_value = accuracy.scaled(500);
         options.progress = shown_on(line);
         const Sweep sweep = run_sweep(kind, options);
         write_sweep(accuracy.out, sweep);

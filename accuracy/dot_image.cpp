@@ -25,12 +25,12 @@ DotImage::DotImage(double radius_px, double blur_px, Vec2 motion_px) : blur_px_(
     weight_ = std::numbers::pi * radius_px * radius_px / static_cast<double>(points_.size());
 }
 
-double DotImage::share(double distance_px) const {
+double DotImage::fraction(double distance_px) const {
     const double by = 1 / (blur_px_ * std::numbers::sqrt2);
     return (std::erf((distance_px + 0.5) * by) - std::erf((distance_px - 0.5) * by)) / 2;
 }
 
-double DotImage::derivative_of_share(double distance_px) const {
+double DotImage::derivative_of_fraction(double distance_px) const {
     const auto density = [&](double x) {
         return std::exp(-x * x / (2 * blur_px_ * blur_px_)) /
                (blur_px_ * std::sqrt(2 * std::numbers::pi));
@@ -41,7 +41,7 @@ double DotImage::derivative_of_share(double distance_px) const {
 double DotImage::darkness(Vec2 from_dot) const {
     double sum = 0;
     for (const Vec2& point : points_)
-        sum += share(from_dot.x - point.x) * share(from_dot.y - point.y);
+        sum += fraction(from_dot.x - point.x) * fraction(from_dot.y - point.y);
     return weight_ * sum;
 }
 
@@ -50,8 +50,8 @@ Vec2 DotImage::derivative(Vec2 from_dot) const {
     for (const Vec2& point : points_) {
         const double u = from_dot.x - point.x;
         const double v = from_dot.y - point.y;
-        sum.x -= weight_ * derivative_of_share(u) * share(v);
-        sum.y -= weight_ * share(u) * derivative_of_share(v);
+        sum.x -= weight_ * derivative_of_fraction(u) * fraction(v);
+        sum.y -= weight_ * fraction(u) * derivative_of_fraction(v);
     }
     return sum;
 }

@@ -24,8 +24,8 @@ class DotImage {
     /// Returns the fraction of a point's light that a pixel receives, along one axis. The total
     /// fraction is the product over both axes. `distance_px` is the distance between the point and
     /// the pixel centre along this axis.
-    double share(double distance_px) const;
-    double derivative_of_share(double distance_px) const;
+    double fraction(double distance_px) const;
+    double derivative_of_fraction(double distance_px) const;
 
     std::vector<Vec2> points_;  ///< points of equal weight that represent the disk and its motion
     double weight_;

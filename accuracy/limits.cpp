@@ -61,7 +61,7 @@ int print_limit(const test::Limit& limit, std::uint64_t frames, const TableRun& 
     const auto [once, twice] =
         score_once_and_twice(limit.condition, frame_run, options_of(limit), run);
     fmt::print("| {} | {} | {:.1f} | {:.1f} | {} | {} | {} |\n", limit.condition, frame_run.frames,
-               100 * once.located_share(), 100 * twice.located_share(), twice.wrong,
+               100 * once.located_fraction(), 100 * twice.located_fraction(), twice.wrong,
                micrometres(twice.position_um.median), micrometres(twice.position_um.p95));
     std::fflush(stdout);
     return twice.wrong;

@@ -48,8 +48,8 @@ bool print_map_solver_table(TableRun& run) {
     MapSolution& solution = input.start;
     cli::ProgressLine line("solving");
     const std::clock_t start = std::clock();
-    solve_map(input.grid, {}, input.reach_mm, input.observations, solution, [&](double share) {
-        line.update(std::lround(1000 * share), 1000);
+    solve_map(input.grid, {}, input.reach_mm, input.observations, solution, [&](double fraction) {
+        line.update(std::lround(1000 * fraction), 1000);
         if (cli::interrupted()) throw Error("interrupted");
     });
     const double time_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

@@ -99,7 +99,7 @@ void TableRun::print_block(const std::string& name, const std::string& text) {
 void TableRun::update_document() const {
     if (document_.empty()) return;
     if (cli::interrupted()) {
-        cli::tell(fmt::format("interrupted; {} keeps its tables", document_));
+        cli::notify(fmt::format("interrupted; {} keeps its tables", document_));
         return;
     }
     dotpose::update_document(document_, blocks_);

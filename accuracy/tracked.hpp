@@ -36,10 +36,11 @@ struct TrueView {
     }
 };
 
-/// Returns the `share` quantile of the values (0.5 for the median), or 0 if `values` is empty.
-inline double quantile(std::vector<double> values, double share) {
+/// Returns the quantile of the values for the given probability (0.5 for the median), or 0 if
+/// `values` is empty.
+inline double quantile(std::vector<double> values, double probability) {
     if (values.empty()) return 0;
-    const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    const auto n = static_cast<std::ptrdiff_t>(probability * static_cast<double>(values.size()));
     const auto at = values.begin() + std::min(n, std::ssize(values) - 1);
     std::ranges::nth_element(values, at);
     return *at;

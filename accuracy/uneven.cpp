@@ -56,7 +56,8 @@ double max_error_sigmas(const Outcome& outcome) {
     return max;
 }
 
-double share(std::span<const Outcome> outcomes, const std::function<bool(const Outcome&)>& holds) {
+double fraction(std::span<const Outcome> outcomes,
+                const std::function<bool(const Outcome&)>& holds) {
     return outcomes.empty() ? 0
                             : 100.0 * static_cast<double>(std::ranges::count_if(outcomes, holds)) /
                                   static_cast<double>(outcomes.size());
@@ -81,10 +82,11 @@ int print_uneven_row(const SheetFrames& sheet, std::uint64_t frames, const Table
         run.evaluate(sheet.what + ", " + sheet.size.text(), std::move(frame_run)).front();
     const Score score = score_of(fixes);
     std::erase_if(fixes, [](const Outcome& outcome) { return !outcome.is_fix(); });
-    const double within = share(
+    const double within = fraction(
         fixes, [](const Outcome& outcome) { return max_error_sigmas(outcome) <= kMaxSigmas; });
-    const auto share_that_is = [&](Surface surface) {
-        return share(fixes, [=](const Outcome& outcome) { return outcome.fix.surface == surface; });
+    const auto fraction_that_is = [&](Surface surface) {
+        return fraction(fixes,
+                        [=](const Outcome& outcome) { return outcome.fix.surface == surface; });
     };
     std::vector<double> sigmas_um;
     for (const Outcome& fix : fixes) {
@@ -96,7 +98,7 @@ int print_uneven_row(const SheetFrames& sheet, std::uint64_t frames, const Table
         "{:.2f} | {:.3f} / {:.2f} | {} |\n",
         sheet.what, sheet.size.text(), score.frames,
         100.0 * static_cast<double>(fixes.size()) / std::max(score.frames, 1),
-        share_that_is(Surface::divided), share_that_is(Surface::uneven), within,
+        fraction_that_is(Surface::divided), fraction_that_is(Surface::uneven), within,
         score.position_um.median, score.position_um.p95, score.position_um.max,
         quantiles_of(sigmas_um).median, quantiles_of(sigmas_um).p95, score.angle_deg.median,
         score.angle_deg.max, score.wrong);

@@ -63,8 +63,8 @@ bool is_right(const Fix& fix, const Truth& truth) {
     return outcome.is_fix() && !outcome.is_wrong();
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
-    const double rank = std::ceil(share * static_cast<double>(sorted.size()));
+double quantile(const std::vector<double>& sorted, double probability) {
+    const double rank = std::ceil(probability * static_cast<double>(sorted.size()));
     return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 

@@ -20,9 +20,8 @@ const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 /// Returns true if the fix has a pose and that pose is correct.
 bool is_right(const Fix& fix, const Truth& truth);
 
-/// Returns the quantile at probability `share` of the values in `sorted`, by the nearest-rank
-/// method.
-double quantile(const std::vector<double>& sorted, double share);
+/// Returns the quantile of sorted values for the given probability, by the nearest-rank method.
+double quantile(const std::vector<double>& sorted, double probability);
 
 /// Calls `work(i)` for i from 0 to count - 1, on all cores.
 void on_all_cores(int count, const std::function<void(int)>& work);

@@ -100,15 +100,15 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
 /// percentage. Also returns the median time per frame relative to a tilt of 0 degrees, at the tilt
 /// with the highest ratio.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
-    double share = 100;
+    double fraction = 100;
     double ratio = 1;
     double straight_us = 1;
     for (const TiltTimes& t : tilts) {
         if (t.tilt_deg == 0) straight_us = t.median_us;
-        share = std::min(share, 100.0 * t.by_first_attempt / t.frames);
+        fraction = std::min(fraction, 100.0 * t.by_first_attempt / t.frames);
         ratio = std::max(ratio, t.median_us / straight_us);
     }
-    return {share, ratio};
+    return {fraction, ratio};
 }
 
 /// Returns a table that compares measured values with their targets.
@@ -116,7 +116,7 @@ std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varie
                        const std::vector<TiltTimes>& tilts, const HardTimes& hard) {
     const double locate_us = varied.of(Way::twice).median_us;
     const FrameTimes& vga = of_width(sizes, 640);
-    const auto [share, ratio] = worst_tilt(tilts);
+    const auto [fraction, ratio] = worst_tilt(tilts);
     const std::vector<Aim> aims = {
         {"188 x 120, median, µs", 15, locate_us, 1},
         {"188 x 120, median / libapriltag with decimate 2", 1.0 / 32,
@@ -132,7 +132,7 @@ std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varie
         {"640 x 480 with 2,500 dots, tracked, µs", 60, vga.tracked_us, 0},
         {"1280 x 800, µs", 300, of_width(sizes, 1280).locate_us, 0},
         {"12 megapixels at 6 px per spacing, µs", 2000, of_width(sizes, 4000).locate_us, 0},
-        {"tilted by up to 20 degrees, not located by the first attempt, %", 2, 100 - share, 1},
+        {"tilted by up to 20 degrees, not located by the first attempt, %", 2, 100 - fraction, 1},
         {"tilted by up to 20 degrees, median / that at 0 degrees", 2, ratio, 2},
         {"hard frames of 188 x 120, 99 %, ms", 5, hard.p99_ms, 2},
         {"hard frames of 188 x 120, longest of 20,000, ms", 15, hard.longest_ms, 1},

@@ -183,14 +183,14 @@ inline void render_overlay(const Shot& shot, Rng& rng, AdversarialFrame& frame) 
 inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
                            AdversarialFrame& frame) {
     const Pattern pattern = shot.page.pattern;
-    const double share =
+    const double fraction =
         adversary == Adversary::replaced ? rng.uniform(0.3, 0.6) : rng.uniform(0.05, 0.45);
     frame.image = render_dots(shot, [&](Cell cell) {
         if (adversary == Adversary::flipped) {
-            return displacement_of(flipped_symbol(pattern, share, shot.seed, cell));
+            return displacement_of(flipped_symbol(pattern, fraction, shot.seed, cell));
         }
         Rng here = rng_of(shot.seed, cell);
-        return displacement_of(here.uniform() < share
+        return displacement_of(here.uniform() < fraction
                                    ? static_cast<Symbol>(here.below(4))
                                    : symbol_at(pattern.code, cell, pattern.section));
     });

@@ -42,7 +42,7 @@ inline Vec2 direction_of(const Shot& shot) {
 }
 
 /// Returns the fraction of the frame that dirt and graphics cover.
-inline double covered_share(Shot shot) {
+inline double covered_fraction(Shot shot) {
     constexpr double kPaper = 255;
     // The threshold is half-way between the paper and the lightest dirt.
     constexpr double kDark = 0.8 * kPaper;
@@ -63,12 +63,12 @@ inline void cover(Shot& shot, int Imperfections::*count, int step, double from, 
     for (std::uint64_t trial = 0;; ++trial) {
         shot.seed = Rng(shot.seed, trial).bits();
         shot.imperfections.*count = 0;
-        double share = 0;
-        while (share < from) {
+        double fraction = 0;
+        while (fraction < from) {
             shot.imperfections.*count += step;
-            share = covered_share(shot);
+            fraction = covered_fraction(shot);
         }
-        if (share < to) return;
+        if (fraction < to) return;
     }
 }
 
@@ -99,14 +99,14 @@ inline void add_light(std::vector<Limit>& limits) {
 inline void add_dots(std::vector<Limit>& limits) {
     struct Dots {
         const char* diameter;
-        double share;
+        double fraction;
     };
     struct Seen {
         CameraModel camera;
         const char* spacing;
     };
     const CameraModel device;
-    for (const auto& [diameter, share] :
+    for (const auto& [diameter, fraction] :
          {Dots{"0.10", 0.10}, {"0.25", 0.25}, {"0.35", 0.35}, {"0.40", 0.40}}) {
         for (const auto& [camera, spacing] :
              {Seen{camera_of(device.width_px, device.height_px, 8), "8 px"},
@@ -114,19 +114,19 @@ inline void add_dots(std::vector<Limit>& limits) {
               {camera_of(640, 480, 20), "20 px, 640 x 480"},
               {camera_of(640, 480, 40), "40 px, 640 x 480"}}) {
             limits.push_back({std::string("dots of ") + diameter + " of the spacing of " + spacing,
-                              [share = share](Shot& shot) {
-                                  shot.page.pattern.dot_mm = share * kDefaultSpacing_mm;
+                              [fraction = fraction](Shot& shot) {
+                                  shot.page.pattern.dot_mm = fraction * kDefaultSpacing_mm;
                               },
                               camera});
         }
     }
-    for (const auto& [length, share] :
+    for (const auto& [length, fraction] :
          {Dots{"0.12", 0.12}, {"0.20", 0.20}, {"0.28", 0.28}, {"0.30", 0.30}}) {
         limits.push_back({std::string("dots displaced by ") + length + " of the spacing",
-                          [share = share](Shot& shot) {
-                              shot.page.pattern.displacement_mm = share * kDefaultSpacing_mm;
+                          [fraction = fraction](Shot& shot) {
+                              shot.page.pattern.displacement_mm = fraction * kDefaultSpacing_mm;
                           }});
-        limits.back().is_held = share < 0.30;
+        limits.back().is_held = fraction < 0.30;
     }
     limits.push_back({"one ink for each direction, the palest with 0.4 of the contrast",
                       [](Shot& shot) { shot.imperfections.palest_ink = 0.4; }});

@@ -119,9 +119,9 @@ class PlaceErrors {
     /// Returns the rms error per axis after subtracting a fitted offset, rotation and scale.
     double absolute_um() const { return left_um(4, 0); }
     /// Returns the rms error per axis, excluding errors that vary slowly over the page. A displaced
-    /// dot moves the fix in the opposite direction, so the function first adds `wave_share` times
-    /// the wave of the print to each error. Then it subtracts a fitted cubic polynomial.
-    double repeatability_um(double wave_share) const { return left_um(20, wave_share); }
+    /// dot moves the fix in the opposite direction, so the function first adds `wave_fraction`
+    /// times the wave of the print to each error. Then it subtracts a fitted cubic polynomial.
+    double repeatability_um(double wave_fraction) const { return left_um(20, wave_fraction); }
     double sigma_um() const {
         return 1000 * std::sqrt(variance_ / static_cast<double>(places_.size()));
     }
@@ -133,7 +133,7 @@ class PlaceErrors {
         Vec2 wave;
     };
 
-    double left_um(int terms, double wave_share) const {
+    double left_um(int terms, double wave_fraction) const {
         const auto rows = 2 * static_cast<Eigen::Index>(places_.size());
         Eigen::MatrixXd design = Eigen::MatrixXd::Zero(rows, terms);
         Eigen::VectorXd right(rows);
@@ -151,8 +151,8 @@ class PlaceErrors {
                 design.row(row).head(10) = cubic;
                 design.row(row + 1).tail(10) = cubic;
             }
-            right[row] = error.x + wave_share * wave.x;
-            right[row + 1] = error.y + wave_share * wave.y;
+            right[row] = error.x + wave_fraction * wave.x;
+            right[row + 1] = error.y + wave_fraction * wave.y;
         }
         const Eigen::VectorXd left = right - design * design.colPivHouseholderQr().solve(right);
         return 1000 * std::sqrt(left.squaredNorm() / static_cast<double>(rows - terms));

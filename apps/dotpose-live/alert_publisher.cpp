@@ -34,8 +34,8 @@ void AlertPublisher::check(const FleetRobots& robots, const Now& now) {
 void AlertPublisher::finish() {
     constexpr auto kPatience = std::chrono::seconds(2);
     publisher_.flush(kPatience);
-    tell(fmt::format("{} alerts published, {} dropped", publisher_.sent(),
-                     publisher_.dropped() + publisher_.unsent()));
+    notify(fmt::format("{} alerts published, {} dropped", publisher_.sent(),
+                       publisher_.dropped() + publisher_.unsent()));
 }
 
 }  // namespace dotpose::cli

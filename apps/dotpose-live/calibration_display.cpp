@@ -105,7 +105,7 @@ bool CalibrationDisplay::show(const CalibrationStatus& status, ImageView image,
         show_in_terminal(status);
     } else if (const std::string line = line_of(status); line != last_line_) {
         last_line_ = line;
-        tell(line);
+        notify(line);
     }
     return true;
 }
@@ -128,7 +128,7 @@ void CalibrationDisplay::show_in_terminal(const CalibrationStatus& status) {
 }
 
 void CalibrationDisplay::say(const std::string& message) {
-    tell(message);
+    notify(message);
     shown_lines_ = 0;
 }
 

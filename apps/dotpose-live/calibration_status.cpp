@@ -22,9 +22,9 @@ std::vector<video::Gauge> gauges_of(const CalibrationStatus& status) {
             std::min(1.0, static_cast<double>(seen) / wanted),
             !is_missing(status, kind) && seen >= wanted};
     };
-    const double share = coverage.image().share();
+    const double fraction = coverage.image().fraction();
     std::vector<video::Gauge> gauges = {
-        {"image", fmt::format("{:.0f} %", 100 * share), share,
+        {"image", fmt::format("{:.0f} %", 100 * fraction), fraction,
          coverage.frames() > 0 && !is_missing(status, Kind::image)},
         count("places", coverage.places(), kWantedPlaces, Kind::places),
         count("directions", coverage.directions(), kWantedDirections, Kind::directions),

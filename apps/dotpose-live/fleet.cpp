@@ -106,7 +106,7 @@ std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
                                            const publish::MqttOptions& mqtt) {
     auto server = arguments.web.options();
     if (!server) return std::nullopt;
-    server->tell = mqtt.tell;
+    server->notify = mqtt.notify;
     FleetWebOptions options;
     options.server = *server;
     options.limits = limits_of(arguments);
@@ -127,9 +127,9 @@ void run(const FleetArguments& arguments) {
     catch_interrupts();
     const Delivery delivery = arguments.share.is_shared() ? Delivery::shared : Delivery::all;
     FleetView view(read_fleet_map(arguments.sheets), arguments.map, delivery);
-    mqtt->tell = [&view](const std::string& message) { view.tell(message); };
+    mqtt->notify = [&view](const std::string& message) { view.notify(message); };
     std::optional<FleetStore> store;
-    if (!arguments.store.where.empty()) store.emplace(arguments.store, mqtt->tell);
+    if (!arguments.store.where.empty()) store.emplace(arguments.store, mqtt->notify);
     FleetInput input({*mqtt, arguments.share, limits, arguments.log}, store ? &*store : nullptr);
     std::optional<AlertPublisher> alerts;
     if (arguments.publishes_alerts) alerts.emplace(*mqtt);
@@ -140,7 +140,7 @@ void run(const FleetArguments& arguments) {
         return arguments.seconds > 0 && elapsed.count() >= arguments.seconds;
     };
     std::optional<MetricsFile> metrics;
-    if (!arguments.metrics.empty()) metrics.emplace(arguments.metrics, mqtt->tell);
+    if (!arguments.metrics.empty()) metrics.emplace(arguments.metrics, mqtt->notify);
     const auto services = [&] {
         return FleetServices{input.is_connected(), delivery, store_status(store)};
     };

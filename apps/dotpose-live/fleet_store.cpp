@@ -95,20 +95,20 @@ store::State StoredStates::of(std::string_view robot, const RobotState& state,
 }
 
 FleetStore::FleetStore(const StoreArguments& arguments,
-                       std::function<void(const std::string&)> tell)
-    : tell_(std::move(tell)),
+                       std::function<void(const std::string&)> notify)
+    : notify_(std::move(notify)),
       queue_(store::make_database(arguments.where, store::Access::write),
              store::is_on_server(arguments.where),
              {.max_states = static_cast<std::size_t>(arguments.max_states),
               .keep_days = arguments.keep_days,
-              .tell = tell_}) {}
+              .notify = notify_}) {}
 
 void FleetStore::finish() {
     constexpr auto kPatience = std::chrono::seconds(10);
     const bool is_complete = queue_.finish(kPatience);
     const store::QueueStatus status = queue_.status();
-    tell_(fmt::format("{} states stored, {} dropped", status.stored,
-                      status.dropped + status.waiting));
+    notify_(fmt::format("{} states stored, {} dropped", status.stored,
+                        status.dropped + status.waiting));
     if (!is_complete || status.dropped > 0) {
         throw Error(fmt::format("{} states were not stored, because the database was away",
                                 status.dropped + status.waiting));

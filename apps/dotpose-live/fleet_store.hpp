@@ -47,8 +47,8 @@ class StoredStates {
 class FleetStore {
   public:
     /// Throws Error if a database file cannot be opened, or if the library for the database is
-    /// missing. `tell` receives messages for the user and may be called on another thread.
-    FleetStore(const StoreArguments& arguments, std::function<void(const std::string&)> tell);
+    /// missing. `notify` receives messages for the user and may be called on another thread.
+    FleetStore(const StoreArguments& arguments, std::function<void(const std::string&)> notify);
 
     void add(std::string_view robot, const RobotState& state, std::int64_t received_us) {
         queue_.push(states_.of(robot, state, received_us));
@@ -60,7 +60,7 @@ class FleetStore {
     void finish();
 
   private:
-    std::function<void(const std::string&)> tell_;
+    std::function<void(const std::string&)> notify_;
     StoredStates states_;
     store::Queue queue_;
 };

@@ -51,7 +51,7 @@ void FleetView::refresh(const FleetState& fleet, const Now& now) {
         draw(fleet, now);
         is_failing_ = false;
     } catch (const Error& error) {
-        if (!is_failing_) tell(error.what());
+        if (!is_failing_) notify(error.what());
         is_failing_ = true;
     }
     const auto end = Clock::now();
@@ -82,13 +82,13 @@ void FleetView::leave_screen(const FleetState& fleet, const Now& now) {
     }
     std::fflush(stdout);
     for (const std::string& message : std::exchange(messages_, {}))
-        cli::tell(message);
+        cli::notify(message);
 }
 
-void FleetView::tell(const std::string& message) {
+void FleetView::notify(const std::string& message) {
     constexpr std::size_t kMaxMessages = 100;
     const std::lock_guard lock(mutex_);
-    if (!screen_) return cli::tell(message);
+    if (!screen_) return cli::notify(message);
     messages_.push_back(message);
     if (messages_.size() > kMaxMessages) messages_.pop_front();
 }

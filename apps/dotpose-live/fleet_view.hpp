@@ -40,7 +40,7 @@ class FleetView {
     /// Reports a message to the user. While the table is displayed on a terminal, the message
     /// appears below the table, and is printed again at the end. Otherwise, the message is printed
     /// on standard error. Thread-safe.
-    void tell(const std::string& message);
+    void notify(const std::string& message);
 
     const FleetMap& map() const { return map_; }
 

@@ -51,7 +51,7 @@ FleetWeb::FleetWeb(FleetWebOptions options, const FleetState& fleet, const Fleet
     server_.publish(setup_, [text = setup_value(map_, options_.limits, options_.device,
                                                 has_history)] { return text; });
     if (has_history) history_.emplace(options_.store, server_, history_topic_);
-    options_.server.tell("the page is at " + server_.url());
+    options_.server.notify("the page is at " + server_.url());
     thread_ = std::thread([this] { run(); });
 }
 
@@ -157,7 +157,7 @@ void FleetWeb::remove(const serve::Command& command) {
     const auto* robot = robot_with(snapshot()->robots, *id);
     if (robot == nullptr || printable(robot->first) != *name) return;
     options_.remove(robot->first);
-    options_.server.tell("web: removed " + printable(robot->first));
+    options_.server.notify("web: removed " + printable(robot->first));
 }
 
 }  // namespace dotpose::cli

@@ -109,7 +109,7 @@ LensCalibration calibrate_live(const SourceArguments& arguments, Sources& source
     LiveCalibration live(calibration, options, is_camera);
     capture::SourceOptions source_options = arguments.options;
     source_options.stop = interrupted;
-    source_options.tell = [&live](const std::string& message) { live.say(message); };
+    source_options.notify = [&live](const std::string& message) { live.say(message); };
     source_options.on_unreadable = [&live](const std::string&, const Error& error) {
         live.say(error.what());
     };

@@ -18,7 +18,7 @@ std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
 }
 
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps) {
-    return video::module().create_video(path, fps, tell);
+    return video::module().create_video(path, fps, notify);
 }
 
 }  // namespace dotpose::cli

@@ -7,8 +7,8 @@
 
 namespace dotpose::cli {
 
-MetricsFile::MetricsFile(std::string path, std::function<void(const std::string&)> tell)
-    : path_(std::move(path)), tell_(std::move(tell)) {
+MetricsFile::MetricsFile(std::string path, std::function<void(const std::string&)> notify)
+    : path_(std::move(path)), notify_(std::move(notify)) {
     require_writable(path_);
 }
 
@@ -17,7 +17,7 @@ void MetricsFile::write(const std::string& text) {
         write_file(path_, text);
         is_failing_ = false;
     } catch (const Error& error) {
-        if (!std::exchange(is_failing_, true)) tell_(error.what());
+        if (!std::exchange(is_failing_, true)) notify_(error.what());
     }
 }
 

@@ -9,7 +9,7 @@ namespace dotpose::cli {
 class MetricsFile {
   public:
     /// Throws Error if the file cannot be written.
-    MetricsFile(std::string path, std::function<void(const std::string&)> tell);
+    MetricsFile(std::string path, std::function<void(const std::string&)> notify);
 
     /// Replaces the file atomically, so a reader never sees an incomplete file. A failure is
     /// reported once and otherwise ignored, because later attempts may succeed.
@@ -17,7 +17,7 @@ class MetricsFile {
 
   private:
     std::string path_;
-    std::function<void(const std::string&)> tell_;
+    std::function<void(const std::string&)> notify_;
     bool is_failing_ = false;
 };
 

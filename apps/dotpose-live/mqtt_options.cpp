@@ -14,7 +14,7 @@ std::optional<publish::MqttOptions> mqtt_options(const MqttArguments& arguments)
     if (options.password.empty() && password != nullptr) options.password = password;
     options.ca_file = arguments.ca_file;
     options.qos = arguments.qos;
-    options.tell = tell;
+    options.notify = notify;
     return options;
 }
 

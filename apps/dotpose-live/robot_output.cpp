@@ -75,8 +75,8 @@ void RobotOutput::set_camera(const Camera& camera) {
 void RobotOutput::finish() {
     if (recording_) recording_->finish();
     if (!publisher_) return;
-    tell(fmt::format("{} messages published over DDS, {} dropped", publisher_->sent(),
-                     publisher_->dropped()));
+    notify(fmt::format("{} messages published over DDS, {} dropped", publisher_->sent(),
+                       publisher_->dropped()));
 }
 
 }  // namespace dotpose::cli

@@ -78,8 +78,8 @@ StateOutput::StateOutput(const PublishArguments& arguments, const std::string& s
 void StateOutput::finish() {
     constexpr auto kPatience = std::chrono::seconds(2);
     publisher_.flush(kPatience);
-    tell(fmt::format("{} states published, {} dropped", publisher_.sent(),
-                     publisher_.dropped() + publisher_.unsent()));
+    notify(fmt::format("{} states published, {} dropped", publisher_.sent(),
+                       publisher_.dropped() + publisher_.unsent()));
     publisher_.require_reached();
 }
 

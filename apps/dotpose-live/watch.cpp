@@ -50,7 +50,7 @@ constexpr const char* kWatchExamples =
 
 void report(const WatchOutputs& outputs, std::int64_t dropped) {
     const WatchTally& tally = outputs.tally();
-    tell(fmt::format(
+    notify(fmt::format(
         "{} frames, {} fixes, {} times lost, {} times kidnapped, {} frames dropped, "
         "{:.1f} frames/s",
         tally.frames, tally.fixes, tally.lost, tally.kidnapped, dropped, outputs.rate()));
@@ -78,11 +78,11 @@ void report_problems(const Reading& reading, ImageView image, const Follower& fo
                      double bits_per_px, FailureHint& hint,
                      std::array<bool, kWarnings>& was_reported) {
     const std::string advice = hint.after(reading, image, follower.used_options(), bits_per_px);
-    if (!advice.empty()) tell(advice);
+    if (!advice.empty()) notify(advice);
     const auto doubts = warnings(reading.record);
     for (std::size_t i = 0; i < doubts.size(); ++i) {
         if (doubts[i].empty() || std::exchange(was_reported[i], true)) continue;
-        tell(fmt::format("frame {}: {}", reading.index, doubts[i]));
+        notify(fmt::format("frame {}: {}", reading.index, doubts[i]));
     }
 }
 
@@ -132,7 +132,7 @@ void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follow
     const bool is_published = !outputs.publish.mqtt.url.empty() || outputs.messages.is_wanted();
     if (follower.sheets().empty()) {
         if (!is_published) return;
-        tell(
+        notify(
             "poses are published in the frame of the pattern (y down, angles clockwise): give "
             "--sheets with sheets that have a place in the world (dotpose sheets place)");
         return;
@@ -146,7 +146,7 @@ void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follow
     constexpr const char* kPattern =
         "no sheet has a place in the world, so the robot is tracked in the frame of the pattern (y "
         "down, angles clockwise): place the sheets first (dotpose sheets place)";
-    tell(follower.is_in_world() ? fmt::format(kPartly, unplaced->name) : kPattern);
+    notify(follower.is_in_world() ? fmt::format(kPartly, unplaced->name) : kPattern);
 }
 
 /// Returns the number of frames to process, or 0 if unknown.
@@ -166,7 +166,7 @@ void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     try {
         follower.set_sheets(std::move(*sheets));
     } catch (const Error& error) {
-        tell(fmt::format("the changed sheets are not used: {}", error.what()));
+        notify(fmt::format("the changed sheets are not used: {}", error.what()));
         return;
     }
     outputs.use_sheets(was_in_world);
@@ -177,7 +177,7 @@ void use_calibrated_camera(WatchOutputs& outputs, Follower& follower) {
     const std::optional<Camera> camera = outputs.take_camera();
     if (!camera) return;
     follower.set_camera(*camera);
-    tell("a calibration was saved in the page; the next frames are located with it");
+    notify("a calibration was saved in the page; the next frames are located with it");
 }
 
 /// Follows the robot through all frames. `length` is the number of frames, or 0 if unknown. Returns
@@ -209,7 +209,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     } catch (const Error& error) {
         // Returns an exit status rather than throwing, because the map and the report must still be
         // written for the frames before the failure.
-        tell(error.what());
+        notify(error.what());
         return kExitFailed;
     }
     return 0;
@@ -270,12 +270,12 @@ int run(WatchArguments& arguments) {
     bool is_unreadable = false;
     capture::SourceOptions source_options = arguments.sources.options;
     source_options.stop = interrupted;
-    source_options.tell = tell;
+    source_options.notify = notify;
     source_options.before_reading = [&files](const std::string& file) {
         files.require_not_written(file);
     };
     source_options.on_unreadable = [&is_unreadable](const std::string&, const Error& error) {
-        tell(error.what());
+        notify(error.what());
         is_unreadable = true;
     };
     const auto source = sources.open(source_options);
@@ -285,7 +285,7 @@ int run(WatchArguments& arguments) {
     tell_frame_of_poses(arguments, follower);
     arguments.outputs.sheets = arguments.follower.sheets;
     if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
-    arguments.outputs.screen.tell = tell;
+    arguments.outputs.screen.notify = notify;
     arguments.outputs.messages.robot = arguments.outputs.publish.robot;
     arguments.outputs.messages.camera = arguments.follower.camera.camera;
     arguments.outputs.messages.has_space_pose = follower.fits_space_pose();
@@ -300,12 +300,12 @@ int run(WatchArguments& arguments) {
     try {
         outputs.finish();
     } catch (const Error& error) {
-        tell(error.what());
+        notify(error.what());
         exit_code = kExitFailed;
     }
     report(outputs, source->dropped());
-    if (saver) tell(fmt::format("{} frames saved in {}", saver->saved(), arguments.save.folder));
-    if (const std::string why = hint.at_end(); !why.empty()) tell(why);
+    if (saver) notify(fmt::format("{} frames saved in {}", saver->saved(), arguments.save.folder));
+    if (const std::string why = hint.at_end(); !why.empty()) notify(why);
     // Unreadable images are skipped, but the run fails if none of the images could be read.
     return is_unreadable && outputs.tally().frames == 0 ? kExitFailed : exit_code;
 }

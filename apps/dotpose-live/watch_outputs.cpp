@@ -101,7 +101,7 @@ void WatchOutputs::write_packet(const Reading& reading) {
     try {
         packets_->write(reading, follower_.used_options().code);
     } catch (const ReaderLeft& error) {
-        tell(error.what());
+        notify(error.what());
         packets_.reset();
     }
 }

@@ -13,7 +13,7 @@ std::optional<serve::ServerOptions> WebArguments::options() const {
     }
     serve::ServerOptions options;
     options.address = serve::parse_address(page_.address);
-    options.tell = [](const std::string& message) { tell(message); };
+    options.notify = [](const std::string& message) { notify(message); };
     if (!page_.token_file.empty()) {
         options.token = serve::read_token(page_.token_file);
     } else if (!options.address.is_loopback()) {

@@ -31,7 +31,7 @@ json json_of(const std::vector<video::Gauge>& gauges) {
     for (const video::Gauge& gauge : gauges) {
         all.push_back({{"label", gauge.label},
                        {"text", gauge.text},
-                       {"share", gauge.share},
+                       {"fraction", gauge.fraction},
                        {"is_reached", gauge.is_reached}});
     }
     return all;
@@ -221,7 +221,7 @@ void WebCalibration::refuse(const std::string& reason) {
     const Clock::time_point now = Clock::now();
     if (now < next_report_) return;
     next_report_ = now + kReportPeriod;
-    tell("web: refused " + reason);
+    notify("web: refused " + reason);
 }
 
 void WebCalibration::set_sheets(std::vector<SheetEntry> sheets) {

@@ -93,7 +93,7 @@ WebSheets::WebSheets(WebSheetsOptions options, serve::Server& server, const Shee
     : options_(std::move(options)),
       server_(server),
       topics_(topics),
-      edits_(options_.path, {kMaxWait_s, [](const std::string& message) { tell(message); },
+      edits_(options_.path, {kMaxWait_s, [](const std::string& message) { notify(message); },
                              [this] { return ends_.load(); }}) {}
 
 WebSheets::~WebSheets() {

@@ -91,7 +91,7 @@ WebView::WebView(WebOptions options, const Follower& follower)
         return serve::Answer{.type = kMetricsType, .body = metrics_.text()};
     });
     publish_setup();
-    tell("the page is at " + server_.url());
+    notify("the page is at " + server_.url());
 }
 
 void WebView::publish_setup() {

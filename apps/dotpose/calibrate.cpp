@@ -216,7 +216,7 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
 /// Computes the world poses and print scales of all sheets and writes them to the sheet file.
 /// Returns a report.
 std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
-    SheetFile file(system::path_of(arguments.sheets), {.tell = tell, .stop = interrupted});
+    SheetFile file(system::path_of(arguments.sheets), {.notify = notify, .stop = interrupted});
     const Stitching stitching = with_progress(
         arguments, sources, arguments.camera.camera, "stitching",
         [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
@@ -238,8 +238,8 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
     camera.camera = replaced_camera("-o", out);
     if (!camera.camera) return;
     camera.path = out;
-    tell(fmt::format("{} exists: values that are not calibrated now, such as the mount, are kept",
-                     out));
+    notify(fmt::format("{} exists: values that are not calibrated now, such as the mount, are kept",
+                       out));
 }
 
 /// Reads the code and the spacing from the sheet file given to --sheets.

@@ -36,7 +36,7 @@ PrintMap earlier_map(const std::string& out) {
     if (!std::filesystem::exists(system::path_of(out), failed)) return {};
     try {
         PrintMap map = read_print_map(system::path_of(out));
-        tell(fmt::format("{} exists: the frames update it", out));
+        notify(fmt::format("{} exists: the frames update it", out));
         return map;
     } catch (const Error& error) {
         throw Error(
@@ -47,10 +47,10 @@ PrintMap earlier_map(const std::string& out) {
 /// Adds all frames from the sources to the map.
 void add_frames(const PrintMapArguments& arguments, Sources& sources, PrintMapping& mapping) {
     capture::SourceOptions options = arguments.sources.options;
-    options.tell = tell;
+    options.notify = notify;
     options.stop = interrupted;
     options.open_live = open_live;
-    options.on_unreadable = [](const std::string&, const Error& error) { tell(error.what()); };
+    options.on_unreadable = [](const std::string&, const Error& error) { notify(error.what()); };
     std::optional<FlatFieldCorrection> correction;
     if (arguments.camera && !arguments.camera->flat_field.empty())
         correction.emplace(*arguments.camera);
@@ -64,7 +64,7 @@ void add_frames(const PrintMapArguments& arguments, Sources& sources, PrintMappi
         mapping.add(correction ? correction->corrected(frame.image.view()).view()
                                : frame.image.view());
     }
-    if (take_ctrl_c()) tell("no more frames are read; Ctrl-C once more ends without a result");
+    if (take_ctrl_c()) notify("no more frames are read; Ctrl-C once more ends without a result");
     if (interrupted()) throw Error("interrupted; no map was written");
 }
 
@@ -119,8 +119,8 @@ void make_print_map(const PrintMapArguments& arguments) {
     PrintMapResult result;
     {
         ProgressLine line("solving the map");
-        result = mapping.solve([&](double share) {
-            line.update(static_cast<std::int64_t>(1000 * share), 1000);
+        result = mapping.solve([&](double fraction) {
+            line.update(static_cast<std::int64_t>(1000 * fraction), 1000);
             return !interrupted();
         });
     }

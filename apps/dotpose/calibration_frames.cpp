@@ -37,7 +37,7 @@ CalibrationFrames::CalibrationFrames(const SourceArguments& arguments, Sources& 
     : options_(arguments.options) {
     capture::SourceOptions source_options = arguments.options;
     source_options.stop = interrupted;
-    source_options.tell = tell;
+    source_options.notify = notify;
     source_options.open_live = open_live;
     for (const std::string& name : sources.all_names()) {
         const capture::SourceKind kind = capture::kind_of(name);
@@ -54,8 +54,8 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
                                const CalibrateOptions& calibration) {
     const bool is_camera = capture::kind_of(source) == capture::SourceKind::camera;
     if (is_camera) {
-        tell("move the camera over the sheet, until it has shown " + std::to_string(kMaxChosen) +
-             " places or you end it with Ctrl-C");
+        notify("move the camera over the sheet, until it has shown " + std::to_string(kMaxChosen) +
+               " places or you end it with Ctrl-C");
     }
     std::optional<std::string> name = source;
     capture::SourceList list([&name] { return std::exchange(name, std::nullopt); }, options);
@@ -79,7 +79,7 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
         places.thin_out();
     }
     if (take_ctrl_c()) {
-        tell("no more frames are read; Ctrl-C once more ends without a result");
+        notify("no more frames are read; Ctrl-C once more ends without a result");
     }
     if (interrupted()) throw Error("interrupted");
     if (located == 0 && mirrored > 0) throw Error(source + ": " + kMirrored);
@@ -87,8 +87,8 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
         throw Error(fmt::format("{}: none of its {} frames shows a pattern that can be located",
                                 source, frames));
     }
-    tell(fmt::format("{}: {} of {} frames located; {} that show new places are used", source,
-                     located, frames, chosen.size()));
+    notify(fmt::format("{}: {} of {} frames located; {} that show new places are used", source,
+                       located, frames, chosen.size()));
     for (GreyImage& image : chosen)
         frames_.push_back({{}, std::move(image)});
 }

@@ -123,7 +123,7 @@ std::string offset_remark(const SheetEntry& entry) {
 /// file. Returns a report. `PrintField::sheet` is an index into `sheets`.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
-    SheetFile file(system::path_of(path), {.tell = tell, .stop = interrupted});
+    SheetFile file(system::path_of(path), {.notify = notify, .stop = interrupted});
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
@@ -205,8 +205,8 @@ std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution
     if (!resolution) return remedy + "; 600 dpi suffice, or 300 for large pages";
     const double dpi = std::sqrt(resolution->x_dpi * resolution->y_dpi);
     for (const int enough : {600, 400, 300}) {
-        const double share = enough / dpi;
-        if (enough >= dpi || megapixels * share * share > max_megapixels) continue;
+        const double fraction = enough / dpi;
+        if (enough >= dpi || megapixels * fraction * fraction > max_megapixels) continue;
         return remedy + fmt::format("; {} dpi instead of {:.0f} suffice", enough, dpi);
     }
     return remedy + "; or scan the page in parts";
@@ -218,7 +218,7 @@ GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOption
     try {
         GreyImage scan = read_image(system::path_of(arguments.scan),
                                     arguments.max_megapixels * 1'000'000, note, arguments.page);
-        if (!note.empty()) tell(note);
+        if (!note.empty()) notify(note);
         if (arguments.flip) flip(scan);
         return scan;
     } catch (const ImageTooLarge& error) {

@@ -62,16 +62,16 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
             field.paper_level);
     }
     add(text, "covered     {} of {} ({:.2f} %), not counted below", field.covered,
-        field.covered + field.cells, 100 * field.covered_share());
+        field.covered + field.cells, 100 * field.covered_fraction());
     if (field.are_dots_checked) {
         add(text, "missing     {} of {} ({:.2f} %)", field.missing, field.cells,
-            100 * field.missing_share());
+            100 * field.missing_fraction());
     }
     if (field.are_sizes_measured) {
-        add(text, "merged      {} ({:.2f} %)", field.merged, 100 * field.merged_share());
+        add(text, "merged      {} ({:.2f} %)", field.merged, 100 * field.merged_fraction());
     }
     add(text, "bits wrong  {} of {} ({:.2f} %)", field.bits_wrong, 2 * field.dots,
-        100 * field.wrong_share());
+        100 * field.wrong_fraction());
 }
 
 /// Returns the prefix that identifies a field in the report. It has the form "sheet 'table': ", or
@@ -110,8 +110,8 @@ void add_patches(std::string& text, const PrintCheck& check) {
         const PrintField& f = check.fields[i];
         add(text, "{:8.4f} {:8.4f} {:8.4f} {:+7.0f}% {:8.2f}% {:7.2f}% {:8.2f}% {:9.4f}{}",
             f.pattern.spacing_mm, f.pattern.dot_mm, f.dot_mm, 100 * f.gain(),
-            100 * f.missing_share(), 100 * f.merged_share(), 100 * f.wrong_share(), f.residual_mm,
-            is_best(check, i) ? "  best for this spacing" : "");
+            100 * f.missing_fraction(), 100 * f.merged_fraction(), 100 * f.wrong_fraction(),
+            f.residual_mm, is_best(check, i) ? "  best for this spacing" : "");
     }
     for (const Pattern& pattern : check.unread_patches)
         add(text, "{:8.4f} {:8.4f} could not be read", pattern.spacing_mm, pattern.dot_mm);

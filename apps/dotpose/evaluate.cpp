@@ -102,7 +102,7 @@ nlohmann::ordered_json json_of(const Score& score) {
         {"frames", score.frames},
         {"unreadable", score.unreadable},
         {"located", score.located},
-        {"located_share", score.located_share()},
+        {"located_fraction", score.located_fraction()},
         {"wrong", score.wrong},
         {"not_located", statuses},
         {"position_um", quantiles_json(score.position_um)},
@@ -125,7 +125,7 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
     int exit_code = 0;
     for (const Outcome& outcome : outcomes) {
         if (outcome.problem.empty()) continue;
-        tell(outcome.problem);
+        notify(outcome.problem);
         exit_code = kExitFailed;
     }
     write_report(arguments, report_of(score_of(outcomes), arguments.as_json));
@@ -150,8 +150,8 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line,
     }
     if (interrupted()) {
         if (outcomes.size() > readable_frames()) outcomes.resize(readable_frames());
-        tell(fmt::format("interrupted; the report covers the first {} of {} frames",
-                         outcomes.size(), all.frames));
+        notify(fmt::format("interrupted; the report covers the first {} of {} frames",
+                           outcomes.size(), all.frames));
     }
     return outcomes;
 }
@@ -274,7 +274,7 @@ int evaluate_sweep(const EvaluateArguments& arguments) {
     write_sweep(system::path_of(arguments.report.out), sweep);
     fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg and .png\n", arguments.report.out, kind);
     if (!interrupted()) return 0;
-    tell(fmt::format("interrupted; the sweep contains the first {} values", sweep.points.size()));
+    notify(fmt::format("interrupted; the sweep contains the first {} values", sweep.points.size()));
     return kExitFailed;
 }
 

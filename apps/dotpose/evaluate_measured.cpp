@@ -161,7 +161,7 @@ int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions&
         const KnownFrame frame = known.frame_at(static_cast<int>(i));
         if (i >= known.readable_frames()) break;
         if (!frame.problem.empty()) {
-            tell(frame.problem);
+            notify(frame.problem);
             exit_code = kExitFailed;
             continue;
         }
@@ -170,8 +170,8 @@ int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions&
                           found_in(is_in_world, located.place), located.spacing_mm});
     }
     if (interrupted()) {
-        tell(fmt::format("interrupted; the report covers the first {} of {} frames", frames.size(),
-                         known.rows.size()));
+        notify(fmt::format("interrupted; the report covers the first {} of {} frames",
+                           frames.size(), known.rows.size()));
         exit_code = kExitFailed;
     }
     const auto alignment = arguments.is_aligned ? std::optional(align(frames)) : std::nullopt;

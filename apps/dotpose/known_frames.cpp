@@ -144,8 +144,8 @@ class FramesInOrder {
     void tell_if_more() {
         capture::Frame frame;
         if (is_over_ || interrupted() || !list_.next(frame)) return;
-        tell(fmt::format("there are more frames than the {} poses; the others were left out",
-                         rows_.size()));
+        notify(fmt::format("there are more frames than the {} poses; the others were left out",
+                           rows_.size()));
     }
 
   private:
@@ -192,7 +192,7 @@ KnownFrames known_frames(const SourceArguments& arguments, const std::string& po
     if (are_images) return known_images(names, arguments.options, known);
     capture::SourceOptions options = arguments.options;
     options.stop = interrupted;
-    options.tell = tell;
+    options.notify = notify;
     options.open_live = open_live;
     const auto frames = std::make_shared<FramesInOrder>(names, options);
     KnownFrames result;

@@ -112,11 +112,11 @@ class LossCounter {
     }
     void report(std::uint32_t damaged) const {
         if (arrived_ == 0 || damaged > 0 || lost_ > 0) {
-            tell(fmt::format("{} packets, {} stretches damaged, {} packets lost{}", arrived_,
-                             damaged, lost_,
-                             arrived_ == 0 ? "; were the bytes sent by a device or 'dotpose watch "
-                                             "--packets', and is --baud right?"
-                                           : ""));
+            notify(fmt::format(
+                "{} packets, {} stretches damaged, {} packets lost{}", arrived_, damaged, lost_,
+                arrived_ == 0 ? "; were the bytes sent by a device or 'dotpose watch "
+                                "--packets', and is --baud right?"
+                              : ""));
         }
     }
 

@@ -80,8 +80,8 @@ class ImageLocator {
         const std::chrono::duration<double, std::micro> elapsed = steady_clock::now() - start;
         if (located.reduced_by > 1) {
             const ImageView small = follower_.image();
-            tell(fmt::format("{}: reduced from {} x {} to {} x {} px", name, image.width_px,
-                             image.height_px, small.width_px, small.height_px));
+            notify(fmt::format("{}: reduced from {} x {} to {} x {} px", name, image.width_px,
+                               image.height_px, small.width_px, small.height_px));
         }
         Record record = record_of(located, follower_);
         record.file = name;
@@ -214,7 +214,7 @@ class LocateRun {
         // Follower downscales large images. With a camera file, only images of the size in the file
         // are accepted.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
-        options.tell = tell;
+        options.notify = notify;
         options.stop = interrupted;
         options.before_reading = [this](const std::string& file) {
             files_.require_not_written(file);
@@ -290,7 +290,7 @@ class LocateRun {
     }
 
     void fail(const Error& error) {
-        tell(error.what());
+        notify(error.what());
         exit_code_ = kExitFailed;
     }
 

@@ -107,7 +107,7 @@ void run(OverlayArguments& arguments) {
                    region_text(sheet),
                    printable(arguments.entries.summary({number, report.pages.size() == 1})));
     for (const std::string& warning : report.warnings)
-        tell("warning: " + warning);
+        notify("warning: " + warning);
 }
 
 void add_ink_options(Command& command, OverlayOptions& options) {

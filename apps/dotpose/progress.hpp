@@ -25,7 +25,7 @@ bool take_ctrl_c();
 std::string duration_text(double seconds);
 
 /// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". It appears
-/// only on a terminal and only after one second, and is removed at the end. A message from `tell`
+/// only on a terminal and only after one second, and is removed at the end. A message from `notify`
 /// hides the line until the next update. Only one progress line may exist at a time.
 class ProgressLine {
   public:

@@ -50,7 +50,7 @@ std::string list_of(const std::map<std::string, std::int64_t>& counts) {
     return text.empty() ? "none" : text;
 }
 
-double share(std::int64_t part, std::int64_t whole) {
+double fraction(std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
@@ -73,7 +73,7 @@ std::string text_report(const RunStatistics& run) {
     line("frames", fmt::format("{}", run.frames));
     line("duration", fmt::format("{:.3f} s", run.duration_s));
     line("frames with a fix",
-         fmt::format("{} ({:.2f} %)", run.fixes, 100 * share(run.fixes, run.frames)));
+         fmt::format("{} ({:.2f} %)", run.fixes, 100 * fraction(run.fixes, run.frames)));
     line("frames without, by status", list_of(run.without_fix));
     line("gaps", fmt::format("{}, the longest {:.3f} s", run.gaps, run.longest_gap_s));
     line("events", list_of(run.events));
@@ -91,7 +91,7 @@ std::string json_report(const RunStatistics& run) {
     const nlohmann::ordered_json json = {{"frames", run.frames},
                                          {"duration_s", run.duration_s},
                                          {"fixes", run.fixes},
-                                         {"fixes_share", share(run.fixes, run.frames)},
+                                         {"fixes_fraction", fraction(run.fixes, run.frames)},
                                          {"without_fix", run.without_fix},
                                          {"gaps", run.gaps},
                                          {"longest_gap_s", run.longest_gap_s},

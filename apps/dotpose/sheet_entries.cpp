@@ -35,7 +35,7 @@ std::string SheetEntryArguments::page_name(Page page) const {
 void SheetEntryArguments::reserve(const std::function<void(SheetFile&)>& enter_all,
                                   std::optional<SheetReservation>& reservation) const {
     reservation.emplace(system::path_of(path_), enter_all,
-                        SheetFileWait{wait_s_, tell, interrupted});
+                        SheetFileWait{wait_s_, notify, interrupted});
 }
 
 void SheetEntryArguments::confirm(SheetReservation& reservation, const std::string& out) const {

@@ -47,7 +47,7 @@ PrintOptions reprint_options(const SheetEntry& entry) {
 void reprint_sheet(const SheetEntry& entry, const std::string& out) {
     PrintOptions options = reprint_options(entry);
     if (!entry.print) {
-        tell(
+        notify(
             fmt::format("note: the entry of '{}', from an earlier version, does not say how its "
                         "page was printed: the dots are the same, labels may differ, and a .pdf "
                         "is for {:g} dpi",

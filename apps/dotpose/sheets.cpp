@@ -69,7 +69,7 @@ struct SheetsArguments {
     double right_mm = 0;
     double below_mm = 0;
 
-    SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
+    SheetFileWait wait() const { return {wait_s, notify, interrupted}; }
 };
 
 /// Throws Error if the sheet file does not exist. Without this check, SheetFile would create the

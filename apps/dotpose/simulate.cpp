@@ -137,8 +137,8 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
         view.islands = arguments.islands;
         view.on_table = arguments.on_table;
         if (arguments.covered.given()) {
-            view.min_share = to_vec(arguments.covered).x;
-            view.max_share = to_vec(arguments.covered).y;
+            view.min_fraction = to_vec(arguments.covered).x;
+            view.max_fraction = to_vec(arguments.covered).y;
             view.min_dots = 0;
         }
         cover_partly(shot, view);
@@ -289,7 +289,7 @@ void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
                name(arguments.setup.preset), arguments.setup.seed,
                printable(output->truth_path().filename().string()));
     if (done < arguments.frames) {
-        tell("interrupted; the frames so far are complete");
+        notify("interrupted; the frames so far are complete");
         exit_code = kExitFailed;
     }
 }

@@ -36,7 +36,7 @@ void remove_old_frames(const fs::path& folder, const fs::path& truth) {
     }
     for (const fs::path& frame : frames)
         fs::remove(frame);
-    tell(fmt::format("{}: removed {} frames of an earlier run", folder.string(), frames.size()));
+    notify(fmt::format("{}: removed {} frames of an earlier run", folder.string(), frames.size()));
 }
 
 class FrameFolder : public SimulateOutput {

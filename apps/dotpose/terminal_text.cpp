@@ -50,14 +50,14 @@ void write_to_stderr(const std::string& text) {
     static_cast<void>(std::fputs(text.c_str(), stderr));
 }
 
-void tell(std::string_view message) {
+void notify(std::string_view message) {
     const std::string text = printable(message);
     hide_progress();
     write_to_stderr(fmt::format("dotpose: {}\n", wants_colour(stderr) ? coloured(text) : text));
 }
 
-void tell_failure(std::string_view message) {
-    if (!wants_colour(stderr)) return tell(message);
+void notify_failure(std::string_view message) {
+    if (!wants_colour(stderr)) return notify(message);
     hide_progress();
     write_to_stderr(fmt::format("{}dotpose:{} {}\n", kRed, kPlain, printable(message)));
 }

@@ -18,11 +18,11 @@ using base::with_escaped_controls;
 void write_to_stderr(const std::string& text);
 
 /// Writes "dotpose: MESSAGE" to standard error as one printable line.
-void tell(std::string_view message);
+void notify(std::string_view message);
 
-/// Writes the reason why the program ends, in the format of `tell`, but in red if colours are
+/// Writes the reason why the program ends, in the format of `notify`, but in red if colours are
 /// enabled.
-void tell_failure(std::string_view message);
+void notify_failure(std::string_view message);
 
 /// Returns true if the stream is a terminal that supports colours, and colours are not disabled by
 /// NO_COLOR (no-color.org) or TERM=dumb.

@@ -91,9 +91,9 @@ int run(int argc, const char* const* argv, const AddCommands& add) {
         if (!help_words.empty()) app.parse(help_words);
         return exit_code;
     } catch (const UsageError& error) {
-        tell_failure(usage_error(app, error));
+        notify_failure(usage_error(app, error));
     } catch (const BadArgument& error) {
-        tell_failure(error.what());
+        notify_failure(error.what());
     }
     write_to_stderr("Try: " + help_command(app) + "\n");
     return kExitUsage;
@@ -109,7 +109,7 @@ int tool_main(int argc, char** argv, const AddCommands& add) noexcept {
             words.push_back(argument.c_str());
         return run(static_cast<int>(words.size()), words.data(), add);
     } catch (const std::exception& error) {
-        tell_failure(error.what());
+        notify_failure(error.what());
         return kExitFailed;
     }
 }

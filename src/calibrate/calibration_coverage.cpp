@@ -23,7 +23,7 @@ constexpr const char* kRegionNames[kRegions][kRegions] = {
 };
 
 /// Returns the fraction of a region in which dots were seen.
-double share_of(const ImageCoverage& image, std::size_t across, std::size_t down) {
+double fraction_of(const ImageCoverage& image, std::size_t across, std::size_t down) {
     int parts = 0;
     int covered = 0;
     for (int row = kRegionRows[down]; row < kRegionRows[down + 1]; ++row) {
@@ -82,7 +82,7 @@ bool ImageCoverage::add(PixelPoint pixel) {
     return is_new;
 }
 
-double ImageCoverage::share() const {
+double ImageCoverage::fraction() const {
     return static_cast<double>(std::ranges::count(covered_, true)) /
            static_cast<double>(covered_.size());
 }
@@ -121,10 +121,10 @@ int CalibrationCoverage::directions() const {
 bool CalibrationCoverage::is_image_covered() const {
     constexpr double kMinCornerCoverage = 0.5;
     constexpr std::size_t kLast = kRegions - 1;
-    return image_.share() >= kMinCoverage && share_of(image_, 0, 0) >= kMinCornerCoverage &&
-           share_of(image_, kLast, 0) >= kMinCornerCoverage &&
-           share_of(image_, 0, kLast) >= kMinCornerCoverage &&
-           share_of(image_, kLast, kLast) >= kMinCornerCoverage;
+    return image_.fraction() >= kMinCoverage && fraction_of(image_, 0, 0) >= kMinCornerCoverage &&
+           fraction_of(image_, kLast, 0) >= kMinCornerCoverage &&
+           fraction_of(image_, 0, kLast) >= kMinCornerCoverage &&
+           fraction_of(image_, kLast, kLast) >= kMinCornerCoverage;
 }
 
 std::string CalibrationCoverage::image_advice() const {
@@ -132,7 +132,7 @@ std::string CalibrationCoverage::image_advice() const {
     std::size_t min_down = 0;
     for (std::size_t down = 0; down < kRegions; ++down) {
         for (std::size_t across = 0; across < kRegions; ++across) {
-            if (share_of(image_, across, down) >= share_of(image_, min_across, min_down)) {
+            if (fraction_of(image_, across, down) >= fraction_of(image_, min_across, min_down)) {
                 continue;
             }
             min_across = across;

@@ -174,8 +174,9 @@ const char* name(FindingKind kind) {
     return "";
 }
 
-double PrintField::bad_share() const {
-    return std::min(covered_share() + missing_share() + merged_share() + wrong_share(), 1.0);
+double PrintField::bad_fraction() const {
+    return std::min(covered_fraction() + missing_fraction() + merged_fraction() + wrong_fraction(),
+                    1.0);
 }
 
 namespace {
@@ -187,7 +188,7 @@ void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintChe
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
     const bool is_suspicious = std::ranges::any_of(
-        check.fields, [](const PrintField& field) { return field.wrong_share() > kSuspicious; });
+        check.fields, [](const PrintField& field) { return field.wrong_fraction() > kSuspicious; });
     if (!is_suspicious) return;
     const CodeReader reader = locator.read_without_code(tiles);
     const CodeVariant code = reader.code();

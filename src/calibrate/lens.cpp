@@ -173,7 +173,7 @@ void measure_coverage(LensCalibration& result) {
     ImageCoverage parts(result.camera.width_px, result.camera.height_px);
     for (const CalibrationDot& dot : result.seen)
         parts.add(dot.pixel);
-    result.coverage = parts.share();
+    result.coverage = parts.fraction();
 }
 
 void judge(bool is_same, LensCalibration& result) {

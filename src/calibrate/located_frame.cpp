@@ -42,8 +42,8 @@ double half_width(const ImageView& image, const std::vector<LocatedDot>& dots, d
     const double half = (levels.front() + levels.back()) / 2;
     for (std::size_t i = 1; i < kBins; ++i) {
         if (levels[i] < half) continue;
-        const double share = (half - levels[i - 1]) / (levels[i] - levels[i - 1]);
-        return (static_cast<double>(i) - 0.5 + share) * kReach / kBins;
+        const double fraction = (half - levels[i - 1]) / (levels[i] - levels[i - 1]);
+        return (static_cast<double>(i) - 0.5 + fraction) * kReach / kBins;
     }
     return kReach;
 }

@@ -227,7 +227,7 @@ void solve_map(const MapGrid& grid, const EarlierOffsets& earlier, double reach_
     for (int round = 0; round < kRounds; ++round) {
         MapSystem system(grid, earlier, observations, solution);
         system.solve(solution, round == kRounds - 1 ? kConverged : kFirstConverged,
-                     [&](double share) { progress((round + share) / kRounds); });
+                     [&](double fraction) { progress((round + fraction) / kRounds); });
         if (round == kRounds - 1) {
             solution.errors = map_errors(grid, solution, system.deformation(),
                                          earlier.views.empty() ? Gauge::fixed : Gauge::earlier);

@@ -109,7 +109,7 @@ struct MapSolution {
 
 /// Called after each step with the completed fraction of the computation. May throw to cancel the
 /// computation.
-using MapProgress = std::function<void(double share)>;
+using MapProgress = std::function<void(double fraction)>;
 
 /// Computes the offsets of the dots, refines the poses of the frames, and marks outliers.
 /// `solution` must contain the approximate poses of the frames, and the observations of each frame

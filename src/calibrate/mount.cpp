@@ -174,7 +174,7 @@ struct SpotTurn {
     Vector2d drift;          ///< 0 for a robot that stays on the spot
     double squares_mm2 = 0;  ///< sum of the squared residuals
     /// Variance of the offset, per axis, relative to the variance of a measured position.
-    double offset_share = 0;
+    double offset_fraction = 0;
 };
 
 /// Returns the time t of a frame, from -1 to 1.
@@ -208,7 +208,7 @@ SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
     if (has_drift) result.drift = {solved[4], solved[5]};
     for (std::size_t i = 0; i < stations.size(); ++i)
         result.squares_mm2 += residual_mm(result, i, stations).squaredNorm();
-    result.offset_share = equations.unit_covariance()(2, 2);
+    result.offset_fraction = equations.unit_covariance()(2, 2);
     return result;
 }
 
@@ -319,7 +319,7 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
     result.drift_mm = bias_of_drift_mm(found.stations, fitted);
     result.verdict = result.drift_mm > 0 ? MountVerdict::drifted : MountVerdict::good;
     result.camera = camera.value_or(found.camera);
-    result.sigma_mm = std::hypot(result.residual_mm * std::sqrt(fitted.offset_share),
+    result.sigma_mm = std::hypot(result.residual_mm * std::sqrt(fitted.offset_fraction),
                                  result.drift_mm, sigma_of_lens_mm(result.camera, offset));
     require_spin(result, found.spacing_mm);
     result.camera.reference_px = pixel_of(offset, found);

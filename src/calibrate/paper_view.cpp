@@ -140,10 +140,10 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     const Eigen::MatrixXd covariance = normal_inverse(problem, {tilt.data()});
-    const double share = std::sqrt(covariance(3, 3)) / std::abs(tilt[3]);
-    if (!(tilt[3] > 0 && share < kMaxFocalError)) return;
+    const double fraction = std::sqrt(covariance(3, 3)) / std::abs(tilt[3]);
+    if (!(tilt[3] > 0 && fraction < kMaxFocalError)) return;
     camera.focal_px = reach_px / tilt[3];
-    camera.sigma["focal_px"] = *camera.focal_px * share;
+    camera.sigma["focal_px"] = *camera.focal_px * fraction;
     camera.tilt = Tilt{tilt[1], tilt[2]};
     camera.sigma["tilt_x_rad"] = std::sqrt(covariance(1, 1));
     camera.sigma["tilt_y_rad"] = std::sqrt(covariance(2, 2));
@@ -168,10 +168,10 @@ void describe_centre(const LensFit& fit, double reach_px, Camera& camera) {
 
 void describe_handheld(const LensFit& fit, double reach_px, Camera& camera) {
     const double reach_per_focal = fit.camera.shape[0];
-    const double share = fit.sigma.shape[0] / reach_per_focal;
-    if (!(reach_per_focal > 0 && share < kMaxFocalError)) return;
+    const double fraction = fit.sigma.shape[0] / reach_per_focal;
+    if (!(reach_per_focal > 0 && fraction < kMaxFocalError)) return;
     camera.focal_px = reach_px / reach_per_focal;
-    camera.sigma["focal_px"] = *camera.focal_px * share;
+    camera.sigma["focal_px"] = *camera.focal_px * fraction;
 }
 
 }  // namespace dotpose::calibrate

@@ -132,16 +132,16 @@ class Trimmer {
                                   Outer{row(j_begin_), longest_row_, &j_begin_, 1},
                                   Outer{row(j_end_ - 1), longest_row_, &j_end_, -1}};
         const Outer* worst = nullptr;
-        double worst_share = 1;
+        double worst_fraction = 1;
         for (const Outer& one : outer) {
             if (is_enough(one.line, one.longest)) continue;
             // Lines with too few correct dots are removed first. Their fraction of correct dots is
             // treated as 0, because it is not significant.
-            const double share =
+            const double fraction =
                 is_long(one.line, one.longest) ? double(one.line.right) / one.line.seen : 0;
-            if (worst != nullptr && share >= worst_share) continue;
+            if (worst != nullptr && fraction >= worst_fraction) continue;
             worst = &one;
-            worst_share = share;
+            worst_fraction = fraction;
         }
         if (worst == nullptr) return false;
         *worst->end += worst->step;

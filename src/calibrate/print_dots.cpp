@@ -48,8 +48,8 @@ double median(std::vector<double>& values) {
 void keep_paper(std::vector<double>& levels) {
     constexpr double kSigmas = 3.6;
     constexpr double kSigmasPerRange = 1.6449 - 0.6745;
-    const auto quantile = [&](double share) {
-        return levels[static_cast<std::size_t>(share * static_cast<double>(levels.size() - 1))];
+    const auto quantile = [&](double fraction) {
+        return levels[static_cast<std::size_t>(fraction * static_cast<double>(levels.size() - 1))];
     };
     const double low =
         quantile(0.75) - kSigmas / kSigmasPerRange * (quantile(0.95) - quantile(0.75));
@@ -216,9 +216,9 @@ class Meter {
         double sum = 0;
         Vector2d moment = Vector2d::Zero();
         visit_around(p, [&](int u, int v, double darkness, double weight) {
-            const double share = weight * std::max(darkness - floor, 0.0);
-            sum += share;
-            moment += share * Vector2d(u, v);
+            const double fraction = weight * std::max(darkness - floor, 0.0);
+            sum += fraction;
+            moment += fraction * Vector2d(u, v);
         });
         return sum > 0 ? Vector2d(moment / sum) : p;
     }

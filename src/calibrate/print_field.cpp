@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 /// between the centres of the tiles. A difference is permitted because paper stretches and a camera
 /// adds perspective.
 constexpr double kAgree_cells = 1.5;
-constexpr double kAgreeShare = 0.05;
+constexpr double kMinAgreeing = 0.05;
 
 using Group = std::vector<LocatedTile>;
 
@@ -30,7 +30,7 @@ bool continues(const Group& group, const LocatedTile& tile) {
     const TileMap& map = std::ranges::min_element(group, {}, distance_px2)->map;
     const Vector2d expected = map.cell(tile.map.centre_px);
     const double distance = (expected - map.centre_cell).norm();
-    return (expected - tile.map.centre_cell).norm() <= kAgree_cells + kAgreeShare * distance;
+    return (expected - tile.map.centre_cell).norm() <= kAgree_cells + kMinAgreeing * distance;
 }
 
 Field field_of(const Group& group, const Tiling& tiling) {

@@ -31,7 +31,7 @@ constexpr double kNotableDistortion_mm = 0.1;
 /// reported as a fault. Most printers stay within the limits.
 constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
-constexpr double kNotableShare = 0.01;
+constexpr double kNotableFraction = 0.01;
 constexpr double kMinContrast = 0.2;
 /// If the spacing in the scan is less than kCoarse_px, faults of individual dots may be due to the
 /// scan. They are attributed to the scan if the scatter of the dots is more than kCoarseScatter
@@ -43,8 +43,8 @@ constexpr double kMinSpacing_px = 5;
 /// Maximum fraction of bad cells in a good patch of a test page.
 constexpr double kGoodPatch = 0.005;
 
-std::string percent(double share, int decimals = 1) {
-    return fmt::format("{:.{}f} %", 100 * share, decimals);
+std::string percent(double fraction, int decimals = 1) {
+    return fmt::format("{:.{}f} %", 100 * fraction, decimals);
 }
 
 bool is_fault(const Finding& finding) {
@@ -179,11 +179,11 @@ class Findings {
             if (are_dots_checked) judge_faulty_dots(field);
             remark_unresolved(field, are_dots_checked);
         }
-        if (field.covered_share() > kNotableShare) {
+        if (field.covered_fraction() > kNotableFraction) {
             remark(FindingKind::covered,
                    fmt::format(
                        "{} of the dots are covered or touched by other print, and cannot be used",
-                       percent(field.covered_share())));
+                       percent(field.covered_fraction())));
         }
         if (field.largest_distortion_mm > kNotableDistortion_mm) {
             remark(FindingKind::distorted,
@@ -211,10 +211,10 @@ class Findings {
   private:
     static bool is_too_coarse(const PrintField& field) {
         const bool is_blurred_together =
-            field.merged_share() > kNotableShare && field.gain() < kSwollenGain;
+            field.merged_fraction() > kNotableFraction && field.gain() < kSwollenGain;
         return field.spacing_px < kCoarse_px &&
                (field.scatter_mm > kCoarseScatter * field.pattern.spacing_mm ||
-                field.wrong_share() > kCoarseWrongShare || is_blurred_together);
+                field.wrong_fraction() > kCoarseWrongShare || is_blurred_together);
     }
 
     void contradict_resolution(const PrintField& field) {
@@ -268,14 +268,14 @@ class Findings {
 
     void judge_size(const PrintField& field) {
         const double gain = field.gain();
-        if (gain > kSwollenGain || field.merged_share() > kNotableShare) {
+        if (gain > kSwollenGain || field.merged_fraction() > kNotableFraction) {
             fault(FindingKind::swollen,
                   fmt::format("dots are swollen: {:.3f} mm instead of {:.3f} mm{}; choose a "
                               "smaller --dot, better paper, or less ink",
                               field.dot_mm, field.pattern.dot_mm,
-                              field.merged_share() > kNotableShare
+                              field.merged_fraction() > kNotableFraction
                                   ? fmt::format(", and {} of them run together",
-                                                percent(field.merged_share()))
+                                                percent(field.merged_fraction()))
                                   : ""));
         } else if (gain < kThinGain) {
             fault(FindingKind::thin,
@@ -294,17 +294,17 @@ class Findings {
     }
 
     void judge_faulty_dots(const PrintField& field) {
-        if (field.missing_share() > kNotableShare) {
+        if (field.missing_fraction() > kNotableFraction) {
             fault(FindingKind::missing,
                   fmt::format("{} of the dots are missing: clean the printer's nozzles or drum, "
                               "choose a larger --dot, and keep other print off the dots",
-                              percent(field.missing_share())));
+                              percent(field.missing_fraction())));
         }
-        if (field.wrong_share() > kNotableShare) {
+        if (field.wrong_fraction() > kNotableFraction) {
             fault(FindingKind::bits_wrong,
                   fmt::format("{} of the bits are wrong, because dots are in the wrong place: "
                               "print at the printer's own resolution, with a larger spacing",
-                              percent(field.wrong_share())));
+                              percent(field.wrong_fraction())));
         }
     }
 
@@ -352,7 +352,7 @@ void choose_best(PrintCheck& check) {
     std::map<double, std::size_t> best;
     for (std::size_t i = 0; i < check.fields.size(); ++i) {
         const PrintField& field = check.fields[i];
-        if (!field.is_patch || field.bad_share() > kGoodPatch) continue;
+        if (!field.is_patch || field.bad_fraction() > kGoodPatch) continue;
         const auto [place, is_new] = best.try_emplace(field.pattern.spacing_mm, i);
         if (!is_new && dot_error(field) < dot_error(check.fields[place->second])) place->second = i;
     }

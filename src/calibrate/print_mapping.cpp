@@ -204,11 +204,11 @@ bool PrintMapping::add(const ImageView& image) {
     return false;
 }
 
-PrintMapResult PrintMapping::solve(const std::function<bool(double share)>& progress) {
+PrintMapResult PrintMapping::solve(const std::function<bool(double fraction)>& progress) {
     State& state = *state_;
     PrintMapResult result{state.options.earlier, {}, state.frames};
-    const auto go_on = [&](double share) {
-        if (progress && !progress(share)) throw Error("interrupted");
+    const auto go_on = [&](double fraction) {
+        if (progress && !progress(fraction)) throw Error("interrupted");
     };
     for (std::size_t i = 0; i < state.pages.size(); ++i) {
         State::PageFrames& seen = state.pages[i];

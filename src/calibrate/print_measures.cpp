@@ -25,9 +25,10 @@ constexpr int kMinBinDots = 60;
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 
-double quantile(std::vector<double>& values, double share) {
+double quantile(std::vector<double>& values, double probability) {
     if (values.empty()) return 0;
-    const auto index = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+    const auto index =
+        static_cast<std::size_t>(probability * static_cast<double>(values.size() - 1));
     std::ranges::nth_element(values, values.begin() + static_cast<long>(index));
     return values[index];
 }

@@ -143,10 +143,10 @@ ImageView TileLocator::magnified(const PixelRect& rect) {
     }
     magnified_.resize(static_cast<std::size_t>(width * height * zoom_ * zoom_));
     auto out = magnified_.begin();
-    const auto split = [this](int k, int count, int& first, double& share) {
+    const auto split = [this](int k, int count, int& first, double& fraction) {
         const double place = std::clamp((k + 0.5) / zoom_ - 0.5, 0.0, count - 1.0);
         first = std::min(static_cast<int>(place), std::max(count - 2, 0));
-        share = place - first;
+        fraction = place - first;
     };
     for (int y = 0; y < height * zoom_; ++y) {
         int v = 0;

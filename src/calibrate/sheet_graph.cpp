@@ -327,10 +327,10 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
 }
 
-/// Returns the DotShare of each dot. Assumes that the view was computed by fitting an affine map to
-/// all dots. The derivatives are scaled so that dot errors with standard deviation 1 cause whitened
-/// residuals with standard deviation 1.
-std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
+/// Returns the DotDerivative of each dot. Assumes that the view was computed by fitting an affine
+/// map to all dots. The derivatives are scaled so that dot errors with standard deviation 1 cause
+/// whitened residuals with standard deviation 1.
+std::vector<SheetGraph::DotDerivative> SheetGraph::dot_derivatives(const SheetView& view) const {
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;
     const Eigen::Matrix2d camera_from_sheet = view.axes.inverse();
@@ -351,16 +351,16 @@ std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) 
     }
     const Eigen::MatrixXd known = view.whitening.topRows(view.rows);
     const Eigen::MatrixXd scaled = whitening_of(propagated(known, covariance)) * known;
-    std::vector<DotShare> shares;
+    std::vector<DotDerivative> derivatives;
     for (const auto& place : places) {
-        DotShare& share = shares.emplace_back(DotShare::Zero());
+        DotDerivative& derivative = derivatives.emplace_back(DotDerivative::Zero());
         for (Eigen::Index k = 0; k < 3; ++k) {
             const double fitted = along_axis(k, 0) * place[0] + along_axis(k, 1) * place[1] +
                                   along_axis(k, 2) * place[2];
-            share.topRows(view.rows) += fitted * scaled.middleCols<2>(2 * k);
+            derivative.topRows(view.rows) += fitted * scaled.middleCols<2>(2 * k);
         }
     }
-    return shares;
+    return derivatives;
 }
 
 /// Returns the variances of the shared parameters due to printing errors. A dot has the same
@@ -369,11 +369,11 @@ Eigen::VectorXd SheetGraph::print_variances(const Eigen::MatrixXd& gain) const {
     std::map<std::pair<std::size_t, std::uint64_t>, Eigen::MatrixX2d> of_dots;
     Eigen::Index row = 0;
     for (const SheetView& view : views_) {
-        const std::vector<DotShare> shares = dot_shares(view);
-        for (std::size_t i = 0; i < shares.size(); ++i) {
+        const std::vector<DotDerivative> derivatives = dot_derivatives(view);
+        for (std::size_t i = 0; i < derivatives.size(); ++i) {
             const auto [dot, is_new] = of_dots.try_emplace({view.sheet, view.dots[i]});
             if (is_new) dot->second.setZero(gain.rows(), 2);
-            dot->second += gain.middleCols<6>(row) * shares[i];
+            dot->second += gain.middleCols<6>(row) * derivatives[i];
         }
         row += 6;
     }

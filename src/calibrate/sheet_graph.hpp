@@ -58,7 +58,7 @@ class SheetGraph {
     using FramePose = std::array<double, 3>;
     /// Derivative of the six whitened residuals of a view with respect to the position of one dot.
     /// The columns are x and y on the sheet.
-    using DotShare = Eigen::Matrix<double, 6, 2>;
+    using DotDerivative = Eigen::Matrix<double, 6, 2>;
 
     Eigen::Vector2d centre_in_camera(const SheetView& view) const;
     void spread_from_fixed();
@@ -68,7 +68,7 @@ class SheetGraph {
     void pin_sheets(ceres::Problem& problem);
     void pin_camera(ceres::Problem& problem);
     void estimate_variances(ceres::Problem& problem, double cost);
-    std::vector<DotShare> dot_shares(const SheetView& view) const;
+    std::vector<DotDerivative> dot_derivatives(const SheetView& view) const;
     Eigen::VectorXd print_variances(const Eigen::MatrixXd& gain) const;
     bool has_scale() const;
 

@@ -78,7 +78,7 @@ struct SourceOptions {
     std::function<bool()> stop = [] { return false; };
     /// Called with messages for the user, for example if a camera was unplugged. The source
     /// continues afterwards.
-    std::function<void(const std::string&)> tell = [](const std::string&) {};
+    std::function<void(const std::string&)> notify = [](const std::string&) {};
     /// Called with the path of each image or video before it is opened. May throw Error.
     std::function<void(const std::string&)> before_reading = [](const std::string&) {};
     /// Called for each image that cannot be read. The source continues with the next image.

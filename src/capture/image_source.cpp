@@ -28,7 +28,7 @@ class ImageSource : public FrameSource {
                 options_.before_reading(*path);
                 std::string note;
                 frame.image = read_image(system::path_of(*path), options_.max_pixels, note);
-                if (!note.empty()) options_.tell(note);
+                if (!note.empty()) options_.notify(note);
                 tell_of_pages(system::path_of(*path));
                 return true;
             } catch (const Error& error) {
@@ -46,7 +46,7 @@ class ImageSource : public FrameSource {
         if (!ending.starts_with(".t") && !ending.starts_with(".T")) return;
         const int pages = count_pages(path);
         if (pages == 1) return;
-        options_.tell(
+        options_.notify(
             fmt::format("{} has {} pages, of which only the first is read", path.string(), pages));
     }
 

@@ -54,12 +54,12 @@ struct LinePair {
 /// lines of the result to this set. Returns nullopt if no remaining pair has bits in both lines.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
-    int most_bits = 0;
+    int max_bits = 0;
     for (int line = 0; line + 1 < lines.count; ++line) {
         if ((tried >> line & 3) != 0) continue;
         const int bits = std::min(bits_in(lines[line].seen), bits_in(lines[line + 1].seen));
-        if (bits <= most_bits) continue;
-        most_bits = bits;
+        if (bits <= max_bits) continue;
+        max_bits = bits;
         longest = line;
     }
     if (longest) tried |= std::uint32_t{3} << *longest;

@@ -80,11 +80,11 @@ class DistortionMap {
         const Point at{kMapMargin + (bin.u_px + 0.5) * scale_,
                        kMapMargin + kMapHead + (bin.v_px + 0.5) * scale_};
         const Point tip = at + per_mm_ * Point{bin.du_mm, bin.dv_mm};
-        const double share = std::min(std::hypot(bin.du_mm, bin.dv_mm) / full_mm_, 1.0);
+        const double fraction = std::min(std::hypot(bin.du_mm, bin.dv_mm) / full_mm_, 1.0);
         // The colour ranges from blue for small distortions to red for large ones.
         const auto strength = [](double part) { return static_cast<int>(std::lround(210 * part)); };
         const std::string colour =
-            fmt::format("#{:02x}40{:02x}", strength(share), strength(1 - share));
+            fmt::format("#{:02x}40{:02x}", strength(fraction), strength(1 - fraction));
         svg_.circle(at, 2.2, fmt::format(R"(fill="{}")", colour));
         svg_.arrow(at, tip, 2, colour);
     }

@@ -109,11 +109,11 @@ class OffsetMap {
     }
 
     /// Returns a colour from blue (-1) through white (0) to red (1).
-    static std::string colour_of(double share) {
+    static std::string colour_of(double fraction) {
         const auto part = [](double value) { return static_cast<int>(std::lround(value)); };
-        const double pale = 1 - std::min(std::abs(share), 1.0);
+        const double pale = 1 - std::min(std::abs(fraction), 1.0);
         const std::array<double, 3> full =
-            share < 0 ? std::array<double, 3>{21, 101, 192} : std::array<double, 3>{192, 57, 43};
+            fraction < 0 ? std::array<double, 3>{21, 101, 192} : std::array<double, 3>{192, 57, 43};
         return fmt::format("#{:02x}{:02x}{:02x}", part(full[0] + pale * (255 - full[0])),
                            part(full[1] + pale * (255 - full[1])),
                            part(full[2] + pale * (255 - full[2])));

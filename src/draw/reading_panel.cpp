@@ -30,9 +30,9 @@ std::string quality_colour(double quality) {
     constexpr Rgb kGreen{30, 132, 73};
     const Rgb& low = quality < 0.5 ? kRed : kAmber;
     const Rgb& high = quality < 0.5 ? kAmber : kGreen;
-    const double share = quality < 0.5 ? 2 * quality : 2 * quality - 1;
-    const auto mix = [share](double a, double b) {
-        return static_cast<int>(std::lround(a + share * (b - a)));
+    const double fraction = quality < 0.5 ? 2 * quality : 2 * quality - 1;
+    const auto mix = [fraction](double a, double b) {
+        return static_cast<int>(std::lround(a + fraction * (b - a)));
     };
     return fmt::format("#{:02x}{:02x}{:02x}", mix(low.red, high.red), mix(low.green, high.green),
                        mix(low.blue, high.blue));

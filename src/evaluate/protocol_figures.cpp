@@ -161,12 +161,12 @@ void draw_page_axes(const Panel& panel, const PageScale& page, const char* y_nam
 
 void draw_mark_legend(const Panel& panel, double scale) {
     Point at = panel.corner + Point{20, kPanel + 92};
-    for (const double share : {-1.0, -0.25, 0.25, 1.0}) {
-        const double value = share * scale;
+    for (const double fraction : {-1.0, -0.25, 0.25, 1.0}) {
+        const double value = fraction * scale;
         panel.svg.circle(at, mark_radius(value, scale),
                          fmt::format(R"(fill="{}" fill-opacity="0.82")", colour_of(value)));
         panel.svg.text(at + Point{22, 5}, style::kFont,
-                       fmt::format("{:+.3g}{}", value, share == 1.0 ? panel.unit : ""),
+                       fmt::format("{:+.3g}{}", value, fraction == 1.0 ? panel.unit : ""),
                        text_in(draw::colour::kInk));
         at = at + Point{104, 0};
     }
@@ -195,11 +195,11 @@ constexpr double kInnerRadius = 90;
 constexpr double kOuterRadius = kPanel / 2 - 26;
 
 void draw_rings(const Panel& panel, Point centre, double scale) {
-    for (const double share : {0.0, 0.5, 1.0}) {
-        panel.svg.circle(centre, kInnerRadius + share * (kOuterRadius - kInnerRadius),
+    for (const double fraction : {0.0, 0.5, 1.0}) {
+        panel.svg.circle(centre, kInnerRadius + fraction * (kOuterRadius - kInnerRadius),
                          fmt::format(R"(fill="none" stroke="{}" stroke-width="{}")",
-                                     share == 0 ? draw::colour::kQuiet : draw::colour::kFrame,
-                                     share == 0 ? 1.5 : 1.0));
+                                     fraction == 0 ? draw::colour::kQuiet : draw::colour::kFrame,
+                                     fraction == 0 ? 1.5 : 1.0));
     }
     for (int deg = 0; deg < 360; deg += 45) {
         const double angle = deg * std::numbers::pi / 180;

@@ -37,7 +37,7 @@ std::vector<TabledCoordinate> coordinates() {
     };
 }
 
-std::string share(std::span<const Station> stations) {
+std::string fraction(std::span<const Station> stations) {
     int located = 0;
     int samples = 0;
     for (const Station& station : stations) {
@@ -66,11 +66,11 @@ std::string table_3(const Protocol& protocol) {
                      cells(summary_of(stations(protocol.perfect), c.spread), c.unit, c.decimals),
                      cells(summary_of(stations(protocol.printed), c.spread), c.unit, c.decimals));
     }
-    table +=
-        row("positions decoded", "99.17 % (x), 100 % (y) | ",
-            share(protocol.perfect.positions) + " | ", share(protocol.printed.positions) + " | ");
-    table += row("angles decoded", "100 % | ", share(protocol.perfect.angles) + " | ",
-                 share(protocol.printed.angles) + " | ");
+    table += row("positions decoded", "99.17 % (x), 100 % (y) | ",
+                 fraction(protocol.perfect.positions) + " | ",
+                 fraction(protocol.printed.positions) + " | ");
+    table += row("angles decoded", "100 % | ", fraction(protocol.perfect.angles) + " | ",
+                 fraction(protocol.printed.angles) + " | ");
     return table;
 }
 

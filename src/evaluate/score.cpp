@@ -11,8 +11,8 @@
 namespace dotpose {
 namespace {
 
-double nearest_rank(const std::vector<double>& sorted, double share) {
-    const double rank = std::ceil(share * static_cast<double>(sorted.size()));
+double nearest_rank(const std::vector<double>& sorted, double fraction) {
+    const double rank = std::ceil(fraction * static_cast<double>(sorted.size()));
     return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 

@@ -40,7 +40,7 @@ std::span<const double> sweep_values(SweepKind kind) {
     throw BadArgument("unknown sweep");
 }
 
-void cover(GreyImage& image, double share, double direction_rad) {
+void cover(GreyImage& image, double fraction, double direction_rad) {
     constexpr std::uint8_t kLevel = 25;
     const double c = std::cos(direction_rad);
     const double s = std::sin(direction_rad);
@@ -51,7 +51,7 @@ void cover(GreyImage& image, double share, double direction_rad) {
         for (int u = 0; u < image.width_px; ++u)
             ranks.push_back(along(u, v));
     }
-    const auto count = static_cast<std::size_t>(share * static_cast<double>(ranks.size()));
+    const auto count = static_cast<std::size_t>(fraction * static_cast<double>(ranks.size()));
     if (count == 0) return;
     std::vector<double> sorted = ranks;
     std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(count - 1));

@@ -57,7 +57,7 @@ std::vector<Point> data_of(const Sweep& sweep, Decoder decoder, Value value) {
 }
 
 double success(const Score& score) {
-    return 100 * score.located_share();
+    return 100 * score.located_fraction();
 }
 double median_um(const Score& score) {
     return score.located >= kMinFixes ? score.position_um.median : kNone;

@@ -44,7 +44,7 @@ void take(system::FileLock& lock, const fs::path& path, const SheetFileWait& wai
                             path.string(), wait.max_s));
         }
         if (!is_reported) {
-            wait.tell(
+            wait.notify(
                 fmt::format("waiting for another program that is changing {}", path.string()));
         }
         is_reported = true;

@@ -53,8 +53,8 @@ SheetReservation::~SheetReservation() {
     try {
         release();
     } catch (const Error& error) {
-        wait_.tell(fmt::format("{}; the regions reserved in {} remain reserved", error.what(),
-                               path_.string()));
+        wait_.notify(fmt::format("{}; the regions reserved in {} remain reserved", error.what(),
+                                 path_.string()));
     }
 }
 

@@ -182,7 +182,8 @@ void MqttClient::start() {
         stop();
         throw Error(place() + " refuses the connection: " + refusal);
     }
-    if (!is_connected) options_.tell("cannot reach " + place() + ": " + failure + "; trying again");
+    if (!is_connected)
+        options_.notify("cannot reach " + place() + ": " + failure + "; trying again");
 }
 
 void MqttClient::stop() {
@@ -240,7 +241,7 @@ void MqttClient::answered(int code) {
     if (code == 0) {
         on_connected();
     } else if (!was_refused) {
-        options_.tell(place() + " refuses the connection: " + mosquitto_connack_string(code));
+        options_.notify(place() + " refuses the connection: " + mosquitto_connack_string(code));
     }
 }
 
@@ -252,7 +253,7 @@ void MqttClient::disconnected(int reason) {
         is_connected_ = false;
     }
     on_disconnected();
-    if (is_news) options_.tell(place() + " is gone; trying to reach it again");
+    if (is_news) options_.notify(place() + " is gone; trying to reach it again");
 }
 
 MqttSubscriber::MqttSubscriber(MqttOptions options, std::vector<std::string> topics, Handler handle)

@@ -48,7 +48,7 @@ struct MqttOptions {
     /// Maximum number of queued messages. If the queue is full, the oldest message is dropped.
     std::size_t queue = 50;
     /// Called with messages for the user, for example when the connection is lost.
-    std::function<void(const std::string&)> tell = [](const std::string&) {};
+    std::function<void(const std::string&)> notify = [](const std::string&) {};
 };
 
 /// Parses "mqtt://[USER[:PASSWORD]@]HOST[:PORT]", or mqtts:// for TLS, into `options`. The default
@@ -72,7 +72,7 @@ class MqttClient {
 
     /// Connects and waits up to 3 s for the broker's answer. Throws Error if the broker refuses the
     /// user or the certificates cannot be read. If the broker does not answer, reports this through
-    /// `MqttOptions::tell`, and the thread keeps trying.
+    /// `MqttOptions::notify`, and the thread keeps trying.
     void start();
     /// Disconnects and stops the thread. No virtual function is called afterwards.
     void stop();

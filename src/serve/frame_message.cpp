@@ -23,8 +23,8 @@ constexpr int kPieces = 6;
 std::vector<draw::Point> grid_line(const draw::FrameView& view, int i0, int j0, int i1, int j1) {
     std::vector<draw::Point> line;
     for (int k = 0; k <= kPieces; ++k) {
-        const double share = static_cast<double>(k) / kPieces;
-        line.push_back(view.at_grid(i0 + share * (i1 - i0), j0 + share * (j1 - j0)));
+        const double fraction = static_cast<double>(k) / kPieces;
+        line.push_back(view.at_grid(i0 + fraction * (i1 - i0), j0 + fraction * (j1 - j0)));
     }
     return line;
 }

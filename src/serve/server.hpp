@@ -67,7 +67,7 @@ struct ServerOptions {
     std::span<const Page> pages;
     /// Called with messages for the user, such as reports of refused clients. Called on the
     /// server's thread.
-    std::function<void(const std::string&)> tell = [](const std::string&) {};
+    std::function<void(const std::string&)> notify = [](const std::string&) {};
 };
 
 class Server {

@@ -273,12 +273,12 @@ class ImageRows {
         if (!(u > -1 && v > -1 && u < page_.image.width_px && v < page_.image.height_px)) return 0;
         const int left = static_cast<int>(std::floor(u));
         const int top = static_cast<int>(std::floor(v));
-        const double right_share = u - left;
-        const double lower_share = v - top;
-        const double ink = (1 - lower_share) * ((1 - right_share) * ink_at(left, top) +
-                                                right_share * ink_at(left + 1, top)) +
-                           lower_share * ((1 - right_share) * ink_at(left, top + 1) +
-                                          right_share * ink_at(left + 1, top + 1));
+        const double right_fraction = u - left;
+        const double lower_fraction = v - top;
+        const double ink = (1 - lower_fraction) * ((1 - right_fraction) * ink_at(left, top) +
+                                                   right_fraction * ink_at(left + 1, top)) +
+                           lower_fraction * ((1 - right_fraction) * ink_at(left, top + 1) +
+                                             right_fraction * ink_at(left + 1, top + 1));
         return static_cast<float>(darkest_ * ink);
     }
 

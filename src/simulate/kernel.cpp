@@ -18,8 +18,8 @@ double integral_of_edge(double x, double sigma) {
 
 // Returns the weights for a scene that is shifted by `shift_px`. The response of a pixel is a box 1
 // px wide, convolved with the Gaussian blur of the lens. The weight of a sub-pixel is the integral
-// of this response over the sub-pixel. The weights are scaled to sum to `share`.
-Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
+// of this response over the sub-pixel. The weights are scaled to sum to `fraction`.
+Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double fraction) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
     // edges[i] is `integral_of_edge` at the point half a pixel to the left of sub-pixel i's left
@@ -44,7 +44,7 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
         // The weights are indexed by the offset from the sub-pixel to the pixel, which is the
         // negative of the offset from the pixel to the sub-pixel. The order is therefore reversed.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
-            static_cast<float>(exact[i] * share / sum);
+            static_cast<float>(exact[i] * fraction / sum);
     }
     return result;
 }

@@ -28,7 +28,7 @@ std::vector<Vec2> sample_points(const Shot& shot) {
     return points;
 }
 
-double share_in(const PageArea& area, const std::vector<Vec2>& points) {
+double fraction_in(const PageArea& area, const std::vector<Vec2>& points) {
     const auto inside = std::count_if(points.begin(), points.end(),
                                       [&](Vec2 p) { return area.distance(p.x, p.y) <= 0; });
     return static_cast<double>(inside) / static_cast<double>(points.size());
@@ -54,9 +54,9 @@ double endless(const Shot& shot) {
     return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
 }
 
-/// Returns a random sheet whose edge or corner is in view. The sheet covers the fraction `share` of
-/// the view.
-PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
+/// Returns a random sheet whose edge or corner is in view. The sheet covers the fraction `fraction`
+/// of the view.
+PageArea edge_of_sheet(const Shot& shot, double fraction, Rng& rng) {
     const std::vector<Vec2> points = sample_points(shot);
     const double size = endless(shot);
     PageArea area;
@@ -79,7 +79,7 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     for (int halving = 0; halving < 40; ++halving) {
         const double middle = (low + high) / 2;
         advance(middle);
-        (share_in(area, points) < share ? low : high) = middle;
+        (fraction_in(area, points) < fraction ? low : high) = middle;
     }
     return area;
 }
@@ -117,9 +117,9 @@ bool draw_islands(const Shot& shot, int count, Rng& rng, std::vector<PageArea>& 
     areas.clear();
     for (int tries = 0; tries < kTries && static_cast<int>(areas.size()) < count; ++tries) {
         const PageArea island = draw_island(shot, rng);
-        const double share = share_in(island, sample_points(shot));
+        const double fraction = fraction_in(island, sample_points(shot));
         const bool is_whole =
-            share * intersections(shot) >= 0.97 * 4 * island.half_width * island.half_height;
+            fraction * intersections(shot) >= 0.97 * 4 * island.half_width * island.half_height;
         if (is_whole && std::all_of(areas.begin(), areas.end(), [&](const PageArea& other) {
                 return are_apart(island, other);
             }))
@@ -131,8 +131,9 @@ bool draw_islands(const Shot& shot, int count, Rng& rng, std::vector<PageArea>& 
 }  // namespace
 
 void cover_partly(Shot& shot, const PartialView& view) {
-    if (!(view.min_share > 0 && view.min_share <= view.max_share && view.max_share <= 1))
-        throw BadArgument("the share that is covered must be above 0 and at most 1");
+    if (!(view.min_fraction > 0 && view.min_fraction <= view.max_fraction &&
+          view.max_fraction <= 1))
+        throw BadArgument("the covered fraction must be above 0 and at most 1");
     if (view.islands < 0 || view.islands > 16) throw BadArgument("islands must be 0 to 16");
     Rng rng(shot.seed, 2);
     if (view.islands > 0) {
@@ -143,9 +144,10 @@ void cover_partly(Shot& shot, const PartialView& view) {
     }
     // At the border of the sheet, some dots are only partly visible. The visible part of the sheet
     // must therefore contain at least 1.15 times `min_dots` dots.
-    const double min_share = std::max(view.min_share, 1.15 * view.min_dots / intersections(shot));
-    const double share = rng.uniform(min_share, std::max(min_share, view.max_share));
-    const PageArea dots = edge_of_sheet(shot, share, rng);
+    const double min_fraction =
+        std::max(view.min_fraction, 1.15 * view.min_dots / intersections(shot));
+    const double fraction = rng.uniform(min_fraction, std::max(min_fraction, view.max_fraction));
+    const PageArea dots = edge_of_sheet(shot, fraction, rng);
     shot.page.areas = {dots};
     if (!view.on_table) return;
     PageArea paper = dots;

@@ -51,10 +51,10 @@ void Queue::push(State state) {
         }
         if (waiting_.size() == kMaxBatch) changed_.notify_all();
     }
-    // Calls `tell` without holding the lock, because the function may use the queue.
+    // Calls `notify` without holding the lock, because the function may use the queue.
     if (is_first_dropped) {
-        options_.tell(fmt::format("{}: more than {} states wait; the oldest are dropped",
-                                  database_->label(), options_.max_states));
+        options_.notify(fmt::format("{}: more than {} states wait; the oldest are dropped",
+                                    database_->label(), options_.max_states));
     }
 }
 
@@ -124,7 +124,7 @@ bool Queue::try_to_write() {
         status_.waiting -= count;
         was_away = count > 0 && std::exchange(status_.is_away, false);
     }
-    if (was_away) options_.tell(database_->label() + " answers again");
+    if (was_away) options_.notify(database_->label() + " answers again");
     return true;
 }
 
@@ -137,8 +137,8 @@ void Queue::remove_old_days() {
         is_removal_reported_ = false;
     } catch (const Error& error) {
         if (std::exchange(is_removal_reported_, true)) return;
-        options_.tell(fmt::format("cannot remove old days from {}: {}; trying again",
-                                  database_->label(), error.what()));
+        options_.notify(fmt::format("cannot remove old days from {}: {}; trying again",
+                                    database_->label(), error.what()));
     }
 }
 
@@ -147,8 +147,8 @@ void Queue::report_failure(const Error& error) {
         const std::lock_guard lock(mutex_);
         if (std::exchange(status_.is_away, true)) return;
     }
-    options_.tell(fmt::format("cannot store states in {}: {}; trying again", database_->label(),
-                              error.what()));
+    options_.notify(fmt::format("cannot store states in {}: {}; trying again", database_->label(),
+                                error.what()));
 }
 
 }  // namespace dotpose::store

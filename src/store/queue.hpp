@@ -29,7 +29,7 @@ struct QueueOptions {
     int keep_days = 0;  ///< number of days to keep, or 0 to keep all days
     /// Called with messages for the user, for example when the database is not available. May be
     /// called on another thread.
-    std::function<void(const std::string&)> tell = [](const std::string&) {};
+    std::function<void(const std::string&)> notify = [](const std::string&) {};
 };
 
 struct QueueStatus {

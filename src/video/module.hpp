@@ -32,7 +32,7 @@ struct Module {
     OpenSource* open_camera;
     OpenSource* open_video;
     std::unique_ptr<GreyVideo> (*create_video)(const std::string& path, double fps,
-                                               const Tell& tell);
+                                               const Tell& notify);
     std::unique_ptr<ScreenOutput> (*open_screen)(const ScreenOptions& options);
 };
 

@@ -29,7 +29,7 @@ struct PathMark {
 struct Gauge {
     std::string label;
     std::string text;
-    double share = 0;  ///< progress towards the goal, from 0 to 1
+    double fraction = 0;  ///< progress towards the goal, from 0 to 1
     bool is_reached = false;
 };
 
@@ -63,7 +63,7 @@ struct ScreenOptions {
     double fps = 30;     ///< frame rate of the video file
     /// Called with a message for the user if H.264 is not available, in which case the file is
     /// larger.
-    std::function<void(const std::string&)> tell = [](const std::string&) {};
+    std::function<void(const std::string&)> notify = [](const std::string&) {};
 };
 
 /// Draws into the window and writes the video file. The OpenCV module, which is loaded at run time,

@@ -52,8 +52,9 @@ TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     };
     for (const Case& c :
          {Case{"188x120", corner_px(188, 120), 40}, Case{"640x480", corner_px(640, 480), 4}}) {
-        for (const double share : {-0.05, -0.025, 0.025, 0.05}) {
-            const std::string k = std::to_string(1e6 * share / (c.corner_px * c.corner_px)) + "e-6";
+        for (const double fraction : {-0.05, -0.025, 0.025, 0.05}) {
+            const std::string k =
+                std::to_string(1e6 * fraction / (c.corner_px * c.corner_px)) + "e-6";
             ASSERT_EQ(run("simulate -o frames --seed 92 --size " + std::string(c.size) + " --k " +
                           k + " --frames " + std::to_string(c.frames)),
                       0)

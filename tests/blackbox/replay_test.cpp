@@ -49,7 +49,7 @@ TEST_F(Replay, CountsARun) {
     EXPECT_EQ(figures["frames"], 12);
     EXPECT_NEAR(figures["duration_s"], 1.1, 1e-9);
     EXPECT_EQ(figures["fixes"], 9);
-    EXPECT_DOUBLE_EQ(figures["fixes_share"], 0.75);
+    EXPECT_DOUBLE_EQ(figures["fixes_fraction"], 0.75);
     EXPECT_EQ(figures["without_fix"], (json{{"no_contrast", 2}, {"too_few_dots", 1}}));
     EXPECT_EQ(figures["gaps"], 1);
     EXPECT_NEAR(figures["longest_gap_s"], 0.3, 1e-9);

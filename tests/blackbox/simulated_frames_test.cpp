@@ -28,12 +28,13 @@ struct Tally {
     std::vector<double> errors_um;
     std::vector<double> errors_mrad;
 
-    double percentile(std::vector<double> values, double share) const {
+    double percentile(std::vector<double> values, double fraction) const {
         std::sort(values.begin(), values.end());
-        return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
+        return values.at(
+            static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1)));
     }
     double median_um() const { return percentile(errors_um, 0.5); }
-    double located_share() const {
+    double located_fraction() const {
         return static_cast<double>(located) / static_cast<double>(frames);
     }
 };
@@ -80,7 +81,7 @@ Setup setup_of(Preset preset, std::uint64_t seed = kFramesSeed) {
 
 TEST(SimulatedFrames, NominalFramesAreLocated) {
     const Tally tally = run(setup_of(Preset::nominal), frames_of(300, 2000));
-    EXPECT_GE(tally.located_share(), 0.995) << "seed " << kFramesSeed;
+    EXPECT_GE(tally.located_fraction(), 0.995) << "seed " << kFramesSeed;
     EXPECT_EQ(tally.wrong, 0u);
     EXPECT_LE(tally.median_um(), 1.2) << "seed " << kFramesSeed;
     // The view is 8.6 mm wide, so an angle error of 1 mrad moves its borders by 4 µm.
@@ -97,7 +98,7 @@ TEST(SimulatedFrames, CleanFramesAreAllLocated) {
 TEST(SimulatedFrames, HardFramesAreLocated) {
     const Tally tally = run(setup_of(Preset::hard), frames_of(300, 5000));
     EXPECT_EQ(tally.wrong, 0u);
-    EXPECT_GE(tally.located_share(), 0.98) << "seed " << kFramesSeed;
+    EXPECT_GE(tally.located_fraction(), 0.98) << "seed " << kFramesSeed;
     EXPECT_LE(tally.median_um(), 2.6) << "seed " << kFramesSeed;
 }
 
@@ -123,7 +124,7 @@ TEST(SimulatedFrames, AllProfilesAreRead) {
         DeviceOptions options;
         options.code = code;
         const Tally tally = run(setup, frames_of(100, 1000), options);
-        EXPECT_GE(tally.located_share(), 0.99) << static_cast<int>(code);
+        EXPECT_GE(tally.located_fraction(), 0.99) << static_cast<int>(code);
         EXPECT_EQ(tally.wrong, 0u);
     }
 }
@@ -155,7 +156,7 @@ TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
             judge(Locator(*memory, DeviceOptions{}).locate(render(shot).view()), shot, tally);
         }
     }
-    EXPECT_GE(tally.located_share(), 0.98) << "seed " << kFramesSeed + 3;
+    EXPECT_GE(tally.located_fraction(), 0.98) << "seed " << kFramesSeed + 3;
     EXPECT_EQ(tally.wrong, 0u);
 }
 
@@ -186,7 +187,7 @@ TEST(SimulatedFrames, CamerasOfManySizesAndSpacingsAreRead) {
         setup.camera.height_px = height;
         setup.camera.mm_per_px = setup.pattern.spacing_mm / spacing;
         const Tally tally = run(setup, frames_of(6, 100));
-        EXPECT_GE(tally.located_share(), 0.95)
+        EXPECT_GE(tally.located_fraction(), 0.95)
             << width << " x " << height << " at " << spacing << " px, seed " << setup.seed;
         EXPECT_EQ(tally.wrong, 0u);
     }

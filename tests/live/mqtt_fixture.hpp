@@ -49,7 +49,7 @@ class Mqtt : public ToolCommand {
     publish::MqttOptions options(const Broker& broker) {
         publish::MqttOptions options;
         publish::parse_url(broker.url(), options);
-        options.tell = news_.listener();
+        options.notify = news_.listener();
         return options;
     }
     std::string shell(const std::string& command) {

@@ -331,7 +331,7 @@ TEST(StoreQueue, KeepsStatesWhileTheDatabaseIsAway) {
     contents.is_away = true;
     News news;
     store::Queue queue(std::make_unique<FakeDatabase>(contents), true,
-                       {.max_states = 1000, .period = 1ms, .tell = news.listener()});
+                       {.max_states = 1000, .period = 1ms, .notify = news.listener()});
     for (int i = 0; i < 1000; ++i)
         queue.push(state_of("anna", kNoon_us + i, i));
     std::this_thread::sleep_for(50ms);
@@ -356,7 +356,7 @@ TEST(StoreQueue, ReportsOldDaysThatAreNotRemoved) {
     contents.fails_to_remove = true;
     News news;
     store::Queue queue(std::make_unique<FakeDatabase>(contents), true,
-                       {.period = 1ms, .keep_days = 7, .tell = news.listener()});
+                       {.period = 1ms, .keep_days = 7, .notify = news.listener()});
     for (int i = 0; i < 20; ++i) {
         queue.push(state_of("anna", kNoon_us + i, i));
         std::this_thread::sleep_for(5ms);
@@ -379,7 +379,7 @@ TEST(StoreQueue, DropsTheOldestStatesBeyondItsBuffer) {
     contents.is_away = true;
     News news;
     store::Queue queue(std::make_unique<FakeDatabase>(contents), true,
-                       {.max_states = 100, .period = 10s, .tell = news.listener()});
+                       {.max_states = 100, .period = 10s, .notify = news.listener()});
     for (int i = 0; i < 250; ++i)
         queue.push(state_of("anna", kNoon_us + i, i));
     EXPECT_EQ(queue.status().dropped, 150);
@@ -397,7 +397,7 @@ TEST(StoreQueue, MessagesMayUseTheQueue) {
     const store::Queue* used = nullptr;
     std::int64_t dropped = 0;
     store::Queue queue(std::make_unique<FakeDatabase>(contents), true,
-                       {.max_states = 1, .period = 10s, .tell = [&](const std::string&) {
+                       {.max_states = 1, .period = 10s, .notify = [&](const std::string&) {
                             if (used != nullptr) dropped = used->status().dropped;
                         }});
     used = &queue;

@@ -58,8 +58,8 @@ test("the stored history of a robot is drawn on the map and over time", async ()
     const states = dotpose("fleet", "history", "--store", database, "--robot", "anna").trim().split("\n").map((line) => JSON.parse(line));
     const lost = states.filter(({ state }) => state === "lost").length;
     assert.ok(states.length > 50 && lost > 0);
-    const share = (count) => ((100 * count) / states.length).toFixed(1);
-    const expected = `: ${share(states.length - lost)} % moving, 0 % still, ${share(lost)} % lost; up to 100 mm/s.`;
+    const fraction = (count) => ((100 * count) / states.length).toFixed(1);
+    const expected = `: ${fraction(states.length - lost)} % moving, 0 % still, ${fraction(lost)} % lost; up to 100 mm/s.`;
     assert.match(await text(), new RegExp(`^${states.length} states from `));
     assert.ok((await text()).endsWith(expected), `${await text()} instead of ${expected}`);
     assert.ok(await page.isVisible("#fleet-stored-graph"));
@@ -134,11 +134,11 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
         };
         await new Promise((resolve) => setTimeout(resolve, 4000));
         const radius = (Math.max(...xs) - Math.min(...xs)) / 2;
-        return { share: Math.max(...segments) / radius, count: segments.length };
+        return { fraction: Math.max(...segments) / radius, count: segments.length };
     });
     // Between two states, the robot moves by 0.22 times the radius of its circle. The limit is higher because some
     // states are not drawn.
-    assert.ok(longest.count > 100 && longest.share < 1, JSON.stringify(longest));
+    assert.ok(longest.count > 100 && longest.fraction < 1, JSON.stringify(longest));
     await page.close();
     await stop();
 });

@@ -114,7 +114,7 @@ struct SheetFileWait {
     /// Maximum time to wait, in seconds.
     double max_s = 60;
     /// Called once with a message if the program has to wait.
-    std::function<void(const std::string&)> tell = [](const std::string&) {};
+    std::function<void(const std::string&)> notify = [](const std::string&) {};
     /// Called repeatedly during the wait. Returning true ends the wait with an Error.
     std::function<bool()> stop = [] { return false; };
 };
@@ -198,7 +198,7 @@ class SheetReservation {
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
     /// Removes the entries that were not confirmed. Restores the previous file if no other program
     /// has changed it. If the file cannot be changed, the entries remain reserved, and
-    /// SheetFileWait::tell is called with a message.
+    /// SheetFileWait::notify is called with a message.
     ~SheetReservation();
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;

@@ -67,7 +67,7 @@ class ImageCoverage {
         return covered_[static_cast<std::size_t>(row * kColumns + column)];
     }
     /// Returns the fraction of the parts that are marked.
-    double share() const;
+    double fraction() const;
 
   private:
     int width_px_;

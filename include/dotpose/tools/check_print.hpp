@@ -142,16 +142,18 @@ struct PrintField {
     /// False if missing and wrong dots cannot be detected because of the noise in a photo.
     bool are_dots_checked = true;
 
-    double covered_share() const { return covered > 0 ? double(covered) / (covered + cells) : 0; }
-    double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }
-    double merged_share() const { return dots > 0 ? double(merged) / dots : 0; }
-    double wrong_share() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
+    double covered_fraction() const {
+        return covered > 0 ? double(covered) / (covered + cells) : 0;
+    }
+    double missing_fraction() const { return cells > 0 ? double(missing) / cells : 0; }
+    double merged_fraction() const { return dots > 0 ? double(merged) / dots : 0; }
+    double wrong_fraction() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
     /// Returns the relative difference between the dot diameter and its nominal value. Negative if
     /// the dots are smaller than intended.
     double gain() const { return dot_mm / pattern.dot_mm - 1; }
     /// Returns an estimate of the fraction of cells that are covered, have no dot, have a merged
     /// dot or have a wrong bit: the sum of the four fractions above, at most 1.
-    double bad_share() const;
+    double bad_fraction() const;
 };
 
 /// Kinds of faults and remarks.

@@ -92,7 +92,7 @@ class PrintMapping {
     /// Computes the map. `progress` is called with the completed fraction of the current page.
     /// Returning false aborts the computation with an Error. Throws Error if no page was seen in
     /// kMinFrames frames, or if the frames contradict the earlier map.
-    PrintMapResult solve(const std::function<bool(double share)>& progress = {});
+    PrintMapResult solve(const std::function<bool(double fraction)>& progress = {});
 
   private:
     struct State;

@@ -51,7 +51,7 @@ struct Score {
     double largest_p_wrong = 0;
     Quantiles elapsed_us;  ///< duration of `locate` for each readable frame
 
-    double located_share() const { return frames > 0 ? 1.0 * located / frames : 0; }
+    double located_fraction() const { return frames > 0 ? 1.0 * located / frames : 0; }
 };
 /// Returns the score of the given outcomes.
 Score score_of(std::span<const Outcome> outcomes);

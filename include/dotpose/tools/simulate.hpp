@@ -285,9 +285,9 @@ struct PartialView {
     int islands = 0;
     static constexpr int kMinIslandDots = 60;
     /// Minimum and maximum fraction of the image that the single area covers. The area has at least
-    /// `min_dots` dots, even if it then covers more than `max_share`.
-    double min_share = 0.15;
-    double max_share = 0.45;
+    /// `min_dots` dots, even if it then covers more than `max_fraction`.
+    double min_fraction = 0.15;
+    double max_fraction = 0.45;
     int min_dots = 150;
     /// True if the single area is the corner or side of a sheet on a table.
     bool on_table = false;
@@ -295,8 +295,8 @@ struct PartialView {
 
 /// Chooses the areas with dots and the edge of the paper at random, using the shot's seed. Areas
 /// are aligned either with the pattern or with the image, with equal probability. Throws
-/// BadArgument if 0 < `min_share` <= `max_share` <= 1 does not hold, if the number of islands is
-/// outside [0, 16], or if there is no room for the islands.
+/// BadArgument if 0 < `min_fraction` <= `max_fraction` <= 1 does not hold, if the number of islands
+/// is outside [0, 16], or if there is no room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 /// Renders a shot.

@@ -286,14 +286,14 @@ float work_of_planned_alternatives(const SetPlan& plan, float max_rest) {
 }
 
 std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, const SetPlan& plan,
-                                                 float share, float max_odds, WorkLimit& work) {
+                                                 float fraction, float max_odds, WorkLimit& work) {
     if (!plan.is_complete()) return {};
     SetSearch search(lines, max_odds, work);
     const std::span<const PlannedSet> sets = plan.sets();
     for (std::size_t n = 0;; ++n) {
         const float rest = kPlanMargin * plan.rest(n);
         const bool may_end = n == sets.size() || !sets[n].is_required;
-        if (may_end && rest <= std::min(share * (max_odds - search.odds()), kMaxRest))
+        if (may_end && rest <= std::min(fraction * (max_odds - search.odds()), kMaxRest))
             return search.odds() + rest;
         if (n == sets.size()) return {};
         if (!plan.is_covered(n) && !search.add(sets, n)) return {};

@@ -39,13 +39,13 @@ class SmallView {
         const auto single = sum_of_single_alternatives(kernels_, lines, work_);
         if (!single || !spend(factor_ * (*single + bound_of_other_sections(ratios)))) return false;
         const SetPlan plan(lines);
-        const float share = 1 / static_cast<float>(n + 1);
-        planned_work_ += work_of_planned_alternatives(plan, share * left_ / factor_);
+        const float fraction = 1 / static_cast<float>(n + 1);
+        planned_work_ += work_of_planned_alternatives(plan, fraction * left_ / factor_);
         if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
         // The last axis is searched first. On each axis, the expected odds of the sets that are not
-        // searched may use up at most the fraction `share` of the difference between the maximum
+        // searched may use up at most the fraction `fraction` of the difference between the maximum
         // and the sum, because the earlier axes need the rest.
-        const auto far = sum_of_planned_alternatives(lines, plan, share, left_ / factor_, work_);
+        const auto far = sum_of_planned_alternatives(lines, plan, fraction, left_ / factor_, work_);
         return far && spend(factor_ * *far);
     }
     /// Returns the maximum probability minus the sum so far.

@@ -13,9 +13,9 @@ void Reports::refuse(const std::string& peer, const std::string& reason, Clock::
     if (now < count.next) return;
     count.next = now + kInterval;
     const std::int64_t times = std::exchange(count.unreported, 0);
-    tell_(times == 1
-              ? fmt::format("web: refused {}: {}", peer, reason)
-              : fmt::format("web: refused {} requests, the last from {}: {}", times, peer, reason));
+    notify_(times == 1 ? fmt::format("web: refused {}: {}", peer, reason)
+                       : fmt::format("web: refused {} requests, the last from {}: {}", times, peer,
+                                     reason));
 }
 
 }  // namespace dotpose::serve

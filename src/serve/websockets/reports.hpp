@@ -13,7 +13,7 @@ class Reports {
   public:
     using Clock = std::chrono::steady_clock;
 
-    explicit Reports(std::function<void(const std::string&)> tell) : tell_(std::move(tell)) {}
+    explicit Reports(std::function<void(const std::string&)> notify) : notify_(std::move(notify)) {}
 
     /// Reports a refusal. The first refusal for each reason is reported immediately. Later refusals
     /// for the same reason are only counted, and their number is reported together with one of
@@ -26,7 +26,7 @@ class Reports {
         Clock::time_point next;
     };
 
-    std::function<void(const std::string&)> tell_;
+    std::function<void(const std::string&)> notify_;
     std::map<std::string, Count> counts_;
 };
 

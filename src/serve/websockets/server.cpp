@@ -38,7 +38,7 @@ constexpr int kUnhandled = -2;  ///< result of `handle` for events that it does 
 }  // namespace
 
 Server::Service::Service(ServerOptions options)
-    : options_(std::move(options)), reports_(options_.tell) {
+    : options_(std::move(options)), reports_(options_.notify) {
     if (options_.token.empty() && !options_.address.is_loopback()) {
         throw BadArgument(fmt::format("a server at {} needs a token", text_of(options_.address)));
     }

@@ -68,7 +68,7 @@ void draw_gauges(const CalibrationScene& scene, cv::Mat panel) {
         write(panel, gauge.text, {kMargin + 120, top + 16}, ink);
         const cv::Rect bar(kMargin, top + 23, width, 10);
         cv::rectangle(panel, bar, kEmpty, -1);
-        const int filled = static_cast<int>(std::lround(gauge.share * width));
+        const int filled = static_cast<int>(std::lround(gauge.fraction * width));
         if (filled > 0) cv::rectangle(panel, cv::Rect(bar.tl(), cv::Size(filled, 10)), ink, -1);
         top += kRowHeight;
     }

@@ -147,7 +147,7 @@ class Camera : public capture::FrameSource {
                 reopen();
                 continue;
             }
-            if (is_disconnected_) options_.tell("the camera " + name_ + " is back");
+            if (is_disconnected_) options_.notify("the camera " + name_ + " is back");
             is_disconnected_ = false;
             read_at_ = steady_clock::now();
             newest_us_ = time_us();
@@ -173,7 +173,7 @@ class Camera : public capture::FrameSource {
     /// Waits half a second and tries to open the camera again.
     void reopen() {
         if (!is_disconnected_) {
-            options_.tell("the camera " + name_ + " does not answer; waiting for it");
+            options_.notify("the camera " + name_ + " does not answer; waiting for it");
         }
         is_disconnected_ = true;
         capture_.release();

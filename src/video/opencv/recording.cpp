@@ -23,8 +23,8 @@ int codec_of(const std::string& path) {
 
 }  // namespace
 
-Recording::Recording(std::string path, double fps, Tell tell)
-    : path_(std::move(path)), fps_(fps), tell_(std::move(tell)) {}
+Recording::Recording(std::string path, double fps, Tell notify)
+    : path_(std::move(path)), fps_(fps), notify_(std::move(notify)) {}
 
 bool Recording::is_disk_full() const {
     constexpr std::uintmax_t kMin_bytes = 1 << 20;
@@ -41,8 +41,8 @@ void Recording::open(cv::Size size) {
         return;
     }
     if (!is_avi(path_)) {
-        tell_("FFmpeg has no H.264 encoder here: " + path_ +
-              " will be MPEG-4 video, several times as large");
+        notify_("FFmpeg has no H.264 encoder here: " + path_ +
+                " will be MPEG-4 video, several times as large");
     }
     if (!writer_.open(path_, codec_of(path_), fps_, size)) {
         throw Error("cannot record to " + path_ + "; try a name with .mp4");
@@ -92,8 +92,8 @@ void Recording::finish() {
                             is_disk_full() ? "; the disk is full" : ""));
 }
 
-std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Tell& tell) {
-    return std::make_unique<Recording>(path, fps, tell);
+std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Tell& notify) {
+    return std::make_unique<Recording>(path, fps, notify);
 }
 
 }  // namespace dotpose::video

@@ -16,9 +16,9 @@ namespace dotpose::video {
 
 class Recording : public GreyVideo {
   public:
-    /// The file is created when the first picture is written. `tell` receives messages for the
+    /// The file is created when the first picture is written. `notify` receives messages for the
     /// user.
-    Recording(std::string path, double fps, Tell tell);
+    Recording(std::string path, double fps, Tell notify);
 
     /// Append a BGR or a grey picture. Throw Error if that fails, for example because the disk is
     /// full or the pictures differ in size.
@@ -35,7 +35,7 @@ class Recording : public GreyVideo {
 
     std::string path_;
     double fps_;
-    Tell tell_;
+    Tell notify_;
     std::unique_ptr<H264File> h264_;
     cv::VideoWriter writer_;  ///< open if the video is not encoded as H.264
     cv::Size size_;

@@ -14,7 +14,8 @@ constexpr const char* kWindow = "dotpose";
 class Output : public ScreenOutput {
   public:
     explicit Output(const ScreenOptions& options) : options_(options) {
-        if (!options.record.empty()) recording_.emplace(options.record, options.fps, options.tell);
+        if (!options.record.empty())
+            recording_.emplace(options.record, options.fps, options.notify);
     }
 
     bool show(const Scene& scene) override {

@@ -176,7 +176,7 @@ class VideoFile : public capture::FrameSource {
         }
         const bool is_regular = av_cmp_q(stream_->avg_frame_rate, stream_->r_frame_rate) == 0;
         if (is_regular && frames_ < expected_frames()) {
-            options_.tell(
+            options_.notify(
                 fmt::format("{} has gaps, from damage or from its recording: {}", name_, counts));
         }
     }

@@ -95,7 +95,7 @@ TEST(CheckPrint, finds_dots_that_run_together) {
     settings.dot_growth = 3.7;
     const PrintCheck result = check(scan_page(small_sheet(), settings), 600);
     ASSERT_EQ(result.fields.size(), 1U);
-    EXPECT_GT(result.fields[0].merged_share(), 0.03);
+    EXPECT_GT(result.fields[0].merged_fraction(), 0.03);
     EXPECT_THAT(faults(result), ElementsAre("swollen"));
     EXPECT_THAT(result.findings[0].text, HasSubstr("run together"));
 }
@@ -122,17 +122,17 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     const PrintField& field = result.fields[0];
     EXPECT_THAT(faults(result), IsEmpty());
     EXPECT_THAT(remarks(result), Contains("covered"));
-    EXPECT_LT(field.missing_share(), 0.002);
-    EXPECT_LT(field.merged_share(), 0.002);
-    EXPECT_LT(field.wrong_share(), 0.002);
+    EXPECT_LT(field.missing_fraction(), 0.002);
+    EXPECT_LT(field.merged_fraction(), 0.002);
+    EXPECT_LT(field.wrong_fraction(), 0.002);
     // A bar covers all cells whose intersections are at most half a cell from the bar. These cells
     // form a stripe whose width is 1 mm plus one cell (0.508 mm). There is a bar every 5 mm, and
     // each bar is 30 mm long on a page of 60 mm. Along the edge of the grey area, a strip of up to
     // one tile (24 cells, or 12 mm) may also be reported as covered.
     const double bars = (1 + 0.508) / 5 * 30 / 60;
     const double edge = 12.0 * (25 + 30 + 25) / (60 * 80);
-    EXPECT_GT(field.covered_share(), 0.9 * bars);
-    EXPECT_LT(field.covered_share(), bars + edge);
+    EXPECT_GT(field.covered_fraction(), 0.9 * bars);
+    EXPECT_LT(field.covered_fraction(), bars + edge);
 }
 
 // In this scan, most of each tile is blank paper, because the card is small.
@@ -150,8 +150,8 @@ TEST(CheckPrint, dots_of_a_small_card_on_a_noisy_scan_are_not_covered) {
     ASSERT_EQ(result.fields.size(), 1U);
     EXPECT_EQ(result.fields[0].columns, card.columns);
     EXPECT_EQ(result.fields[0].rows, card.rows);
-    EXPECT_LT(result.fields[0].covered_share(), 0.01);
-    EXPECT_LT(result.fields[0].missing_share(), 0.01);
+    EXPECT_LT(result.fields[0].covered_fraction(), 0.01);
+    EXPECT_LT(result.fields[0].missing_fraction(), 0.01);
     EXPECT_THAT(faults(result), IsEmpty());
 }
 
@@ -215,7 +215,7 @@ TEST(CheckPrint, sees_a_photo_without_scale) {
     ASSERT_EQ(result.fields.size(), 1U);
     EXPECT_FALSE(result.fields[0].scale);
     EXPECT_FALSE(result.resolution);
-    EXPECT_NEAR(result.fields[0].missing_share(), imperfections.missing, 0.006);
+    EXPECT_NEAR(result.fields[0].missing_fraction(), imperfections.missing, 0.006);
     EXPECT_LT(result.fields[0].residual_mm, 0.003);
     EXPECT_THAT(remarks(result), Contains("no_resolution"));
 }
@@ -257,9 +257,9 @@ TEST(CheckPrint, photos_of_a_flawless_print_have_no_faults_and_no_scale) {
         EXPECT_THAT(faults(result), IsEmpty()) << tilt_degrees;
         EXPECT_THAT(remarks(result), ElementsAre("no_resolution", "unresolved", "good"))
             << tilt_degrees;
-        EXPECT_LT(field.wrong_share(), 0.001) << tilt_degrees;
-        EXPECT_LT(field.missing_share(), 0.001) << tilt_degrees;
-        EXPECT_LT(field.covered_share(), 0.001) << tilt_degrees;
+        EXPECT_LT(field.wrong_fraction(), 0.001) << tilt_degrees;
+        EXPECT_LT(field.missing_fraction(), 0.001) << tilt_degrees;
+        EXPECT_LT(field.covered_fraction(), 0.001) << tilt_degrees;
         EXPECT_LT(field.largest_distortion_mm, 0.02) << tilt_degrees;
     }
 }
@@ -269,7 +269,7 @@ TEST(CheckPrint, photos_tell_missing_dots) {
     ASSERT_EQ(result.fields.size(), 1U);
     EXPECT_TRUE(result.fields[0].are_dots_checked);
     EXPECT_FALSE(result.fields[0].are_sizes_measured);
-    EXPECT_NEAR(result.fields[0].missing_share(), 0.04, 0.006);
+    EXPECT_NEAR(result.fields[0].missing_fraction(), 0.04, 0.006);
     EXPECT_THAT(faults(result), ElementsAre("missing"));
 }
 

@@ -67,7 +67,7 @@ Camera lens_known_to(double sigma_px) {
 
 TEST(ImageCoverage, MarksThePartThatAPixelLiesIn) {
     ImageCoverage image(kWidth_px, kHeight_px);
-    EXPECT_EQ(image.share(), 0);
+    EXPECT_EQ(image.fraction(), 0);
     // Pixel 9 is the last pixel of the first part. The right border of this pixel is at 9.5.
     EXPECT_TRUE(image.add({9.4, 0}));
     EXPECT_FALSE(image.add({0, 9.4}));
@@ -79,7 +79,7 @@ TEST(ImageCoverage, MarksThePartThatAPixelLiesIn) {
     EXPECT_TRUE(image.is_covered(1, 0));
     EXPECT_TRUE(image.is_covered(11, 7));
     EXPECT_FALSE(image.is_covered(0, 1));
-    EXPECT_DOUBLE_EQ(image.share(), 3.0 / 96);
+    EXPECT_DOUBLE_EQ(image.fraction(), 3.0 / 96);
 }
 
 TEST(CalibrationCoverage, CountsPlacesDirectionsAndNewParts) {
@@ -134,7 +134,7 @@ TEST(CalibrationCoverage, NamesThePartOfTheImageThatIsMissing) {
     CalibrationCoverage coverage(kWidth_px, kHeight_px);
     coverage.add(view_at(0, 0, 0, corner));
     // The dots cover more than the required fraction of the image, but one corner has no dots.
-    ASSERT_GT(coverage.image().share(), kMinCoverage);
+    ASSERT_GT(coverage.image().fraction(), kMinCoverage);
     const auto needs = coverage.missing(std::nullopt);
     ASSERT_EQ(needs[0].kind, Kind::image);
     EXPECT_THAT(needs[0].advice, HasSubstr("lower left corner"));

@@ -70,8 +70,8 @@ void expect_measured(const Fault& fault) {
     EXPECT_NEAR(field.residual_mm, truth.jitter_mm, 0.005);
     EXPECT_EQ(field.pattern.section.u, 5);
     EXPECT_EQ(field.pattern.section.v, 41);
-    EXPECT_NEAR(field.missing_share(), truth.missing, 0.006);
-    EXPECT_LE(field.wrong_share(), 0.001);
+    EXPECT_NEAR(field.missing_fraction(), truth.missing, 0.006);
+    EXPECT_LE(field.wrong_fraction(), 0.001);
     EXPECT_NEAR(field.dot_mm, sheet.pattern.dot_mm * truth.dot_growth, 0.1 * field.dot_mm);
     EXPECT_NEAR(field.paper_level, truth.paper_level, 1);
     EXPECT_EQ(faults(result), fault.verdict);

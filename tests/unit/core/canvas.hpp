@@ -34,7 +34,7 @@ inline void fill(GreyImage& image, int u0, int v0, int u1, int v1, int level) {
 
 /// Returns the integral over the pixel at `u` of a Gaussian with mean `centre`, standard deviation
 /// `sigma` and total integral 1.
-inline double gaussian_share(int u, double centre, double sigma) {
+inline double gaussian_fraction(int u, double centre, double sigma) {
     const double scale = sigma * std::numbers::sqrt2;
     return 0.5 * (std::erf((u + 0.5 - centre) / scale) - std::erf((u - 0.5 - centre) / scale));
 }
@@ -49,11 +49,11 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
         for (int u = static_cast<int>(centre.x) - reach; u <= static_cast<int>(centre.x) + reach;
              ++u) {
             if (u < 0 || v < 0 || u >= image.width_px || v >= image.height_px) continue;
-            const double share =
-                gaussian_share(u, centre.x, sigma) * gaussian_share(v, centre.y, sigma);
+            const double fraction =
+                gaussian_fraction(u, centre.x, sigma) * gaussian_fraction(v, centre.y, sigma);
             std::uint8_t& level = pixel(image, u, v);
-            level =
-                static_cast<std::uint8_t>(std::lround(level * (1 - std::min(peak * share, 1.0))));
+            level = static_cast<std::uint8_t>(
+                std::lround(level * (1 - std::min(peak * fraction, 1.0))));
         }
     }
 }

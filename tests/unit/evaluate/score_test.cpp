@@ -63,7 +63,7 @@ TEST(Score, IsWhatAHandComputes) {
     EXPECT_EQ(score.frames, 4);
     EXPECT_EQ(score.located, 2);
     EXPECT_EQ(score.wrong, 0);
-    EXPECT_EQ(score.located_share(), 0.5);
+    EXPECT_EQ(score.located_fraction(), 0.5);
     EXPECT_EQ(score.by_status[static_cast<std::size_t>(Status::no_grid)], 2);
     EXPECT_EQ(score.by_status[static_cast<std::size_t>(Status::ok)], 2);
     EXPECT_NEAR(score.position_um.max, 12.5, 0.01);
@@ -116,7 +116,7 @@ TEST(Score, UnreadableFilesAreNoFrames) {
     const Score score = score_of(std::vector<Outcome>{unreadable, outcome()});
     EXPECT_EQ(score.frames, 1);
     EXPECT_EQ(score.unreadable, 1);
-    EXPECT_EQ(score.located_share(), 1);
+    EXPECT_EQ(score.located_fraction(), 1);
 }
 
 TEST(Score, OfNothingIsShownWithoutNumbers) {

@@ -101,7 +101,7 @@ TEST_F(SheetReservations, stay_where_they_cannot_be_confirmed_or_taken_out) {
     std::vector<std::string> told;
     {
         SheetReservation reservation(
-            path_, enter_a, {.tell = [&](const std::string& text) { told.push_back(text); }});
+            path_, enter_a, {.notify = [&](const std::string& text) { told.push_back(text); }});
         fs::rename(path_, directory_ / "aside");
         fs::create_directory(path_);
         EXPECT_THROW(reservation.confirm(), Error);
@@ -110,7 +110,7 @@ TEST_F(SheetReservations, stay_where_they_cannot_be_confirmed_or_taken_out) {
     fs::remove(path_);
     {
         const SheetReservation reservation(
-            path_, enter_a, {.tell = [&](const std::string& text) { told.push_back(text); }});
+            path_, enter_a, {.notify = [&](const std::string& text) { told.push_back(text); }});
         fs::rename(path_, directory_ / "aside");
         fs::create_directory(path_);
     }
@@ -135,7 +135,7 @@ TEST_F(SheetReservations, of_somebody_who_was_stopped_are_named_as_such) {
 TEST_F(SheetReservations, wait_for_a_lock_say_so_and_end) {
     std::vector<std::string> told;
     SheetFileWait wait{.max_s = 0.05,
-                       .tell = [&](const std::string& text) { told.push_back(text); }};
+                       .notify = [&](const std::string& text) { told.push_back(text); }};
     const SheetFile holder(path_);
     EXPECT_THAT([&] { SheetFile(path_, wait); },
                 ThrowsMessage<Error>(HasSubstr("another program has been changing it for 0.05 s")));

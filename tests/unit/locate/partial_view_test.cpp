@@ -106,7 +106,7 @@ TEST(PartialViews, CoverWhatTheyShould) {
     // All cells have the same amount of ink. The covered fraction is therefore the ratio of the
     // total darkness of the two images.
     PartialView view;
-    view.min_share = view.max_share = 0.3;
+    view.min_fraction = view.max_fraction = 0.3;
     for (std::uint64_t i = 0; i < 4; ++i) {
         Shot shot = partial_shot(i, view);
         shot.imperfections = {};

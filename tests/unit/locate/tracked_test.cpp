@@ -260,9 +260,9 @@ Prediction garbled(Prediction p, Rng& rng) {
                              &p.sigma_q16,
                              &p.sigma_theta_bam};
     // Randomises either a single field or about half of the fields.
-    const std::uint32_t share = rng.below(2) == 0 ? 1 : 8;
+    const std::uint32_t fraction = rng.below(2) == 0 ? 1 : 8;
     const std::size_t one = rng.below(static_cast<std::uint32_t>(numbers.size() + 4));
-    const auto is_hit = [&](std::size_t i) { return i == one || rng.below(16) < share - 1; };
+    const auto is_hit = [&](std::size_t i) { return i == one || rng.below(16) < fraction - 1; };
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (is_hit(i)) *numbers[i] = any_number(rng);
     }

@@ -41,8 +41,8 @@ std::vector<double> sampled(const CameraModel& camera, Vec2 centre, double radiu
                 const double y = v + (i / kPoints + 0.5) / kPoints - 0.5 - centre.y;
                 inside += x * x + y * y < radius_px * radius_px ? 1 : 0;
             }
-            const double share = static_cast<double>(inside) / (kPoints * kPoints);
-            levels.push_back(seen.paper_level * (1 - (1 - seen.ink_reflectance) * share));
+            const double fraction = static_cast<double>(inside) / (kPoints * kPoints);
+            levels.push_back(seen.paper_level * (1 - (1 - seen.ink_reflectance) * fraction));
         }
     }
     return levels;

@@ -20,7 +20,7 @@ Shot straight_shot() {
     return shot;
 }
 
-double dark_share(const GreyImage& image) {
+double dark_fraction(const GreyImage& image) {
     const auto dark =
         std::count_if(image.pixels.begin(), image.pixels.end(), [](int p) { return p < 115; });
     return static_cast<double>(dark) / static_cast<double>(image.pixels.size());
@@ -49,19 +49,19 @@ TEST(Scene, BlackAndWhiteAreEmpty) {
 }
 
 TEST(Scene, NoiseHasItsDensity) {
-    EXPECT_NEAR(dark_share(render_scene(Scene::noise, straight_shot(), 0.1)), 0.1, 0.01);
-    EXPECT_NEAR(dark_share(render_scene(Scene::noise, straight_shot(), 0.5)), 0.5, 0.02);
+    EXPECT_NEAR(dark_fraction(render_scene(Scene::noise, straight_shot(), 0.1)), 0.1, 0.01);
+    EXPECT_NEAR(dark_fraction(render_scene(Scene::noise, straight_shot(), 0.5)), 0.5, 0.02);
     EXPECT_THROW(render_scene(Scene::noise, straight_shot(), 1.5), BadArgument);
 }
 
 TEST(Scene, TextIsMostlyPaper) {
-    const double share = dark_share(render_scene(Scene::text, straight_shot()));
-    EXPECT_GT(share, 0.05);
-    EXPECT_LT(share, 0.4);
+    const double fraction = dark_fraction(render_scene(Scene::text, straight_shot()));
+    EXPECT_GT(fraction, 0.05);
+    EXPECT_LT(fraction, 0.4);
 }
 
 TEST(Scene, CheckerboardIsHalfDark) {
-    EXPECT_NEAR(dark_share(render_scene(Scene::checkerboard, straight_shot())), 0.5, 0.07);
+    EXPECT_NEAR(dark_fraction(render_scene(Scene::checkerboard, straight_shot())), 0.5, 0.07);
 }
 
 TEST(Scene, PlainGridHasItsDotsOnTheIntersections) {

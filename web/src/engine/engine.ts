@@ -57,21 +57,21 @@ export class Engine {
     follow(source: ReadableStream<VideoFrame> | MediaStreamTrack, options: ReadOptions, events: StreamEvents): void {
         this.#events = events;
         if (source instanceof ReadableStream) {
-            this.#tell({ kind: "stream", frames: source, options }, [source]);
+            this.#notify({ kind: "stream", frames: source, options }, [source]);
         } else {
-            this.#tell({ kind: "track", track: source, options }, [source as unknown as Transferable]);
+            this.#notify({ kind: "track", track: source, options }, [source as unknown as Transferable]);
         }
     }
     /** Requests the next frame of the stream. */
     next(): void {
-        this.#tell({ kind: "next" });
+        this.#notify({ kind: "next" });
     }
     stop(): void {
         this.#events = undefined;
-        this.#tell({ kind: "stop" });
+        this.#notify({ kind: "stop" });
     }
 
-    #tell(request: Request, transfer: Transferable[] = []): void {
+    #notify(request: Request, transfer: Transferable[] = []): void {
         this.#worker.postMessage(request, transfer);
     }
 
@@ -79,7 +79,7 @@ export class Engine {
         const id = ++this.#last_id;
         return new Promise<T>((resolve, reject) => {
             this.#waiting.set(id, { resolve: (value) => resolve(value as T), reject });
-            this.#tell({ ...request, id } as Request, transfer);
+            this.#notify({ ...request, id } as Request, transfer);
         });
     }
 

@@ -7,12 +7,12 @@ const kRows = 24;
 const kDarkest = 0.005;
 const kBrightest = 0.95;
 
-/** Returns the grey level at the quantile `share` of a histogram with `count` pixels. */
-function quantile(histogram: Uint32Array, count: number, share: number): number {
+/** Returns the grey level at the quantile for `probability` of a histogram with `count` pixels. */
+function quantile(histogram: Uint32Array, count: number, probability: number): number {
     let below = 0;
     for (let level = 0; level < 256; ++level) {
         below += histogram[level]!;
-        if (below > share * count) return level;
+        if (below > probability * count) return level;
     }
     return 255;
 }

@@ -49,10 +49,10 @@ function showGauges(gauges: readonly Gauge[]): void {
             ]),
         );
     }
-    gauges.forEach(({ label, text, share, is_reached }, i) => {
+    gauges.forEach(({ label, text, fraction, is_reached }, i) => {
         const [name, meter, output] = [...box.children].slice(3 * i) as [HTMLElement, HTMLMeterElement, HTMLElement];
         name.textContent = label;
-        meter.value = is_reached ? 1 : Math.min(share, 0.99);
+        meter.value = is_reached ? 1 : Math.min(fraction, 0.99);
         output.textContent = typeset(is_reached ? `${text}, enough` : text);
     });
 }

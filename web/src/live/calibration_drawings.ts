@@ -56,9 +56,9 @@ export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, nu
     context.strokeStyle = themed("--soft");
     context.lineWidth = 1;
     context.beginPath();
-    for (const share of [1 / 3, 2 / 3, 1]) {
-        context.moveTo(x + share * radius, y);
-        context.arc(x, y, share * radius, 0, 2 * Math.PI);
+    for (const fraction of [1 / 3, 2 / 3, 1]) {
+        context.moveTo(x + fraction * radius, y);
+        context.arc(x, y, fraction * radius, 0, 2 * Math.PI);
     }
     context.moveTo(x - radius, y);
     context.lineTo(x + radius, y);

@@ -8,7 +8,7 @@ export interface Gauge {
     label: string;
     text: string;
     /** Fraction of the goal that has been reached, at most 1. */
-    share: number;
+    fraction: number;
     is_reached: boolean;
 }
 

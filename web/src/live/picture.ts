@@ -41,12 +41,12 @@ class Meter {
         this.#best = Math.max(this.#best, quality.steepness);
         element("live-brightness", HTMLMeterElement).value = quality.brightness;
         element("live-contrast", HTMLMeterElement).value = quality.contrast;
-        const share = quality.steepness / Math.max(this.#best, 1);
-        element("live-sharpness", HTMLMeterElement).value = share;
+        const fraction = quality.steepness / Math.max(this.#best, 1);
+        element("live-sharpness", HTMLMeterElement).value = fraction;
         show({
             "live-brightness-text": `${Math.round(quality.brightness)} of 255`,
             "live-contrast-text": `${Math.round(quality.contrast)} grey levels`,
-            "live-sharpness-text": `${Math.round(100 * share)} % of the best`,
+            "live-sharpness-text": `${Math.round(100 * fraction)} % of the best`,
             "live-picture-advice": hintOfPicture(quality, dots) ?? "The picture is bright and sharp enough.",
         });
     }

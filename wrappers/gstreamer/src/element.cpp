@@ -107,8 +107,8 @@ gboolean copy_field(GQuark field, const GValue* value, gpointer to) {
     return TRUE;
 }
 
-void tell(DotposeLocate* self, GstBuffer* buffer, const Reading& reading,
-          const Switches& switches) {
+void notify(DotposeLocate* self, GstBuffer* buffer, const Reading& reading,
+            const Switches& switches) {
     if (!switches.posts_messages && !switches.attaches_meta) return;
     GstStructure* structure = gst_structure_new_empty(kPoseName);
     put_times(structure, GST_BASE_TRANSFORM(self)->segment, buffer);
@@ -154,7 +154,7 @@ GstFlowReturn transform_ip(GstBaseTransform* base, GstBuffer* buffer) {
         GST_ELEMENT_ERROR(self, STREAM, FAILED, ("%s", error.what()), (nullptr));
         return GST_FLOW_ERROR;
     }
-    tell(self, buffer, *reading, switches);
+    notify(self, buffer, *reading, switches);
     return GST_FLOW_OK;
 }
 

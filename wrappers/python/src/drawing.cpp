@@ -8,7 +8,7 @@
 namespace dotpose::python {
 namespace {
 
-Picture draw(SeenFix& fix, const std::optional<std::filesystem::path>& path,
+Picture draw(PyFix& fix, const std::optional<std::filesystem::path>& path,
              const std::string& title) {
     const Stages& stages = fix.seen_stages();
     DrawOptions options;

@@ -22,15 +22,15 @@ constexpr double kBam_per_rad = 2147483648.0 / std::numbers::pi;
 /// Returns a getter for a numeric field of a fix. The getter returns NaN if the status is not ok.
 template <typename Get>
 auto if_ok(Get get) {
-    return [get](const SeenFix& self) { return self.is_ok() ? double{get(self.fix)} : kNaN; };
+    return [get](const PyFix& self) { return self.is_ok() ? double{get(self.fix)} : kNaN; };
 }
 
-py::object pair_if_ok(const SeenFix& self, std::uint32_t first, std::uint32_t second) {
+py::object pair_if_ok(const PyFix& self, std::uint32_t first, std::uint32_t second) {
     if (!self.is_ok()) return py::none();
     return py::make_tuple(first, second);
 }
 
-py::array_t<double> dots(SeenFix& self) {
+py::array_t<double> dots(PyFix& self) {
     const std::vector<PixelPoint> pixels = self.seen_stages().dots_px();
     py::array_t<double> array({static_cast<py::ssize_t>(pixels.size()), py::ssize_t{2}});
     auto at = array.mutable_unchecked<2>();
@@ -45,18 +45,18 @@ py::object draw(const py::object& self, const py::object& path, const std::strin
     return tools_for("Fix.draw").attr("_draw")(self, path, title);
 }
 
-py::object other(const SeenFix& self) {
+py::object other(const PyFix& self) {
     if (!self.other) return py::none();
     return py::make_tuple(name(self.other->code),
                           py::make_tuple(self.other->cell.x, self.other->cell.y),
                           py::make_tuple(self.other->section.u, self.other->section.v));
 }
 
-std::string message_of(const SeenFix& self) {
+std::string message_of(const PyFix& self) {
     return self.fault.empty() ? message(self.fix.status) : self.fault;
 }
 
-std::string text_of_fix(const SeenFix& self) {
+std::string text_of_fix(const PyFix& self) {
     const Fix& fix = self.fix;
     if (!self.is_ok()) return fmt::format("<Fix {}: {}>", name(fix.status), message_of(self));
     return fmt::format("<Fix ok: x {:.4f} mm, y {:.4f} mm, theta {:.5f} rad, p_wrong {:.2g}>",
@@ -109,7 +109,7 @@ class Bits {
 
 /// Returns the numbers in the golden line for a fix (wrappers/golden). Floating-point numbers are
 /// returned as bytes, so tests can compare them bit by bit.
-py::list bits(const SeenFix& self) {
+py::list bits(const PyFix& self) {
     const Fix& fix = self.fix;
     Bits all;
     all.put(fix.status);
@@ -137,13 +137,13 @@ py::object evidence(bool is_known, Value value) {
         return py::int_(is_known ? value : 0);
 }
 
-void define_pose(py::class_<SeenFix>& fix) {
-    fix.def_property_readonly("ok", &SeenFix::is_ok,
+void define_pose(py::class_<PyFix>& fix) {
+    fix.def_property_readonly("ok", &PyFix::is_ok,
                               "True if there is a pose. Otherwise status and message give the "
                               "reason, and the numbers of the pose are nan or None.")
-        .def("__bool__", &SeenFix::is_ok, "The same as ok.")
+        .def("__bool__", &PyFix::is_ok, "The same as ok.")
         .def_property_readonly(
-            "status", [](const SeenFix& self) { return name(self.fix.status); },
+            "status", [](const PyFix& self) { return name(self.fix.status); },
             "Identifier of the result: \"ok\", \"too_few_dots\", ...")
         .def_property_readonly("message", &message_of,
                                "The status in one sentence, without a full stop.")
@@ -157,23 +157,23 @@ void define_pose(py::class_<SeenFix>& fix) {
             "in [-pi, pi).")
         .def_property_readonly(
             "covariance",
-            [](const SeenFix& self) {
+            [](const PyFix& self) {
                 return covariance_array(self.fix.covariance, self.fix.spacing_mm(),
                                         self.is_ok() && self.fix.has_covariance());
             },
             "Covariance of (x_mm, y_mm, theta_rad): 3 x 3, in mm^2, mm rad and rad^2.")
         .def_property_readonly(
-            "p_wrong", [](const SeenFix& self) { return self.is_ok() ? self.fix.p_wrong() : 1.0; },
+            "p_wrong", [](const PyFix& self) { return self.is_ok() ? self.fix.p_wrong() : 1.0; },
             "Upper bound of the probability that the position is wrong; 1 without a fix.")
         .def_property_readonly(
             "section",
-            [](const SeenFix& self) {
+            [](const PyFix& self) {
                 return pair_if_ok(self, self.fix.section.u, self.fix.section.v);
             },
             "Section (u, v) in which the position was read, each 0 to 62; None without a fix.")
         .def_property_readonly(
             "cell",
-            [](const SeenFix& self) { return pair_if_ok(self, self.fix.cell.x, self.fix.cell.y); },
+            [](const PyFix& self) { return pair_if_ok(self, self.fix.cell.x, self.fix.cell.y); },
             "Intersection (x, y) of the grid to the upper left of the reference point; None "
             "without a fix.")
         .def_property_readonly("x_grid", if_ok([](const Fix& f) { return f.x_grid(); }),
@@ -183,11 +183,11 @@ void define_pose(py::class_<SeenFix>& fix) {
 }
 
 /// Defines a property for each FIX_EVIDENCE field.
-void define_fields(py::class_<SeenFix>& seen_fix) {
+void define_fields(py::class_<PyFix>& seen_fix) {
 #define FIX_EVIDENCE(type, name, is_known, doc)         \
     seen_fix.def_property_readonly(                     \
         #name,                                          \
-        [](const SeenFix& self) {                       \
+        [](const PyFix& self) {                         \
             [[maybe_unused]] const Fix& fix = self.fix; \
             return evidence(is_known, self.fix.name);   \
         },                                              \
@@ -195,9 +195,9 @@ void define_fields(py::class_<SeenFix>& seen_fix) {
 #include "dotpose/fix_fields.def"
 }
 
-void define_evidence(py::class_<SeenFix>& fix) {
+void define_evidence(py::class_<PyFix>& fix) {
     fix.def_property_readonly(
-           "code", [](const SeenFix& self) { return name(self.code); },
+           "code", [](const PyFix& self) { return name(self.code); },
            "Code in which the position was read: \"anoto\", \"libdots\" or \"microdots\".")
         .def_property_readonly("other", &other,
                                "A place in another code that also explains the frame, as (code, "
@@ -252,7 +252,7 @@ void define_prediction(py::module_& module) {
 
 }  // namespace
 
-const Stages& SeenFix::seen_stages() {
+const Stages& PyFix::seen_stages() {
     if (!stages) {
         if (!source) throw Error("this fix has no frame");
         stages = source->stages_of(number);
@@ -260,8 +260,8 @@ const Stages& SeenFix::seen_stages() {
     return *stages;
 }
 
-SeenFix seen_fix(const CodeReading& reading) {
-    SeenFix seen;
+PyFix seen_fix(const CodeReading& reading) {
+    PyFix seen;
     seen.fix = reading.fix;
     seen.code = reading.code;
     if (reading.has_other)
@@ -269,7 +269,7 @@ SeenFix seen_fix(const CodeReading& reading) {
     return seen;
 }
 
-SeenPrediction SeenPrediction::like(const SeenFix& seen) {
+SeenPrediction SeenPrediction::like(const PyFix& seen) {
     if (!seen.is_ok()) throw BadArgument("a prediction needs a fix that is ok");
     const FixedVec centre_q8 = seen.fix.pattern_from_image.centre_q8;
     return {Prediction::like(seen.fix),
@@ -291,7 +291,7 @@ py::array_t<double> covariance_array(const float (&covariance)[3][3], double spa
 
 void define_fix(py::module_& module) {
     define_picture(module);
-    py::class_<SeenFix> fix(
+    py::class_<PyFix> fix(
         module, "Fix",
         "The pose computed from one frame, with its evidence. True if there is a pose.\n\n"
         "In the pattern frame, x points to the right and y DOWN on the page as it is read. The\n"

@@ -22,7 +22,7 @@ struct OtherPlace {
 };
 
 /// A fix, the code in which it was read, and a reference to the stages of its frame.
-struct SeenFix {
+struct PyFix {
     Fix fix;
     CodeVariant code = CodeVariant::anoto;
     std::optional<OtherPlace> other;
@@ -39,7 +39,7 @@ struct SeenFix {
 };
 
 /// Returns a fix without a reference to its stages.
-SeenFix seen_fix(const CodeReading& reading);
+PyFix seen_fix(const CodeReading& reading);
 
 /// A prediction, with the code, spacing and reference point for which it was made.
 struct SeenPrediction {
@@ -48,7 +48,7 @@ struct SeenPrediction {
     double spacing_mm = 0;
     FixedVec pivot_q8;  ///< reference point, in 2^-8 px from the centre of the first pixel
 
-    static SeenPrediction like(const SeenFix& fix);
+    static SeenPrediction like(const PyFix& fix);
 };
 
 /// Converts a covariance in spacings and rad to mm and rad. Returns NaN if `is_known` is false.

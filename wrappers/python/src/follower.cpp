@@ -18,7 +18,7 @@ namespace {
 /// Result for one image, exposed to Python as the class Located. `track` is empty if the image is
 /// not part of a sequence.
 struct SeenLocated {
-    SeenFix fix;
+    PyFix fix;
     std::optional<SeenPlace> place;
     std::optional<SpacePose> space;
     std::optional<TipPose> tip;

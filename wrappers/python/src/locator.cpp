@@ -27,12 +27,12 @@ std::int32_t offset_q8(double px, int side_px) {
 
 }  // namespace
 
-LocatorOfPython::LocatorOfPython(const LocatorSetup& setup)
+PyLocator::PyLocator(const LocatorSetup& setup)
     : setup_(setup), locator_(setup.options), options_(setup.options) {
     if (setup.code) options_.code = *setup.code;
 }
 
-void LocatorOfPython::use_options_for(int width_px, int height_px) {
+void PyLocator::use_options_for(int width_px, int height_px) {
     if (width_px == width_px_ && height_px == height_px_) return;
     DeviceOptions options = setup_.options;
     options.code = options_.code;
@@ -48,14 +48,14 @@ void LocatorOfPython::use_options_for(int width_px, int height_px) {
     locator_.set_options(options_);
 }
 
-void LocatorOfPython::set_options(CodeVariant code, bool show_stages) {
+void PyLocator::set_options(CodeVariant code, bool show_stages) {
     DeviceOptions options = options_;
     options.code = code;
     options.show_stages |= show_stages;
     locator_.set_options(options);
 }
 
-CodeReading LocatorOfPython::read(const ImageView& image, const Request& request) {
+CodeReading PyLocator::read(const ImageView& image, const Request& request) {
     CodeReading reading;
     if (request.motion && setup_.code) {
         reading.code = *setup_.code;
@@ -75,9 +75,9 @@ CodeReading LocatorOfPython::read(const ImageView& image, const Request& request
     return reading;
 }
 
-SeenFix LocatorOfPython::locate_locked(const ImageView& image,
-                                       const std::optional<SeenPrediction>& expected,
-                                       const std::optional<MeasuredMotion>& motion) {
+PyFix PyLocator::locate_locked(const ImageView& image,
+                               const std::optional<SeenPrediction>& expected,
+                               const std::optional<MeasuredMotion>& motion) {
     use_options_for(image.width_px, image.height_px);
     ++newest_.number;
     newest_.evidence = evidence_;
@@ -91,7 +91,7 @@ SeenFix LocatorOfPython::locate_locked(const ImageView& image,
     const CodeReading reading = read(image, newest_);
     newest_.fix = reading.fix;
     if (!setup_.code) evidence_ = reading.evidence;
-    SeenFix seen = seen_fix(reading);
+    PyFix seen = seen_fix(reading);
     if (setup_.with_camera != nullptr)
         seen.fix = setup_.with_camera(seen.fix, *setup_.camera, locator_.trace());
     if (seen.fix.status == Status::bad_argument) seen.fault = fault_text(locator_.options());
@@ -101,16 +101,15 @@ SeenFix LocatorOfPython::locate_locked(const ImageView& image,
     return seen;
 }
 
-SeenFix LocatorOfPython::locate(const py::object& image,
-                                const std::optional<SeenPrediction>& expected,
-                                const std::optional<MeasuredMotion>& motion) {
+PyFix PyLocator::locate(const py::object& image, const std::optional<SeenPrediction>& expected,
+                        const std::optional<MeasuredMotion>& motion) {
     if (expected && motion) throw BadArgument("give a prediction or a motion, not both");
     if (motion && !motion->is_usable()) {
         throw BadArgument(
             "motion: all numbers must be finite and below 1e6, and the sigmas not negative");
     }
     const ImageView view = view_of(image);
-    SeenFix seen;
+    PyFix seen;
     {
         const py::gil_scoped_release others_may_run;
         const std::scoped_lock lock(mutex_);
@@ -124,7 +123,7 @@ SeenFix LocatorOfPython::locate(const py::object& image,
     return seen;
 }
 
-std::shared_ptr<const Stages> LocatorOfPython::stages_of(std::uint64_t number) {
+std::shared_ptr<const Stages> PyLocator::stages_of(std::uint64_t number) {
     const py::object image = image_;
     const bool is_newest = image_number_ == number;
     const ImageView view = is_newest ? view_of(image) : ImageView{};
@@ -151,7 +150,7 @@ std::shared_ptr<const Stages> LocatorOfPython::stages_of(std::uint64_t number) {
     return stages;
 }
 
-double LocatorOfPython::cpp_us(const py::object& image, int repeats) {
+double PyLocator::cpp_us(const py::object& image, int repeats) {
     const ImageView view = view_of(image);
     const py::gil_scoped_release others_may_run;
     const std::scoped_lock lock(mutex_);
@@ -164,7 +163,7 @@ double LocatorOfPython::cpp_us(const py::object& image, int repeats) {
     return elapsed.count() / repeats;
 }
 
-CodeVariant LocatorOfPython::code() {
+CodeVariant PyLocator::code() {
     const py::gil_scoped_release others_may_run;
     const std::scoped_lock lock(mutex_);
     return setup_.code.value_or(evidence_.likeliest());
@@ -172,10 +171,10 @@ CodeVariant LocatorOfPython::code() {
 
 namespace {
 
-std::shared_ptr<LocatorOfPython> new_locator(const std::string& code, double spacing_mm,
-                                             const std::optional<Camera>& camera,
-                                             const std::optional<std::array<double, 2>>& reference,
-                                             const LocatorOptions& options, bool keep_stages) {
+std::shared_ptr<PyLocator> new_locator(const std::string& code, double spacing_mm,
+                                       const std::optional<Camera>& camera,
+                                       const std::optional<std::array<double, 2>>& reference,
+                                       const LocatorOptions& options, bool keep_stages) {
     LocatorSetup setup;
     setup.code = code_or_auto(code);
     setup.camera = camera;
@@ -192,13 +191,13 @@ std::shared_ptr<LocatorOfPython> new_locator(const std::string& code, double spa
     }
     setup.options.spacing_nm = rounded(spacing_mm * 1e6);
     setup.keep_stages = keep_stages;
-    return std::make_shared<LocatorOfPython>(setup);
+    return std::make_shared<PyLocator>(setup);
 }
 
 }  // namespace
 
 void define_locator(py::module_& module) {
-    py::class_<LocatorOfPython, std::shared_ptr<LocatorOfPython>>(
+    py::class_<PyLocator, std::shared_ptr<PyLocator>>(
         module, "Locator",
         "Locates the pattern in images.\n\n"
         "Threads run concurrently if each has its own locator. Threads that share a locator wait\n"
@@ -217,8 +216,8 @@ void define_locator(py::module_& module) {
             "options: thresholds and limits.\n"
             "keep_stages: if true, each fix keeps its image, dots and grid for later calls of dots "
             "and draw; costs time and memory.")
-        .def("locate", &LocatorOfPython::locate, "image"_a, "prediction"_a = py::none(),
-             py::kw_only(), "motion"_a = py::none(),
+        .def("locate", &PyLocator::locate, "image"_a, "prediction"_a = py::none(), py::kw_only(),
+             "motion"_a = py::none(),
              "Return the Fix of an image: a numpy array of uint8 with the shape (height, width), "
              "0 is black, with dark dots on light paper. The image is not copied; rows need not be "
              "contiguous.\n\n"
@@ -226,9 +225,9 @@ void define_locator(py::module_& module) {
              "that does not confirm the prediction is located without it.\n\n"
              "motion: the MeasuredMotion since the previous frame. Frames that are not certain "
              "alone are then read together with the previous frames; fix.frames is their number.")
-        .def("_cpp_us", &LocatorOfPython::cpp_us, "image"_a, "repeats"_a)
+        .def("_cpp_us", &PyLocator::cpp_us, "image"_a, "repeats"_a)
         .def_property_readonly(
-            "code", [](LocatorOfPython& self) { return name(self.code()); },
+            "code", [](PyLocator& self) { return name(self.code()); },
             "The given code or, if the code is detected, the most likely code so far.");
 }
 

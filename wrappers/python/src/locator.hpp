@@ -27,14 +27,14 @@ struct LocatorSetup {
 
 /// Locates frames in sequence. Several threads may share a locator. A thread that waits for the
 /// locator does not hold the GIL.
-class LocatorOfPython : public StageSource, public std::enable_shared_from_this<LocatorOfPython> {
+class PyLocator : public StageSource, public std::enable_shared_from_this<PyLocator> {
   public:
-    explicit LocatorOfPython(const LocatorSetup& setup);
+    explicit PyLocator(const LocatorSetup& setup);
 
     /// Locates the pattern in an array. Throws TypeError if the object is not an image, and
     /// BadArgument if the size of the image differs from the size in the camera file.
-    SeenFix locate(const py::object& image, const std::optional<SeenPrediction>& expected,
-                   const std::optional<MeasuredMotion>& motion);
+    PyFix locate(const py::object& image, const std::optional<SeenPrediction>& expected,
+                 const std::optional<MeasuredMotion>& motion);
 
     std::shared_ptr<const Stages> stages_of(std::uint64_t number) override;
 
@@ -59,8 +59,8 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
     void use_options_for(int width_px, int height_px);
     void set_options(CodeVariant code, bool show_stages);
     CodeReading read(const ImageView& image, const Request& request);
-    SeenFix locate_locked(const ImageView& image, const std::optional<SeenPrediction>& expected,
-                          const std::optional<MeasuredMotion>& motion);
+    PyFix locate_locked(const ImageView& image, const std::optional<SeenPrediction>& expected,
+                        const std::optional<MeasuredMotion>& motion);
 
     LocatorSetup setup_;
     std::mutex mutex_;  ///< guards the members below, except those guarded by the GIL

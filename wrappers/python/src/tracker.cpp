@@ -74,7 +74,7 @@ class TrackerOfPython {
   public:
     explicit TrackerOfPython(const TrackOptions& options) : tracker_(options) {}
 
-    Track update(std::int64_t time_us, const std::optional<SeenFix>& fix,
+    Track update(std::int64_t time_us, const std::optional<PyFix>& fix,
                  const std::optional<MeasuredMotion>& motion) {
         const bool is_ok = fix && fix->is_ok();
         if (is_ok && !(fix->fix.spacing_mm() <= 20)) {
@@ -104,7 +104,7 @@ class TrackerOfPython {
 
   private:
     Tracker tracker_;
-    std::optional<SeenFix> newest_;
+    std::optional<PyFix> newest_;
     Sighting sighting_;
 };
 

@@ -25,7 +25,7 @@ struct Row {
     void draw(Rng& rng, int width_px) {
         std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width_px));
         // Fraction of dark pixels.
-        const double dark_share = rng.uniform(0, 1);
+        const double dark_fraction = rng.uniform(0, 1);
         begin_threshold(width_px, kMinFrameSide_px, threshold);
         for (int u = 0; u < whole_width(threshold); u += kTileWidth_px) {
             const std::uint32_t half_low = rng.below(6) == 0 ? 0 : rng.below(128);
@@ -39,7 +39,7 @@ struct Row {
             // If true, every grey level equals one of the two thresholds or is one below it.
             const bool is_close = rng.below(2) == 0;
             for (int k = u; k < std::min(u + kTileWidth_px, width_px); ++k) {
-                const bool is_dark = rng.uniform(0, 1) < dark_share;
+                const bool is_dark = rng.uniform(0, 1) < dark_fraction;
                 int level = static_cast<int>(is_dark ? rng.below(2 * half_low + 1)
                                                      : 255 - rng.below(256 - 2 * half_low));
                 if (is_close) {

@@ -21,9 +21,9 @@ constexpr std::uint64_t kSeed = 71;
 constexpr float kMaxRest = 0x1p-31F;  // maximum contribution of expected odds to the sum
 constexpr std::size_t kPlenty = 10'000'000;
 
-std::optional<float> planned(const RatiosCase& c, float max_odds, std::size_t most_work) {
+std::optional<float> planned(const RatiosCase& c, float max_odds, std::size_t max_work) {
     const LikelihoodRatios ratios = c.ratios();
-    WorkLimit work(most_work);
+    WorkLimit work(max_work);
     const RankedLines lines(ratios);
     return sum_of_planned_alternatives(lines, SetPlan(lines), 1, max_odds, work);
 }
@@ -70,13 +70,13 @@ RatiosCase small_view(Rng& rng) {
 }
 
 float wrong_in(const Kernels& kernels, std::span<const RatiosCase> axes, float max_wrong,
-               std::size_t most_work) {
+               std::size_t max_work) {
     const LikelihoodRatios x = axes.front().ratios();
     const LikelihoodRatios y = axes.back().ratios();
     const UnsharedLines x_unshared(kernels, x);
     const UnsharedLines y_unshared(kernels, y);
     const std::array both{&x_unshared, &y_unshared};
-    WorkLimit work(most_work);
+    WorkLimit work(max_work);
     return wrong_in_small_view(kernels, std::span(both).first(axes.size()), 1, max_wrong, work);
 }
 

@@ -63,9 +63,9 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
     // Displacements change the length of an edge by up to a third, so the axes have an error of a
     // few percent. The limit is 5 % because the refinement starts with dots up to 4 cells away,
     // where an error of 5 % is 1/5 cell.
-    const auto worst = [](std::vector<double>& errors, double share) {
+    const auto worst = [](std::vector<double>& errors, double fraction) {
         std::sort(errors.begin(), errors.end());
-        return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
+        return errors[static_cast<std::size_t>(fraction * static_cast<double>(errors.size() - 1))];
     };
     EXPECT_LT(worst(length_errors, 0.98), 0.05);
     EXPECT_LT(worst(length_errors, 1), 0.06);
