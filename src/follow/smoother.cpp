@@ -82,7 +82,7 @@ double log_likelihood(std::span<const AxisSample> samples, double noise) {
 std::vector<AxisPlace> smoothed(std::span<const AxisSample> samples, double noise) {
     const Pass pass = forwards(samples, noise);
     std::vector<AxisPlace> places(samples.size());
-    State later;
+    State later{Vector3d::Zero(), Matrix3d::Zero()};
     for (std::size_t i = samples.size(); i-- > 0;) {
         State state = pass.after[i];
         if (i + 1 < samples.size()) {

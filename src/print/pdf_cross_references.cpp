@@ -27,7 +27,7 @@ class CrossReferences {
     CrossReferences(const std::filesystem::path& path, UnpackedBytes& unpacked)
         : file_(std::make_shared<FileInputSource>(path.string().c_str())), unpacked_(unpacked) {
         file_->seek(0, SEEK_END);
-        size_ = file_->notify();
+        size_ = file_->tell();
         stray_.emptyPDF();
         stray_.setSuppressWarnings(true);
         tokenizer_.allowEOF();
@@ -95,7 +95,7 @@ class CrossReferences {
         }
         constexpr qpdf_offset_t kLineBreak = 2;
         const qpdf_offset_t size = std::min<qpdf_offset_t>(length.getIntValue(), size_);
-        std::string bytes = text(file_->notify(), size + kLineBreak);
+        std::string bytes = text(file_->tell(), size + kLineBreak);
         bytes.erase(0, bytes.find_first_not_of("\r\n"));
         QPDFObjectHandle stream = QPDFObjectHandle::newStream(&stray_, bytes);
         for (const char* key : {"/Filter", "/DecodeParms"}) {
@@ -108,7 +108,7 @@ class CrossReferences {
     /// Reads the dictionary at the current position. Returns an empty optional if there is no
     /// dictionary.
     std::optional<QPDFObjectHandle> read_dictionary() {
-        const qpdf_offset_t begin = file_->notify();
+        const qpdf_offset_t begin = file_->tell();
         int level = 0;
         do {
             const auto type = next().getType();
@@ -116,7 +116,7 @@ class CrossReferences {
             level += type == QPDFTokenizer::tt_dict_open ? 1 : 0;
             level -= type == QPDFTokenizer::tt_dict_close ? 1 : 0;
         } while (level > 0);
-        const qpdf_offset_t end = file_->notify();
+        const qpdf_offset_t end = file_->tell();
         QPDFObjectHandle dictionary = QPDFObjectHandle::parse(&stray_, text(begin, end - begin));
         file_->seek(end, SEEK_SET);
         return dictionary.isDictionary() ? std::optional(dictionary) : std::nullopt;

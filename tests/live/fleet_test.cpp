@@ -1,4 +1,5 @@
 // Tests `dotpose fleet` with states that are published to a mosquitto broker.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -164,7 +165,7 @@ TEST_F(Fleet, SubscribesWithTls) {
 TEST_F(Fleet, InventedNamesFillNoMemory) {
     constexpr int kNames = 12'000;
     const Broker broker(directory_);
-    WatchedFleet fleet(directory_, "--qos 1 --mqtt " + broker.url());
+    WatchedFleet fleet(directory_, "--qos 1 --log states.csv --mqtt " + broker.url());
     MqttOptions mqtt = options(broker);
     mqtt.qos = 1;
     mqtt.queue = kNames;
@@ -174,7 +175,13 @@ TEST_F(Fleet, InventedNamesFillNoMemory) {
                        Message{"x", 1, "2026-11-24T16:00:00Z"}.json());
     }
     EXPECT_TRUE(sender.flush(60s));
-    std::this_thread::sleep_for(1s);
+    constexpr int kMaxRobots = 10'000;
+    wait_until(
+        [this] {
+            const std::string log = read_file(directory_ / "states.csv");
+            return std::ranges::count(log, '\n') > kMaxRobots;  // the first line is the header
+        },
+        60s);
     const std::string table = fleet.table();
     const std::size_t last_line = table.rfind('\n', table.size() - 2) + 1;
     // On a busy machine, the last states may still be in transit.

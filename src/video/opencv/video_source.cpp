@@ -25,6 +25,14 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
+bool is_key_frame(const AVFrame& picture) {
+#ifdef AV_FRAME_FLAG_KEY  // FFmpeg 6.1 or newer
+    return (picture.flags & AV_FRAME_FLAG_KEY) != 0;
+#else
+    return picture.key_frame != 0;
+#endif
+}
+
 using capture::Frame;
 using capture::SourceOptions;
 
@@ -249,7 +257,7 @@ class VideoFile : public capture::FrameSource {
             skip_to_key_frame();
             return false;
         }
-        if (picture_->key_frame != 0) waits_for_key_frame_ = false;
+        if (is_key_frame(*picture_)) waits_for_key_frame_ = false;
         if (waits_for_key_frame_) return false;
         to_grey_(*picture_, frame.image);
         packet_px_ += std::int64_t{picture_->width} * picture_->height;
