@@ -26,8 +26,9 @@ struct Frame {
 };
 
 /// Waits until `not_before_us` (on the same clock as Frame::time_us), and then starts a frame. Does
-/// not wait if `not_before_us` is 0. The camera then fills one of two row buffers by DMA while the
-/// program reads the other. The first call also initialises the camera and the serial line.
+/// not wait if `not_before_us` is 0. During the frame, the camera fills one of two row buffers by
+/// DMA while the program reads the other. The first call also initialises the camera and the serial
+/// line.
 Frame start_frame(std::int64_t not_before_us);
 
 /// Waits for the next row of the frame, from top to bottom, and returns its grey values. The grey

@@ -20,8 +20,9 @@ constexpr double kInch_mm = 25.4;
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a distortion bin. Bins with fewer dots are not reported.
 constexpr int kMinBinDots = 60;
-/// Quantile of the darkness of the dots that is used as the darkness of solid ink, unless the
-/// expected darkness of the ink is greater.
+/// The darkness of solid ink is estimated as this quantile of the darkness of the dots. If the
+/// expected darkness of the ink is greater than the quantile, the expected darkness is used
+/// instead.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 

@@ -124,7 +124,7 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     WindowOptions window = window_options(hypothesis);
     window.is_partial_view = hypothesis.is_partial_view;
     // In later rounds of a partial view, most windows may be empty. A typical mass estimated from
-    // them would be wrong, so these rounds use the typical mass of the first round.
+    // empty windows would be wrong, so these rounds use the typical mass of the first round.
     if (hypothesis.is_partial_view) window.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
     if (hypothesis.is_partial_view) drop_table(dots_, paper_);

@@ -125,14 +125,15 @@ PrintMap parse_print_map(std::string_view bytes);
 /// contents are not valid (see `parse_print_map`).
 PrintMap read_print_map(const std::filesystem::path& path);
 
-/// Returns the contents of a map file. Throws BadArgument if a page is not valid. A page is not
-/// valid if its region is not in the code plane, if a number is out of range, if the name is longer
-/// than 4096 bytes, if `offsets` or `views` does not contain exactly one element per dot, or if
-/// `errors` is not a grid of covariances.
+/// Returns the contents of a map file. Throws BadArgument if a page is not valid:
+/// - The region is not in the code plane, or a number is out of range.
+/// - The name is longer than 4096 bytes.
+/// - `offsets` or `views` does not contain exactly one element per dot.
+/// - `errors` is not a grid of covariances.
 std::string print_map_bytes(const PrintMap& map);
 
-/// Throws Error if a page of the map is not one of `sheets`. A page matches a sheet if their code
-/// variant, section, region and spacing are equal. Their names may differ.
+/// Throws Error if a page of the map matches none of the sheets. A page matches a sheet if their
+/// code variant, section, region and spacing are equal. Their names may differ.
 void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets);
 
 }  // namespace dotpose

@@ -124,8 +124,8 @@ struct Motion {
     std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
     std::array<double, kStates * kStates> covariance{};
     /// Process noise along each axis: the variance of the acceleration noise, divided by the
-    /// variance in the options. The first three axes are the position, minus the part that is
-    /// correlated with the rotation according to `noise`. The last three axes are the rotation.
+    /// variance in the options. The last three axes are the rotation. The first three axes are the
+    /// position minus its linear regression on the rotation, which is computed from `noise`.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
     /// Innovation of the latest accepted sighting, along the axes of `agility`.
     std::array<double, 6> innovation{};

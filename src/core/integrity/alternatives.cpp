@@ -59,8 +59,8 @@ struct Expectation {
 /// that would take too long to compute. Stops when the sum reaches `limit`.
 float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
                         Expectation expected, float limit) {
-    // A sum is negligible if it is small relative to this value: the caller's limit, but at most
-    // the default limit.
+    // The smaller of the caller's limit and the default limit. A sum is negligible if it is small
+    // relative to this value.
     const float usual = std::min(limit, kUsualLimit);
     float sum = kMargin * expected.of_more;
     if (sum > usual / 16) {

@@ -34,8 +34,8 @@ inline Bytes modulo_sections(Bytes offsets) {
     return offsets - (static_cast<Bytes>(offsets >= kSections) & kSections);
 }
 
-/// Sets the roll offsets of the single alternative at `place` in `sequence`, at the shift where it
-/// shares the line `shared`.
+/// Sets the roll offsets of the single alternative at `place` in `sequence`. The shift is the one
+/// at which the alternative shares the line `shared`.
 inline void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t sequence,
                                  std::uint32_t place, int shared, RollOffsets& offsets) {
     const std::uint8_t* const own = ratios.basis[sequence].rolls + ratios.places[sequence];
