@@ -13,9 +13,10 @@ TrackOptions PoseSender::device_tracking() {
     return options;
 }
 
-/// Begins a frame with the prediction from the tracker. After a frame without a pose, begins
-/// without a prediction. The rows of a frame are not stored, so a frame that does not confirm its
-/// prediction cannot be located again without the prediction.
+/// Begins a frame with the prediction from the tracker, or without a prediction if the previous
+/// frame gave no pose. A wrong prediction may be the reason why there was no pose: the rows of a
+/// frame are not stored, so a frame that does not confirm its prediction cannot be located again
+/// without the prediction.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =

@@ -44,8 +44,8 @@ struct TurnedPlace {
 enum class PlaceSearch : std::uint8_t {
     brief,  ///< searches only at the most likely quarter turn
     /// If the brief search finds no place that agrees with the bits, searches thoroughly at all
-    /// quarter turns. In a block of few cells, many lines are too short to determine their rolls,
-    /// or to vote for a quarter turn.
+    /// quarter turns. Blocks of few cells need the thorough search, because many of their lines are
+    /// too short to determine the roll, or to vote for a quarter turn.
     thorough,
 };
 
@@ -54,10 +54,12 @@ enum class PlaceSearch : std::uint8_t {
 std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block,
                                              PlaceSearch search);
 
-/// Outside a series of frames, does nothing and returns true. Within a series, stores the bits of
-/// the current frame and returns true. If frames are being read together, instead adds the bits of
-/// the earlier frames to the block, and returns false if the grids of the frames do not match. The
-/// plane is relative to `from_centre`.
+/// Combines a block with a series of frames. `from_centre` is the origin of the coordinates of
+/// `grid_from_image`, relative to the image centre.
+/// - Outside a series, does nothing and returns true.
+/// - Within a series, stores the bits of the current frame and returns true.
+/// - If frames are being read together, adds the bits of the earlier frames to the block instead.
+///   Returns false if the grids of the frames do not match.
 bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, EarlierBits& earlier,
                   BitBlock& block);
 

@@ -66,16 +66,16 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F, 0.85F, 0.65F};
 
 /// Search for a rotation of the scene during the readout (locate/turning).
 namespace turning {
-/// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum distance, in
-/// rows, by which the rotation moves the scene at the left or right image border down while a row
-/// is read.
+/// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum number of rows
+/// by which the rotation moves a point at the left or right image border down while one row is
+/// read.
 inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
 /// Maximum drift of the scene while a row is read, in rows.
 inline constexpr float kMaxDrift = 0.9F;
-/// kStep is the first step of the search for the rotation. It is expressed as the distance by which
-/// the dots in the corners of the patch move, in spacings. The search ends when the step is kStep /
-/// kStepParts.
+/// kStep is the first step of the search for the rotation, expressed as the distance, in spacings,
+/// by which it moves the dots in the corners of the patch. The search ends when the step has been
+/// reduced to kStep / kStepParts.
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
 /// A grid replaces the best grid so far if its agreement exceeds this multiple of the best
@@ -91,9 +91,9 @@ inline constexpr float kMinGain = 3;
 /// Maximum number of grids for which the search looks for a place in the code. If none of these
 /// grids has a place, the search ends, because further rotations usually lead to the same grids.
 inline constexpr int kMaxClimbs = 3;
-/// If the correction of the rotation moves the dots in the image corners by at least kSettled_px,
-/// the image is measured again. Smaller corrections are applied to the measured dots. kMaxRounds is
-/// the maximum number of measurements.
+/// The correction of the rotation moves the dots in the image corners. If it moves them by at least
+/// kSettled_px, the image is measured again. Smaller corrections are applied to the measured dots.
+/// kMaxRounds is the maximum number of measurements.
 inline constexpr float kSettled_px = 0.5F;
 inline constexpr int kMaxRounds = 5;
 /// The search for a rotation is skipped if `keep_isolated` keeps less than this fraction of the
@@ -172,8 +172,9 @@ inline constexpr float kOutlier = 8.3F;
 /// axis. If the distance is larger, the dots are measured again, because small centroid windows do
 /// not measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
-/// An exact hypothesis is implausible if this number of fits each move its plane by more than kFar.
-/// docs/accuracy.md, "Dots with the same sub-pixel phase", lists the remaining errors.
+/// If this number of fits move the plane of an exact hypothesis by more than kFar, the hypothesis
+/// is implausible. docs/accuracy.md, "Dots with the same sub-pixel phase", lists the errors that
+/// remain.
 inline constexpr int kMaxLooks = 3;
 /// Windows are dropped if their paper level is less than kTable times the mean paper level. Such
 /// windows are on the table beyond the sheet, where noise can look like dots.
@@ -244,8 +245,8 @@ inline constexpr float kMaxImplausible = 0.57F;
 inline constexpr float kMinRight = 0.375F;
 inline constexpr float kMaxWrongInOverlay = 0.005F;
 /// A second attempt may give a better fix if the residual is at least kRough_px and at least kRough
-/// spacings. Residuals due to noise are constant in px. Residuals due to bad printing are constant
-/// in spacings.
+/// spacings. Two limits are needed, because residuals due to noise are constant in px, and
+/// residuals due to bad printing are constant in spacings.
 inline constexpr float kRough_px = 0.30F;
 inline constexpr float kRough = 0.027F;
 }  // namespace confirm

@@ -92,8 +92,9 @@ enum class PrintFormat {
 /// lower case. Throws BadArgument for other extensions.
 PrintFormat print_format(const std::filesystem::path& path);
 
-/// Called after each step, usually a row of the pattern. `rows` is the total number of steps.
-/// Returning false aborts the operation with an Error.
+/// Callback that reports the progress of an operation. It is called after each step, which is
+/// usually a row of the pattern. `rows` is the total number of steps. If the callback returns
+/// false, the operation is aborted with an Error.
 using Progress = std::function<bool(int rows_done, int rows)>;
 
 /// Methods of drawing dots in a PDF.

@@ -296,8 +296,9 @@ int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshar
 using Sequences = unsigned;
 constexpr Sequences kAllSequences = 15;
 
-/// Adds a table bound to `sum` for each of the given sequences whose bound is below `little_q8`.
-/// Tries the table with the most lines first. Returns the sequences without such a bound.
+/// For each of the given sequences, computes bounds from the tables (see `by_table_log2_q8`), and
+/// adds the first bound below `little_q8` to `sum`. Tries the table for the most lines first.
+/// Returns the sequences for which no table gives such a bound.
 Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences sequences,
                         int& sum) {
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -357,8 +358,8 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // Tries table bounds first. They are larger than a sum over all places, but are much faster
-        // to compute.
+        // Tries the bounds from the tables first. They are looser than a sum over all places, but
+        // much faster to compute.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);

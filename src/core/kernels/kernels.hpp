@@ -159,8 +159,8 @@ struct DotOffsets {
     /// cross products.
     float along = 0;
     float across = 0;
-    /// Sums of d_x times the offset along u, and of d_x times the offset along v. d is the
-    /// direction of the dot's coded displacement. `of_y` contains the corresponding sums for d_y.
+    /// Sums of d_x times the offset, along u and along v, where d is the direction of the dot's
+    /// coded displacement. `of_y` contains the corresponding sums for d_y.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
 };
@@ -339,10 +339,10 @@ struct Kernels {
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int dot_contrast_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
-    /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot is `weight_px` times the
-    /// ratio of the moment to the weight in its window. If `weight_px` is 0, the factor is
-    /// estimated from dots in the middle of the list. Returns the sums of `DotOffsets` over the
-    /// remaining dots.
+    /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot along an axis is
+    /// `weight_px` times the first moment of its window along this axis, divided by the weight of
+    /// the window. If `weight_px` is 0, this factor is estimated from dots in the middle of the
+    /// list. Returns the sums of `DotOffsets` over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`

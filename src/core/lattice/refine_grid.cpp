@@ -36,8 +36,8 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
                           FixedVec{median(std::span(x).first(n)), median(std::span(y).first(n))};
 }
 
-/// Agreement of the dots with the grid. Except for `farthest_cell`, includes only dots whose cells
-/// are at most `reach_cells` from the origin.
+/// Agreement of the dots with the grid. All members except `farthest_cell` include only dots whose
+/// cells are at most `reach_cells` from the origin.
 struct Judged : Regularity {
     std::int64_t squared_offsets_q20 = 0;
 };

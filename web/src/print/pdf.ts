@@ -66,8 +66,8 @@ function dotFont(context: PDFContext): PDFRef {
 }
 
 /**
- * Returns the smallest shift for which all renderers round the origin of a glyph to the same pixel.
- * Renderers either truncate or round, and count pixels from either edge of the page.
+ * Returns the smallest shift for which all renderers round the origin of a glyph to the same pixel. Some renderers
+ * truncate and others round, and each of them may count pixels from either edge of the page.
  */
 function clearShift_px(near_px: number, far_px: number): number {
     const kClear_px = 0.05;
