@@ -49,8 +49,8 @@ struct CalibrateOptions {
     /// `pattern`. `stitch_sheets` ignores this option, because each sheet has its own code variant.
     bool any_code = false;
     /// Sheets that the frames may show, for example the sheets of a sheet file. If the list is not
-    /// empty, the spacing is the printed spacing of the sheet that appears in the largest number of
-    /// frames. `stitch_sheets` ignores this option.
+    /// empty, the spacing of `pattern` is ignored. The calibration then uses the printed spacing of
+    /// the sheet that appears in the largest number of frames. `stitch_sheets` ignores this option.
     std::vector<SheetEntry> sheets;
     /// Called after each step of the calibration. Returning false aborts the calibration with an
     /// Error.
@@ -116,9 +116,11 @@ struct LensCalibration {
 };
 
 /// Computes the lens and the scale. Also computes the tilt and the focal length if the frames
-/// determine them. Throws BadArgument if `frames` is less than 1. Throws Error if fewer than two
-/// distinct frames can be located, if the frames differ in size, if `options.sheets` is not empty
-/// and no frame shows one of these sheets, or if no plausible lens fits the frames.
+/// determine them. Throws BadArgument if `frames` is less than 1. Throws Error in these cases:
+/// - Fewer than two distinct frames can be located.
+/// - The frames differ in size.
+/// - `options.sheets` is not empty, but no frame shows one of these sheets.
+/// - No plausible lens fits the frames.
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 

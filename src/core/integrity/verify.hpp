@@ -1,5 +1,5 @@
 // Verify: compares all dots in view with the decoded position. The decoder may have used only some
-// of the dots. Unlike the paper, dotpose refuses decoded positions that may be wrong. See
+// of the dots. Unlike the paper, dotpose rejects decoded positions that may be wrong. See
 // docs/differs-from-paper.md.
 #pragma once
 
@@ -25,7 +25,7 @@ Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const 
               Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
               Fix& fix);
 
-/// Verifies a decoded position in integer arithmetic and in bounded time. Refuses more positions
+/// Verifies a decoded position in integer arithmetic and in bounded time. Rejects more positions
 /// than `verify`, because it uses only the bound on the alternatives from quick_alternatives.hpp.
 /// Error: not_certain, for the same reasons as in `verify`.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
