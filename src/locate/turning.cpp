@@ -269,8 +269,9 @@ bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t
                 Measurement& measurement) {
     if ((fix.surface == Surface::even && !is_rough(fix)) || !has_room(frame.image, pixels))
         return false;
-    // If the dots were measured around a point other than the image centre, only the search can
-    // detect a rotation.
+    // If the dots were measured around a point other than the image centre, the rotation cannot be
+    // fitted to them. Only a search can then detect a rotation, and it is worthwhile if the fix is
+    // rough.
     if (!(fix.pattern_from_image.centre_q8 == measurement.pattern_from_image.centre_q8))
         return is_rough(fix);
     // Fits the plane again, because the fix may use only one side of a divided sheet.

@@ -149,8 +149,9 @@ class EmulatedDevice : public testing::Test {
         }
         out.close();
         const SerialLine serial;
-        // Waits until `listen` has configured the terminal, which would otherwise alter the bytes.
-        // At the end, waits until all packets have arrived, because bytes in transit would be lost.
+        // Waits until `listen` has configured the terminal, because an unconfigured terminal alters
+        // bytes. At the end, waits until all packets have arrived, because interrupting `listen`
+        // earlier would lose the bytes in transit.
         const std::string commands =
             "cd " + directory_.path().string() + "; " + test::tool_path() + " listen " +
             serial.name() +

@@ -33,8 +33,8 @@ namespace dotpose {
 
 struct PrintMappingOptions {
     std::vector<SheetEntry> sheets;  ///< the pages that may be in view
-    /// Lens and view of the camera. Without a camera file, the lens is assumed to have no
-    /// distortion, and the view is computed from the fixes.
+    /// Lens and view of the camera. If not given, the lens is assumed to have no distortion, and
+    /// the view is computed from the fixes.
     std::optional<Camera> camera;
     /// Earlier map of some of the sheets. The frames update this map. Pages seen in fewer than
     /// `PrintMapping::kMinFrames` frames are copied from it unchanged.
@@ -58,9 +58,8 @@ struct MappedPage {
     /// True if all frames had the same scale, as with a camera mounted at a constant height.
     bool is_rigid = true;
     int iterations = 0;  ///< number of conjugate gradient iterations in all rounds
-    /// Standard deviation of the map error in a view, per axis (see MapErrors): the rms value over
-    /// all dots that were seen. 0 if it is unknown because the earlier map does not contain its
-    /// errors.
+    /// Rms value of the slowly varying part of the dot offsets, per axis: sqrt(m - jitter_mm^2),
+    /// where m is the mean square of the offsets.
     double error_mm = 0;
 };
 
@@ -89,9 +88,9 @@ class PrintMapping {
     /// Minimum number of frames required to map a page.
     static constexpr std::size_t kMinFrames = 10;
 
-    /// Computes the map. `progress` is called with the completed fraction of the current page.
-    /// Returning false aborts the computation with an Error. Throws Error if no page was seen in
-    /// kMinFrames frames, or if the frames contradict the earlier map.
+    /// Computes the map. Calls `progress` with the completed fraction of the current page. Throws
+    /// Error if `progress` returns false, if no page was seen in kMinFrames frames, or if the
+    /// frames contradict the earlier map.
     PrintMapResult solve(const std::function<bool(double fraction)>& progress = {});
 
   private:

@@ -14,8 +14,8 @@ namespace {
 
 /// Prior probability that a given border between two lines is a seam with a given roll difference,
 /// as log2 in units of 2^-8. With this prior and the default limit, a position is accepted if the
-/// view is equally likely with and without a seam, but refused if the view is at least four times
-/// as likely with a seam.
+/// view is equally likely with and without a seam. It is rejected if the view is at least four
+/// times as likely with a seam.
 constexpr int kSeam_q8 = -32 * 256;
 /// Minimum odds of the alternatives that are included in the sum, as log2 in units of 2^-8. These
 /// odds exclude the prior.
@@ -116,9 +116,11 @@ class QuickTest {
         return changes < 2;
     }
 
-    /// Returns true if the alternative may lose less than the limit for at least one border. Uses
-    /// the best shift on each side of the border, and the minimum losses of the lines that the
-    /// alternative does not share.
+    /// Returns true if the alternative can share all required lines. The required lines are those
+    /// whose minimum loss is at least the limit, so the odds of an alternative are negligible if it
+    /// does not share one of them. The alternative has one shift before its border and another
+    /// shift after it. The roll offset may therefore change at most once from one required line to
+    /// the next.
     bool may_lose_less(const RollOffsets& offsets) const {
         // For each line, the minimum loss in all lines before it, at the best shift.
         std::array<int, kMaxLines> before;
@@ -133,8 +135,9 @@ class QuickTest {
             before[line] = in_all - max_kept;
             add(line);
         }
-        // A seam alternative shares lines at one or two shifts, so it avoids at most twice the loss
-        // that the best single shift avoids.
+        // Returns true if the alternative may lose less than the limit for at least one border.
+        // Assumes the best shift on each side of the border, and the minimum loss for each line
+        // that the alternative does not share.
         if (in_all - 2 * max_kept >= loss_limit_) return false;
         kept.fill(0);
         in_all = max_kept = 0;

@@ -41,8 +41,9 @@ struct Losses {
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        // Float division gives the same integers as integer division, because the quotients are
-        // below 16 and are never rounded up to the next integer.
+        // Returns the step losses in units of 1/`StepLosses::kLimitParts` of the loss limit,
+        // rounded down. A place whose step losses add up to at least kLimitParts units loses at
+        // least the limit.
         const auto part = static_cast<float>((loss_limit + StepLosses::kLimitParts - 1) /
                                              StepLosses::kLimitParts);
         for (int step = 0; step < steps.count; ++step) {
@@ -69,9 +70,9 @@ struct Losses {
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
 
-/// Sums the odds of the places in one other code, along one axis. The *same place* has the same
-/// index in a4 as the place of the reading, but in the other code, at the shift `shift_here_`. All
-/// other places and shifts are *other places*.
+/// Sums the odds of the places in one other code, along one axis. The *same place* is the place in
+/// a4 of the other code with the same index as the place of the reading, at the shift
+/// `shift_here_`. All other places and shifts are *other places*.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
@@ -95,8 +96,8 @@ class OtherPlaces {
 
     /// Returns the odds of the same place in the other code.
     float here() const { return result_.here; }
-    /// Returns the summed odds of all other places, or an upper bound on this sum if only the table
-    /// bound is set.
+    /// Returns the summed odds of all other places. After `bound`, returns an upper bound on this
+    /// sum until `begin_count` is called.
     float elsewhere() const { return result_.elsewhere; }
 
     /// Sets the summed odds of all other places to an upper bound from a table.
@@ -126,8 +127,9 @@ class OtherPlaces {
 
     /// Adds the odds of another place in a4, at all shifts with a shared line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
-    /// Adds kSkippedOdds once per line for each of `places` skipped places. A place cannot share
-    /// lines at more shifts than there are lines.
+    /// Adds an upper bound on the odds of `places` skipped places. The bound for each place is
+    /// kSkippedOdds times the number of lines, because a place shares lines at no more shifts than
+    /// there are lines.
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
@@ -243,7 +245,8 @@ class OtherPlaces {
     const code::Secondary& theirs_;
     const int shift_here_;
     const RollOffsets here_;  ///< roll offsets at the same place in the a4 of the other code
-    /// True if the place of the reading has the same rolls in both codes, for all lines in view.
+    /// Returns the odds of the places in the code `other`: the exact odds of the same place, and an
+    /// upper bound on the odds of all other places (see `OtherPlaces::bound`).
     bool has_same_rolls_ = true;
     std::uint32_t best_place_ = 0;
     OtherAxis result_;
