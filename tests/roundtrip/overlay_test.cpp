@@ -79,8 +79,9 @@ class Documents : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Returns the renderers that can draw the document. mutool in Debian 13 loses a resource when it
-/// converts certain documents, and then cannot draw its own result.
+/// Returns the renderers that can draw the document. mutool is omitted if it cannot draw the
+/// document: the version in Debian 13 loses a resource when it converts certain documents, and then
+/// cannot draw its own result.
 std::vector<const char*> renderers_of(const fs::path& pdf) {
     try {
         render("mutool", pdf, 72);
