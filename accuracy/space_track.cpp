@@ -2,7 +2,7 @@
 // in space (docs/pose-in-space.md). Prints a table in Markdown. With --update, also writes the
 // table to DOCUMENT.
 //
-// dotpose_tables space_track [--frames N] [--seed S] [--threads N] [--update DOCUMENT]
+//   dotpose_tables space_track [--frames N] [--seed S] [--threads N] [--update DOCUMENT]
 #include "dotpose/tools/space_track.hpp"
 
 #include <cmath>

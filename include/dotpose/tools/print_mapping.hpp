@@ -52,14 +52,15 @@ struct MappedPage {
     double noise_mm = 0;           ///< standard deviation of a measured dot centre, per axis
     /// Standard deviation of the print jitter, per axis (see MapPage::jitter).
     double jitter_mm = 0;
-    /// Rms value of the slowly varying part of the dot offsets, per axis: the square root of the
-    /// mean squared offset minus the jitter variance.
+    /// Rms value of the slowly varying part of the dot offsets, per axis: sqrt(m - jitter_mm^2),
+    /// where m is the mean square of the offsets.
     double slow_mm = 0;
     /// True if all frames had the same scale, as with a camera mounted at a constant height.
     bool is_rigid = true;
     int iterations = 0;  ///< number of conjugate gradient iterations in all rounds
-    /// Rms value of the slowly varying part of the dot offsets, per axis: sqrt(m - jitter_mm^2),
-    /// where m is the mean square of the offsets.
+    /// Standard deviation of the map error in a view, per axis (see MapErrors): the rms value over
+    /// all dots that were seen. 0 if it is unknown because the earlier map does not contain its
+    /// errors.
     double error_mm = 0;
 };
 

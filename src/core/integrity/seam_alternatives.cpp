@@ -105,10 +105,11 @@ class QuickTest {
     }
 
   private:
-    /// Returns true if the alternative can share all required lines: its shift changes at most once
-    /// from one required line to the next. The required lines are those whose minimum loss is at
-    /// least the limit. The odds of an alternative are negligible unless it shares every required
-    /// line, either at the shift before the border or at the shift after it.
+    /// Returns true if the alternative can share all required lines. The required lines are those
+    /// whose minimum loss is at least the limit, so the odds of an alternative are negligible if it
+    /// does not share one of them. The alternative has one shift before its border and another
+    /// shift after it. The roll offset may therefore change at most once from one required line to
+    /// the next.
     bool shares_required(const RollOffsets& offsets) const {
         int changes = 0;
         for (std::size_t n = 1; n < required_count_ && changes < 2; ++n)
@@ -116,11 +117,9 @@ class QuickTest {
         return changes < 2;
     }
 
-    /// Returns true if the alternative can share all required lines. The required lines are those
-    /// whose minimum loss is at least the limit, so the odds of an alternative are negligible if it
-    /// does not share one of them. The alternative has one shift before its border and another
-    /// shift after it. The roll offset may therefore change at most once from one required line to
-    /// the next.
+    /// Returns true if the alternative may lose less than the limit for at least one border.
+    /// Assumes the best shift on each side of the border, and the minimum loss for each line that
+    /// the alternative does not share.
     bool may_lose_less(const RollOffsets& offsets) const {
         // For each line, the minimum loss in all lines before it, at the best shift.
         std::array<int, kMaxLines> before;
@@ -135,9 +134,8 @@ class QuickTest {
             before[line] = in_all - max_kept;
             add(line);
         }
-        // Returns true if the alternative may lose less than the limit for at least one border.
-        // Assumes the best shift on each side of the border, and the minimum loss for each line
-        // that the alternative does not share.
+        // A seam alternative shares lines at one or two shifts, so it avoids at most twice the loss
+        // that the best single shift avoids.
         if (in_all - 2 * max_kept >= loss_limit_) return false;
         kept.fill(0);
         in_all = max_kept = 0;

@@ -35,15 +35,14 @@ struct Losses {
         }
     }
 
-    /// Returns the step losses, rounded down. They are counted in parts of the loss limit: a place
-    /// whose step losses add up to at least `StepLosses::kLimitParts` parts loses at least the
+    /// Returns the step losses in units of 1/`StepLosses::kLimitParts` of the loss limit, rounded
+    /// down. A place whose step losses add up to at least kLimitParts units loses at least the
     /// limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        // Returns the step losses in units of 1/`StepLosses::kLimitParts` of the loss limit,
-        // rounded down. A place whose step losses add up to at least kLimitParts units loses at
-        // least the limit.
+        // Float division gives the same integers as integer division, because the quotients are
+        // below 16 and are never rounded up to the next integer.
         const auto part = static_cast<float>((loss_limit + StepLosses::kLimitParts - 1) /
                                              StepLosses::kLimitParts);
         for (int step = 0; step < steps.count; ++step) {
@@ -245,8 +244,7 @@ class OtherPlaces {
     const code::Secondary& theirs_;
     const int shift_here_;
     const RollOffsets here_;  ///< roll offsets at the same place in the a4 of the other code
-    /// Returns the odds of the places in the code `other`: the exact odds of the same place, and an
-    /// upper bound on the odds of all other places (see `OtherPlaces::bound`).
+    /// True if the place of the reading has the same rolls in both codes, for all lines in view.
     bool has_same_rolls_ = true;
     std::uint32_t best_place_ = 0;
     OtherAxis result_;
@@ -262,8 +260,8 @@ class AxisWeigher {
           read_(read),
           losses_(ratios_) {}
 
-    /// Returns the odds in the code `other`: exact odds for the place of the reading, and a table
-    /// bound for all other places.
+    /// Returns the odds of the places in the code `other`: the exact odds of the same place, and an
+    /// upper bound on the odds of all other places (see `OtherPlaces::bound`).
     OtherPlaces bounded(CodeVariant other) const {
         OtherPlaces others(ratios_, losses_, read_, other);
         others.bound(unshared_, read_, other);
