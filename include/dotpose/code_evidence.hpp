@@ -28,11 +28,13 @@ namespace dotpose {
 
 /// Odds for each code variant of a sheet, given all frames so far.
 ///
+/// Each frame changes the odds: the odds of a variant are divided by its likelihood ratio. The
+/// likelihood ratio is the likelihood of the frame's bits in the variant that explains these bits
+/// best, divided by their likelihood in this variant.
+///
 /// Consecutive frames at one place show the same dots with the same defects, so they are not
-/// independent. Together, they have the weight of a single frame: the odds of a variant are divided
-/// by the mean of its likelihood ratios in these frames. The likelihood ratio of a variant is the
-/// likelihood of the frame's bits in the variant that explains them best, divided by their
-/// likelihood in this variant. A frame is at the same place as the preceding frames if it is less
+/// independent. Together, they have the weight of a single frame: the odds are divided by the mean
+/// of their likelihood ratios. A frame is at the same place as the preceding frames if it is less
 /// than 64 cells from the first of them along both axes.
 class CodeEvidence {
   public:

@@ -26,8 +26,8 @@ class MapView {
                rotation_.transpose() * (target - frame_.place_mm);
     }
 
-    /// Position (x, y) of an observation, in units of the reach, and the direction in which its dot
-    /// is displaced. The derivatives of the residual depend only on these values.
+    /// Position (x, y) of an observation, in units of `reach_mm`, and the direction in which its
+    /// dot is displaced. The derivatives of the residual depend only on these values.
     struct Terms {
         double x;
         double y;
@@ -44,8 +44,8 @@ class MapView {
                     frame[1] + frame[2] * x + y * (scale - shared[1]) + x * shared[2] -
                         frame[3] * direction.y()};
         }
-        /// Multiplies the transposed derivatives by `g`. Adds the elements of the product that
-        /// belong to the frame to `frame`, and the element of the lens distortion to `distortion`.
+        /// Multiplies the transposed derivatives by `g`. Adds the result for the parameters of the
+        /// frame to `frame`, and the result for the lens distortion to `distortion`.
         void add_transposed(const Eigen::Vector2d& g, FrameVector& frame,
                             double& distortion) const {
             const double along = x * g.x() + y * g.y();

@@ -92,9 +92,9 @@ double near_limit(std::span<const Pair> pairs, const Map& map) {
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits a similarity transform to the pairs that are not outliers. Starts with the transform that
-/// has the smallest median residual: either the fit to all pairs, or a fit to two pairs. Then
-/// repeatedly fits a new transform to the pairs within the outlier limit of the previous one.
+/// Fits a similarity transform to the pairs that are not outliers. Starts with the fit to all
+/// pairs, or with a fit to two pairs if its median residual is smaller. Then repeatedly fits a new
+/// transform to the pairs within the outlier limit of the previous transform.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;

@@ -41,8 +41,10 @@ enum class Confirmation : std::uint8_t {
     /// The plane is not plausible, or the dots or their bits contradict the hypothesis.
     implausible,
     uncertain,  ///< the hypothesis is plausible, but its position is not certain
-    /// Same as `uncertain`, but all bits in view (in small views, nearly all bits) are clear and
-    /// agree with the code, or a small view shows too few cells for a further attempt.
+    /// The hypothesis is plausible, but its position is not certain, for one of two reasons:
+    /// - The bits in view agree with the code but are too few. All bits must be clear and agree (in
+    ///   small views, nearly all bits).
+    /// - A small view shows too few cells for a further attempt.
     too_few_bits,
     /// The fix is rough (see `is_rough`), and `Frame::defers_if_rough` is true. The place may be
     /// wrong, because it was not confirmed.
