@@ -101,8 +101,9 @@ TEST(SheetOdds, MoreDotsAreNeededIfOtherSheetsArePossible) {
     const int only_log2 = fix.p_wrong_log2;
     const core::KnownSheets possible{{&kSheet, 1}, OtherSheets::possible};
     is_certain(block, corner, possible, fix);
-    // An unknown sheet may have the same columns. The rows of the view can then be at 3 positions.
-    // At each position, the bits agree by chance with a probability of 2^-36.
+    // An unknown sheet may have the same columns as the known sheet. The rows that were read can
+    // then match by chance at 3 positions on the unknown sheet, with a probability of 2^-36 at
+    // each.
     EXPECT_GE(fix.p_wrong_log2, -36);
     EXPECT_GT(fix.p_wrong_log2, only_log2);
 }
