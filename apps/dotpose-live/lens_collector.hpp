@@ -84,9 +84,9 @@ class LensCollector {
     /// calls `goes_on` repeatedly. If `goes_on` returns false, stops waiting and returns false.
     bool finish(const std::function<bool()>& goes_on);
 
-    /// Returns the last calibration. Must be called after `finish`. If the frames are not
-    /// sufficient for the verdict `good`, throws Error with a message that names the unmet
-    /// requirements.
+    /// Returns the last calibration. Must be called after `finish`. Throws Error if the calibration
+    /// failed, or if the frames are not sufficient for the verdict `good`. In the latter case, the
+    /// message names the unmet requirements.
     const LensCalibration& result() const;
 
     /// Returns the unmet requirements. `take` must have been called at least once.

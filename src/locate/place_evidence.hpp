@@ -70,7 +70,7 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits);
 /// Returns true if the bits make the place of the hypothesis certain. If frames are being read
 /// together, also uses the bits of earlier frames. If the place is certain, sets `p_wrong_log2` in
 /// the fix. Also sets `prior` if known sheets were needed, and `frames` if earlier frames were
-/// needed.
+/// needed. Within a series of frames, stores the block for the following frames.
 bool confirm_place(const PlaceEvidence& evidence, const Hypothesis& hypothesis,
                    const CellsInView& view, const BitBlock& block, const BitsRead& bits, Fix& fix);
 

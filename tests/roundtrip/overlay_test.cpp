@@ -195,9 +195,9 @@ TEST_F(Documents, user_units_make_the_page_larger) {
     EXPECT_EQ(errors.wrong_symbols + errors.missing, 0);
 }
 
-/// Returns a document of two pages that share content and inherit resources. It has a link, a form
-/// field and an outline. Its content changes the graphics state and the coordinates without
-/// restoring them.
+/// Returns a document of two pages that share content and inherit resources. The document has a
+/// link, a form field and an outline. The content of the pages changes the graphics state and the
+/// coordinates without restoring them.
 std::vector<std::string> rich_document() {
     return {"<< /Type /Catalog /Pages 2 0 R /Outlines 8 0 R /AcroForm << /Fields [9 0 R] >> >>",
             "<< /Type /Pages /Kids [3 0 R 4 0 R] /Count 2 /MediaBox [0 0 200 100] "

@@ -207,8 +207,8 @@ class Projection {
 
   private:
     /// Returns the position, at `time`, of a scene point that is at `undistorted` when the middle
-    /// row is read. Points are in px from the centre of the undistorted image. `time` is in units
-    /// of the readout time, from the middle row.
+    /// row is read. Points are in px from the centre of the undistorted image. `time` is 0 when the
+    /// middle row is read, and is in units of the readout time.
     Vec2 moved(Vec2 undistorted, double time) const;
     /// Returns the displacement of the pose point in the undistorted image between the time of the
     /// middle row and `time`. The pose point moves along an arc.
