@@ -27,8 +27,8 @@ StateNumbers::Arrival StateNumbers::take(const RobotState& state, StateCounts& c
         counts.missed = std::max<std::int64_t>(counts.missed - 1, 0);
         return Arrival::late;
     }
-    // The states with numbers between that of the previous state and that of this state are
-    // missing. If the number of this state is lower, the robot was restarted, and no states are
+    // If this number is higher than the previous number by more than 1, the states with the numbers
+    // in between are missing. A lower number means that the robot was restarted, so no states are
     // missing.
     if (!is_first && sent.number > newest_.number) {
         constexpr std::uint64_t kMax = 1'000'000'000;

@@ -35,9 +35,9 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
     }
 }
 
-/// Drops windows that are much darker than the paper. Such windows are on the table beyond the
-/// sheet, where noise can look like dots. `paper` is the mean level around dots. If `paper` is 0,
-/// drops nothing and sets `paper` to the measured level.
+/// Drops windows that are much darker than the paper. Such windows are beyond the edge of the
+/// sheet, for example on a dark table, where noise can look like dots. `paper` is the mean level
+/// around dots. If `paper` is 0, drops nothing and sets `paper` to the measured level.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;

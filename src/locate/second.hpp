@@ -20,9 +20,9 @@ class SecondAttempt {
 
     /// Locates the frame in the code `frame.options.code`. All calls must pass the same image. If
     /// there is a fix, stores it in the workspace and returns true. Otherwise, stores the status
-    /// and returns false. With `Resampling::if_doubtful`, a position that is not certain is decoded
-    /// a second time: from bits that are read through a grid fitted to the dots that the code
-    /// predicts at the first position.
+    /// and returns false. If the position is not certain and `resampling` is `if_doubtful`, fits
+    /// the grid to the dots that the code predicts at this position, and reads and decodes the bits
+    /// again.
     bool read(const Frame& frame, Resampling resampling);
 
   private:

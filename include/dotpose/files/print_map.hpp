@@ -39,9 +39,8 @@ struct DotOffset {
     double y() const { return y_q14 / 16384.0; }
 };
 
-/// Errors of a print map. They vary slowly over the page, so all dots in a view have nearly the
-/// same error. This struct contains the covariance of the error at the nodes of a grid that spans
-/// all dots on the page.
+/// Covariances of the errors of a print map, at the nodes of a grid that spans all dots on the
+/// page. The errors vary slowly over the page, so all dots in a view have nearly the same error.
 struct MapErrors {
     /// Covariance of the shift along x and y, in spacings, and of the rotation, in rad: the
     /// elements (x, x), (x, y), (y, y), (x, rotation), (y, rotation), (rotation, rotation).
@@ -125,9 +124,9 @@ PrintMap parse_print_map(std::string_view bytes);
 /// contents are not valid (see `parse_print_map`).
 PrintMap read_print_map(const std::filesystem::path& path);
 
-/// Returns the contents of a map file. Throws BadArgument if a page is not valid:
-/// - The region is not in the code plane, or a number is out of range.
-/// - The name is longer than 4096 bytes.
+/// Returns the contents of a map file. Throws BadArgument in these cases:
+/// - The region of a page is not in the code plane, or a number is out of range.
+/// - The name of a page is longer than 4096 bytes.
 /// - `offsets` or `views` does not contain exactly one element per dot.
 /// - `errors` is not a grid of covariances.
 std::string print_map_bytes(const PrintMap& map);

@@ -145,9 +145,10 @@ class SpaceTracker {
   public:
     explicit SpaceTracker(const SpaceTrackOptions& options = {}) : options_(options) {}
 
-    /// Processes the sighting of a frame. A sighting starts a new track if the camera is lost, if
-    /// the sighting is in another plane, or if it is not later than the previous frame. An
-    /// ambiguous sighting cannot start a track, so the camera is then lost.
+    /// Processes the sighting of a frame. A sighting starts a new track in these cases:
+    /// - The camera is lost, or no sighting was accepted for more than `lost_after_us`.
+    /// - The sighting is in another plane than the track, or is not later than the previous frame.
+    /// An ambiguous sighting cannot start a track. In these cases, the camera is then lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
     /// Processes a frame without a sighting. The camera is lost if the frame is earlier than the
     /// previous frame, or too late (see `lost_after_us`).

@@ -72,8 +72,8 @@ float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float 
     sum += known;
     if (sum >= limit) return sum;
     // Limit on the expected odds of the double alternatives that are not counted one by one. It is
-    // at most an eighth of the difference between `limit` and the sum so far, so that expected odds
-    // alone do not cause a refusal.
+    // at most an eighth of the difference between `limit` and the sum so far, so the expected odds
+    // alone normally do not raise the sum to `limit`.
     const float negligible = std::min(sum < usual / 8 ? usual / 16 : sum / 8, (limit - sum) / 8);
     return sum +
            sum_of_double_alternatives(kernels, lines, expected.of_two, negligible, limit - sum);

@@ -81,7 +81,8 @@ class EqualPlaces {
 
 /// The first two gaps between shared lines. A gap consists of adjacent lines that are not shared.
 /// `before` is the first line of the run of shared lines before each gap, and `after` is the first
-/// shared line after the gap. Unused elements are the first shared line of the set.
+/// shared line after the gap. If there are fewer than two gaps, the remaining elements are the
+/// first shared line of the set.
 struct Gaps {
     explicit Gaps(LineSet shared) {
         before = after = {std::countr_zero(shared), std::countr_zero(shared)};

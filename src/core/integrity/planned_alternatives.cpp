@@ -21,8 +21,9 @@ constexpr float kPlanMargin = 4;
 /// precise even if the caller's limit is large.
 constexpr float kMaxRest = 0x1p-31F;
 
-/// If the loss of an alternative in the packed lines reaches this number of bits, its evaluation
-/// stops. The alternative then contributes the odds at this loss.
+/// Number of lost bits beyond which an alternative is not evaluated further. If the loss in the
+/// packed lines shows that the total loss is at least this large, the alternative contributes the
+/// odds at this loss.
 constexpr int kSkippedBits = 46;
 
 /// The key of a place is kKeyStep * first + second. `first` and `second` are the roll offsets
@@ -125,9 +126,9 @@ class KeyedPlaces {
 /// the search lists the places in each sequence at which an alternative may share these lines (see
 /// `EqualPlaces`). The search then builds a table of all pairs of places in a1 and a3. The key of a
 /// pair is the sum of the keys of both places. For each pair of places in a2 and a4, the search
-/// looks up the pairs in a1 and a3 that cancel its roll offsets after the first two gaps. The four
-/// places of two such pairs are the places of an alternative that shares the lines at the ends of
-/// these gaps.
+/// looks up the pairs in a1 and a3 that cancel the roll offsets of this pair after the first two
+/// gaps. Together, the two pairs contain the four places of an alternative that shares the lines at
+/// the ends of these gaps.
 class SetSearch {
   public:
     SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)

@@ -20,7 +20,7 @@ enum class Sharing : std::uint8_t {
     on_two_sides,
 };
 
-/// Lower bounds on the losses of single alternatives, by sequence. The bounds are computed from
+/// Lower bounds on the losses of single alternatives, by sequence. The bounds are derived from
 /// precomputed tables. Each table covers 10, 13 or 16 adjacent lines in the middle of the view,
 /// called the table lines. Losses in other lines are ignored. Gains are treated as 0.
 class UnsharedLines {
