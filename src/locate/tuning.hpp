@@ -13,13 +13,13 @@ namespace patch_grid {
 /// value, in spacings^2. The offset of a dot is relative to the nearest of the four dot positions
 /// of its cell. In a false grid, the offsets are uniformly distributed over discs with a radius of
 /// 0.18 spacings, so their variance is 0.008. If the fit of a false grid includes perspective, the
-/// variance is smaller, but at least 0.0017 in the rolling-shutter frames tested. In 1,000 nominal
-/// frames, the variance is always less than 0.002, and less than 0.001 in 996 frames. In hard
-/// frames, the variance of correct grids can exceed 0.002, because the dots are printed
-/// inaccurately. The limit was tested in 3,000 frames of scenes that rotate by 10 to 40 degrees
-/// during the readout. With a limit of 0.002, false grids end the search for a rotation too early
-/// in 3 frames, or in 6 frames if the sheet is known. With a limit of 0.0015, this does not happen
-/// in any frame.
+/// variance is smaller, but at least 0.0017 in the rolling-shutter frames tested. The variance of
+/// the correct grid was less than 0.002 in all of 1,000 nominal frames, and less than 0.001 in 996
+/// of them. In hard frames, the variance of correct grids can exceed 0.002, because the dots are
+/// printed inaccurately. The limit was tested in 3,000 frames of scenes that rotate by 10 to 40
+/// degrees during the readout. With a limit of 0.002, false grids end the search for a rotation too
+/// early in 3 frames, or in 6 frames if the sheet is known. With a limit of 0.0015, this does not
+/// happen in any frame.
 inline constexpr float kMaxVariance = 0.0015F;
 /// The search for the place is thorough only if the patch has at most this number of dots. With
 /// more dots, enough lines are long enough to determine their rolls, so the brief search finds the
@@ -54,8 +54,8 @@ inline constexpr int kMaxTries = 4;
 /// weak waves.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
-/// Numbers of central dots from which the waves of a skewed grid at the image centre are computed
-/// if the default number leads to no grid, or to a grid that is probably false.
+/// If the search for a skewed grid at the image centre finds no grid, or a grid that is probably
+/// false, it is repeated with waves computed from each of these numbers of central dots.
 inline constexpr float kOtherCentralDots[] = {45, 20};
 /// Factors applied to the estimated spacing if sheets are known. On a known sheet, a strip of only
 /// three rows of dots can make the place certain. The estimated spacing of such a strip is too
@@ -97,8 +97,9 @@ inline constexpr int kMaxClimbs = 3;
 inline constexpr float kSettled_px = 0.5F;
 inline constexpr int kMaxRounds = 5;
 /// The search for a rotation is skipped if `keep_isolated` keeps less than this fraction of the
-/// dots. In this case, noise and dirt explain the failure of the first attempt. The fraction was at
-/// least 0.9 in 400 frames of rotating scenes, and less than 0.8 in most hard frames.
+/// dots. The first attempt then probably failed because of noise and dirt, not because of a
+/// rotation. The fraction was at least 0.9 in 400 frames of rotating scenes, and less than 0.8 in
+/// most hard frames.
 inline constexpr float kMinIsolated = 0.88F;
 }  // namespace turning
 
@@ -158,9 +159,10 @@ inline constexpr float kDecidingOfPart = 32;
 /// Maximum growth factor of the reading distance from round to round. The factor is limited,
 /// because the plane fitted in one round must predict the dots of the next round.
 inline constexpr float kFarther = 3.5F;
-/// Limits for clean bits, which need no second reading. At least kClear_percent % of the dots seen
-/// must be read. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
-/// kMaxWrong is 2 because one misread dot can have two wrong bits.
+/// Limits for clean bits. If the bits are clean, the dots are not read a second time. At least
+/// kClear_percent % of the dots seen must be read. If n dots were read, at most max(kMaxWrong, n /
+/// kDotsPerWrong) bits may be wrong. kMaxWrong is 2 because one misread dot can have two wrong
+/// bits.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
@@ -217,9 +219,9 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// If the image contains fewer than this number of cells, bits are also read from dots that are cut
 /// off by the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels in a small view. A view is small only if it also contains fewer than
-/// kMaxCellsWithCutDots cells. Larger images rarely contain so few cells, except if a rolling
-/// shutter stretches the cells. The effort spent on testing a place is limited only in small views.
+/// Maximum number of pixels in a small view. In small views, the effort spent on testing a place is
+/// limited. A view is small only if it also contains fewer than kMaxCellsWithCutDots cells. Larger
+/// images rarely contain so few cells, except if a rolling shutter stretches the cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Minimum number of cells in a small view for which a second attempt is made. Of 241 frames of 72
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,
@@ -237,7 +239,7 @@ inline constexpr float kMaxOff_px = 1;
 /// explain the frame well (see `is_implausible`). docs/integrity.md contains the measurements.
 inline constexpr float kMaxImplausible = 0.57F;
 /// Limits of `shows_overlay`. Let r be the fraction of the dots seen that were read without a wrong
-/// bit. A fix is refused if r is below kMinRight and more than kMaxWrongInOverlay of the bits read
+/// bit. A fix is rejected if r is below kMinRight and more than kMaxWrongInOverlay of the bits read
 /// are wrong. Of 1,800 fixes in frames with seams, cuts, blank areas and wrong bits, two had an r
 /// below kMinRight but no wrong bits, and two others had an r of 0.40 to 0.51. Two wrong fixes in
 /// the test `Adversarial.ColumnsAndRowsAreOfOnePattern` had r = 0.27 with 3.6 % wrong bits, and r =
@@ -287,9 +289,10 @@ inline constexpr float kMaxReach = 24;
 
 /// Second attempt (locate/second).
 namespace second {
-/// Factors by which the thresholds are multiplied for a filtered image. Filtering reduces noise to
-/// a third, and makes dots paler and wider. With dirt on 5 % of the area, 93 % of 200 frames are
-/// located with these factors, and 80 % with the original thresholds (docs/limits.md).
+/// Factors for the thresholds in a filtered image: the low threshold is multiplied by kLow_3rds /
+/// 3, and the high threshold by kHigh_10ths / 10. Filtering reduces noise to a third, and makes
+/// dots paler and wider. With dirt on 5 % of the area, 93 % of 200 frames are located with these
+/// factors, and 80 % with the original thresholds (docs/limits.md).
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
 /// If an image has too few dots, dots are detected again with the minimum contrast divided by this

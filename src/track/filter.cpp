@@ -261,8 +261,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
     //
     //     g = e_new - e_old - by_theta * e_old[2]
     //
-    // The displacement is rotated by the old theta. The last term is the effect of the error in
-    // this angle.
+    // The last term is due to the error of the old theta, because the measured displacement is
+    // rotated by the old theta.
     std::array<Vector9, 3> with_old{};  // covariance between old pose and new state
     for (std::size_t k = 0; k < 3; ++k) {
         with_old[k] = motion.covariance[k];

@@ -150,8 +150,8 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 }
 
 /// Returns an upper bound on the summed odds of all alternatives except seam alternatives. If the
-/// bound exceeds `limit` even without the single alternatives that share a line, omits them,
-/// because the caller rejects such a bound anyway.
+/// bound exceeds `limit` even without the single alternatives that share a line, omits these single
+/// alternatives, because the caller rejects such a bound anyway.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     const float sum = far_alternatives(kernels, ratios) + sharing_none(ratios);
@@ -177,8 +177,8 @@ bool is_code_in_question(const Query& query) {
     return query.others != nullptr && query.others->log2_in_question_q8 >= 0;
 }
 
-/// Returns an upper bound on the probability that random bits agree with at least one place in the
-/// code at least as well as the bits of one axis do.
+/// Returns an upper bound on the probability that random bits agree with any place in the code at
+/// least as well as the bits of one axis agree with the reading.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));

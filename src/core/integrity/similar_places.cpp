@@ -19,8 +19,8 @@ class Losses {
         add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         excluded_ |= carry;
     }
-    /// Returns the bit mask of the excluded alternatives: those excluded initially, and those whose
-    /// loss is at least kLimitParts.
+    /// Returns the bit mask of the excluded alternatives. These are the alternatives that were
+    /// excluded initially, and the alternatives that lose at least kLimitParts parts.
     std::uint32_t excluded() const { return excluded_; }
 
   private:

@@ -259,9 +259,9 @@ TEST(Decode, NeverGuessesFromRandomSymbols) {
             ASSERT_EQ(place, kUntouched);
         }
     }
-    // L * 63 of the 2^36 patterns of an axis are in the code, and the axes are independent, so the
-    // probability is (410815348 * 63 / 2^36)^2 = 0.14184. The standard deviation for these draws is
-    // 0.0011.
+    // kPositionsPerAxis * 63 of the 2^36 patterns of an axis are in the code, and the axes are
+    // independent. The probability that a random window is in the code is therefore (410815348 * 63
+    // / 2^36)^2 = 0.14184. The standard deviation for these draws is 0.0011.
     EXPECT_NEAR(static_cast<double>(found) / kDraws, 0.14184, 5 * 0.0011);
 }
 

@@ -16,8 +16,8 @@ namespace {
 using core::Axis;
 
 constexpr std::uint64_t kSeed = 4219;
-/// A sheet with more than 63 columns and rows. Two places that are 63 cells apart along one axis
-/// have equal bits on the other axis.
+/// A sheet with more than 63 columns and rows. It therefore contains places that are 63 cells apart
+/// along one axis. Such places have equal bits on the other axis.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {3, 5}, {1000, 2000}, 140, 130};
 
 const core::KnownSheets kOnly{{&kSheet, 1}, OtherSheets::impossible};
