@@ -35,7 +35,8 @@ FloatVec axis_of(const FixedLens& lens) {
 
 /// Returns the maximum rotation, in rad per row. The rotation during the whole readout is at most
 /// kMaxTurn_rad. While a row is read, the scene at the left or right image border moves down by at
-/// most kMaxFall rows, because the readout must be faster than the scene.
+/// most kMaxFall rows. If it moved down by a whole row, several rows would show the same part of
+/// the scene.
 float max_rad_per_row(const ImageView& image) {
     return std::min(tuned::kMaxTurn_rad / static_cast<float>(image.height_px),
                     tuned::kMaxFall / (static_cast<float>(image.width_px) / 2));

@@ -83,7 +83,7 @@ class PrintMapping {
 
     /// Locates a frame and stores its dots for `solve`. Ignores the frame and returns false if the
     /// frame shows none of the sheets, or fewer than 20 dots of a sheet. Throws BadArgument if the
-    /// image size differs from the size given in the camera file.
+    /// image size differs from that of `PrintMappingOptions::camera`.
     bool add(const ImageView& image);
 
     /// Minimum number of frames required to map a page.

@@ -1,8 +1,8 @@
 // Periodogram search: finds the grid in frames with many missing or false dots. In such frames,
-// many edges connect false neighbours, so axes estimated from edges are unreliable. The periodogram
-// is a sum over all dots near the centre, so its maximum is still at the true spacing and
-// direction. Only the second attempt uses this search, which is not part of the paper (see
-// docs/differs-from-paper.md).
+// many edges (connections between neighbouring dots) connect false neighbours, so axes computed
+// from the edges are unreliable. The periodogram is a sum over all dots near the centre, so its
+// maximum is still at the true spacing and direction. Only the second attempt uses this search,
+// which is not part of the paper (see docs/differs-from-paper.md).
 #pragma once
 
 #include "dotpose/trace.hpp"

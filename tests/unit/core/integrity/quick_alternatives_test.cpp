@@ -87,7 +87,7 @@ TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
 TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
     // An alternative may share five consecutive lines with the reading, or seven lines in
     // `libdots`. Here, only four to nine consecutive lines have clear bits. An alternative that
-    // shares nearly all of them loses little, and must be counted.
+    // shares nearly all of these lines loses little, and must be counted.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 400; ++i) {
