@@ -78,9 +78,10 @@ struct Measurement {
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. If
 /// the hypothesis is predicted, and its dots can be sampled directly (see `can_sample_directly`),
-/// tries direct sampling first. If the result is ok or rough, sets the fix and the results in
-/// `measurement`.
-/// Otherwise, only `p_wrong_log2`, `prior`, `frames` and `bit_errors` of the fix may have changed.
+/// tries direct sampling first.
+///
+/// If the result is ok or rough, sets the fix and the results in `measurement`. Otherwise, only
+/// `p_wrong_log2`, `prior`, `frames` and `bit_errors` of the fix may have changed.
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix);
 
