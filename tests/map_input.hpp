@@ -12,8 +12,8 @@
 
 namespace dotpose::test {
 
-/// A page and frames of it. The offsets of all dots on the page are known, and the dots have been
-/// measured in the frames.
+/// A page and frames that show parts of it: the true offsets of all dots on the page, and the
+/// measured positions of the dots in the frames.
 struct SolverInput {
     calibrate::MapGrid grid;
     std::vector<Eigen::Vector2d> offsets_mm;  ///< true offsets

@@ -197,8 +197,9 @@ double brightness_at(const Camera& camera, PixelPoint pixel);
 
 /// Returns a camera whose images are crops of the images from `camera`. A crop has `width_px` x
 /// `height_px` pixels, and its top left pixel is (`left_px`, `top_px`). The reference point remains
-/// the same point of the scene, even if `camera.reference_px` is none. If the view of the paper is
-/// known, the heading also remains the same. `flat_field` and `readout_ms` are adapted to the crop.
+/// the same point of the scene. If `camera.reference_px` is none, this is the point at the centre
+/// of the original image. If the view of the paper is known, the heading also remains the same.
+/// `flat_field` and `readout_ms` are adapted to the crop.
 /// Throws BadArgument if the crop extends beyond the image, or if the result is not a valid camera
 /// (see `validate`).
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);

@@ -135,9 +135,10 @@ class Follower {
     /// variant is carried over from image to image.
     Located locate(const GreyImage& image);
 
-    /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
-    /// place of the pattern. A fix that is not certain without the prediction is accepted only if
-    /// the predicted place makes it certain enough for the tracker.
+    /// Locates the next image of a sequence, taken at `time_us`. Uses the previous images to
+    /// predict the place of the pattern. A fix that is not certain from this image alone is
+    /// accepted only if the tracker accepts it with the prior probability of the predicted place
+    /// (Verdict::with_prior).
     Followed follow(ImageView image, std::int64_t time_us);
 
     /// Returns true if the robot is tracked in the world frame of the sheet file (m, y up) instead
