@@ -35,8 +35,8 @@ constexpr double kFalseDrift = 1e-3;
 /// Minimum number of frames required to distinguish a drift from noise.
 constexpr int kMinDriftFrames = 5;
 
-/// Position of the image centre in one frame, in mm from the cell of the first frame, and angle of
-/// the image x axis.
+/// Position of the image centre in one frame, and angle of the image x axis. The position is in mm
+/// relative to the cell of the first fix.
 struct Station {
     Vector2d place_mm;
     double theta_rad = 0;

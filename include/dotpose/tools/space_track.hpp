@@ -74,8 +74,10 @@ enum class SpaceVerdict : std::uint8_t {
     none,             ///< there was no sighting
     accepted,         ///< the first pose was used
     second_accepted,  ///< the second pose was used, because it agrees better with the track
-    /// The sighting was rejected. Either the track contradicts it, or it is ambiguous and the track
-    /// does not resolve the ambiguity. An ambiguous sighting is also rejected if there is no track.
+    /// The sighting was rejected for one of these reasons:
+    /// - The track contradicts the sighting.
+    /// - The sighting is ambiguous, and the track does not resolve the ambiguity, or there is no
+    ///   track.
     rejected,
 };
 /// Returns the identifier, such as "second_accepted".
@@ -148,7 +150,7 @@ class SpaceTracker {
     /// Processes the sighting of a frame. A sighting starts a new track in these cases:
     /// - The camera is lost, or no sighting was accepted for more than `lost_after_us`.
     /// - The sighting is in another plane than the track, or is not later than the previous frame.
-    /// An ambiguous sighting cannot start a track. In these cases, the camera is then lost.
+    /// If the sighting is ambiguous in these cases, it starts no track, and the camera is lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
     /// Processes a frame without a sighting. The camera is lost if the frame is earlier than the
     /// previous frame, or too late (see `lost_after_us`).
