@@ -122,8 +122,8 @@ class LensCollector {
     int height_px_ = 0;
     NewPlaces places_;
     ImageMotion motion_;
-    /// Time of the newest steady frame. If there is none, the time of the first frame, or 0 if the
-    /// first frame was not located.
+    /// Time of the newest frame in which the camera was steady. Before the first such frame, this
+    /// is the time of the first frame, or 0 if the first frame was not located.
     std::int64_t steady_us_ = 0;
     Tally tally_;
     GreyImage failed_;  ///< newest frame that was refused before the first fix

@@ -302,8 +302,9 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Kinds of frames without a unique valid position. A locator must reject these frames. In the two
-/// seam scenes, however, a fix with the position and section of either side is also correct.
+/// Kinds of frames without a unique valid position. A locator must reject these frames, with one
+/// exception: in the two seam scenes, a fix with the position and section of either side is
+/// correct.
 enum class Scene : std::uint8_t {
     black,
     white,

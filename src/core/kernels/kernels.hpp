@@ -276,20 +276,20 @@ struct Kernels {
     void (*fill_patch)(const ImageView& image, Patch& patch);
     /// Smooths the patch with a 1-2-1 filter along both axes. Stores the brightest and the darkest
     /// level of each tile. The brightest level excludes the pixels at the patch border, because the
-    /// white margin brightens them.
+    /// filter mixes these pixels with the white margin.
     void (*smooth_patch)(Patch& patch);
     /// Lists the dots. A dot is a minimum of the smoothed patch that is no brighter than the
     /// threshold of its tile. Minima in the two outermost rows and columns are ignored. The
-    /// coordinates are in image px relative to the patch centre. Parabolas through the minimum and
-    /// its neighbours give sub-pixel accuracy.
+    /// coordinates are in image px relative to the patch centre. They are refined to sub-pixel
+    /// accuracy with parabolas through the minimum and its neighbours.
     void (*find_minima)(Patch& patch);
     /// Returns the strongest pair of perpendicular waves with frequency `per_px`, in cycles per px.
     /// Tries 12 directions in steps of 7.5 degrees.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
-    /// Returns the strongest wave, together with the strongest second wave that forms plausible
-    /// cells with it. Plausible cells have an area near 1 / per_px^2. Tries 40 directions in steps
-    /// of 4.5 degrees, and frequencies from 0.6 to 1.63 times `per_px`. If there is no such pair,
-    /// the power is 0.
+    /// Returns the strongest wave, together with the strongest other wave that forms plausible
+    /// cells with the first one. Plausible cells have an area near 1 / per_px^2. Tries 40
+    /// directions in steps of 4.5 degrees, and frequencies from 0.6 to 1.63 times `per_px`. If no
+    /// other wave forms plausible cells, the power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
     /// Assigns each dot to a cell. Returns the sums of `CellSums` over the dots that are near a dot
     /// position of their cell.
