@@ -12,8 +12,9 @@ namespace dotpose::core {
 /// Maximum number of steps at which digits are compared. A step leads from one line to the next.
 inline constexpr int kMaxSteps = 18;
 
-/// Number of units of loss that exclude a place. One unit is 1/kLimitParts of the loss limit or,
-/// for `Excused::any_one`, of the loss limit plus the largest loss at one step.
+/// Number of parts into which the loss that excludes a place is divided. Losses are stored as
+/// numbers of parts. The loss that excludes a place is the loss limit or, for `Excused::any_one`,
+/// the loss limit plus the largest loss at one step.
 inline constexpr unsigned kLimitParts = 15;
 
 /// Steps at which the digit of an alternative may differ from the digit of the reading without a
@@ -29,8 +30,8 @@ struct Steps {
 
     int count;       ///< number of compared steps, in the middle of the view
     int first_line;  ///< first line of the first step
-    /// Lower bound on the loss at each step, in units (see `kLimitParts`), rounded down. Losses of
-    /// one unit are replaced with 0, because they would exclude only a few additional places.
+    /// Lower bound on the loss at each step, in parts (see `kLimitParts`), rounded down. Losses of
+    /// one part are replaced with 0, because they would exclude only a few additional places.
     std::array<std::uint8_t, kMaxSteps> losses;
     /// True if the total loss at nonadjacent steps can be large enough to exclude a place.
     bool can_exclude = false;
