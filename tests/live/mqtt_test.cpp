@@ -1,5 +1,5 @@
-// Tests which messages the publisher sends to a mosquitto broker and which messages it drops, also
-// while the broker is stopped and after it has been restarted.
+// Tests which messages the publisher sends to a mosquitto broker and which messages it drops. In
+// some tests, the broker is stopped and restarted.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>

@@ -42,8 +42,8 @@ class OddsOfBits {
     int per_bit_;  ///< log2 of the odds per bit, in units of 2^-23
 };
 
-/// Position of the first line, and the difference between the roll of each line and its roll in
-/// section 0.
+/// Position of the first line of a block. The roll of each line is its roll in section 0 plus
+/// `roll`, modulo 63.
 struct PositionAndRoll {
     std::uint32_t position;
     std::size_t roll;
