@@ -38,7 +38,7 @@ struct OutputOptions {
 class PacketOutput {
   public:
     /// Opens the file or device. Throws Error on failure. `write` throws ReaderLeft if the output
-    /// is a pipe whose reader has closed it, and Error on any other failure.
+    /// is a pipe and its reader has closed the pipe, and Error on any other failure.
     explicit PacketOutput(const std::string& path);
     ~PacketOutput();
     PacketOutput(const PacketOutput&) = delete;

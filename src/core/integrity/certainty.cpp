@@ -288,7 +288,7 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
     for (const Confidence* bits : {&x, &y}) {
-        // Refuses a position with too many wrong bits, because the view probably contains two
+        // Rejects a position with too many wrong bits, because the view probably contains two
         // patterns.
         if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
     }
