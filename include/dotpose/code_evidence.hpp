@@ -85,9 +85,8 @@ struct CodeReading {
     CodeEvidence evidence;                  ///< evidence including this frame
     /// True if a place in another code variant also explains the frame. The members below describe
     /// that place. `Locator::locate_in_any_code` sets the flag only with the status ambiguous_code.
-    /// `Locator::locate_in_code` also sets it in the cases that the comment on that function lists.
-    /// If the fix is ok, `Fix::p_wrong_log2` does not include the probability that the other place
-    /// is correct.
+    /// `Locator::locate_in_code` also sets the flag in the cases listed in its comment. If the fix
+    /// is ok, `Fix::p_wrong_log2` does not include the probability that the other place is correct.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
     /// `Fix::cell` of the other place. The fractions and the angle are the same as in `fix`.

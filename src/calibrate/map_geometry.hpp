@@ -80,9 +80,9 @@ class MapView {
     Eigen::Matrix2d rotation_;
 };
 
-/// Adds the prior on the view terms to `block`, the matrix of the normal equations of a frame. The
-/// equations must already be multiplied by `variance`. The prior makes `block` invertible even if
-/// the dots of the frame do not determine all terms.
+/// Adds the prior on the view terms to `block`, the matrix of the normal equations of a frame.
+/// `variance` is the factor by which the equations have been multiplied. The prior makes `block`
+/// invertible even if the dots of the frame do not determine all terms.
 inline void add_view_prior(const MapSolution& solution, double variance, FrameBlock& block) {
     for (int k = 0; k < kViewTerms; ++k) {
         const double sigma = solution.view_sigma[static_cast<std::size_t>(k)];

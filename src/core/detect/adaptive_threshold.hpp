@@ -1,7 +1,6 @@
 // Adaptive threshold: divides the image into tiles, and computes two thresholds for each tile from
 // the paper level and the dot contrast. This is the first half of thresholding (paper, section
-// II-B.1).
-// Unlike the paper, this stage does not use one global threshold, because LEDs next to a wide-angle
+// II-B.1). The paper uses one global threshold. dotpose does not, because LEDs next to a wide-angle
 // lens light the sheet unevenly.
 #pragma once
 

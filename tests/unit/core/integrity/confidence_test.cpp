@@ -143,9 +143,9 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
 }
 
 TEST(Chance, EachBitThatAgreesHasItsFactor) {
-    // The result for 2^20 equal bits is divided by 2^20. This gives log2 of the factor of one bit,
-    // with an accuracy of 2^-20. The factor is (1 + 2^-y) / 2, where y is log2 of the odds of the
-    // bit.
+    // A bit that agrees multiplies the bound by the factor (1 + 2^-y) / 2, where y is log2 of the
+    // odds of the bit. The result for 2^20 equal bits, divided by 2^20, is log2 of this factor with
+    // an accuracy of 2^-20.
     constexpr int kDoublings = 20;
     for (const int weight : {4, 12, 60, 124}) {
         Confidence bits = confidence(1, weight, 0);
