@@ -225,9 +225,9 @@ double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on
     return (drifting.offset - on_the_spot.offset).norm() / std::numbers::sqrt2;
 }
 
-/// Throws Error if the centre of rotation is not accurate enough. If the residual is above one
-/// spacing, the robot did not turn on the spot. If the uncertainty is above half a spacing, the
-/// cell under the centre is uncertain.
+/// Throws Error if the centre of rotation is not accurate enough:
+/// - The residual is above one spacing, so the robot did not turn on the spot.
+/// - The uncertainty is above half a spacing, so the cell under the centre is uncertain.
 void require_spin(const SpinCalibration& spin, double spacing_mm) {
     if (spin.residual_mm > spacing_mm) {
         throw Error(

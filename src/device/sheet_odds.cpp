@@ -32,8 +32,8 @@ struct PlacedLines {
 };
 
 /// Returns the difference between the roll of a line and its roll in section 0, modulo 63. The
-/// difference is the same for all lines along an axis. It is the section of this axis plus the
-/// position on the other axis.
+/// difference is the same for all lines along an axis: the section of this axis plus the position
+/// on the other axis.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }

@@ -65,8 +65,8 @@ class EqualPlaces {
 
     /// All places.
     const PlaceSets& all() const { return all_; }
-    /// Considers the step from line `step` to the next line. Removes the places whose digit at this
-    /// step differs from the reading's digit.
+    /// Removes the places whose digit at the step from line `step` to the next line differs from
+    /// the reading's digit.
     void keep_equal(std::size_t step, PlaceSets& places) const;
     /// Returns the number of sequences in which `places` contains a place other than that of the
     /// reading.
