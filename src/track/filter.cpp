@@ -348,8 +348,8 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         const float possible = squared(moved / kSurprise) / motion.scatter;
         const auto surprise = [&] { return possible - motion.covariance[i][i] - noise[i][i]; };
         // If the filter lags behind the robot, consecutive innovations have the same sign, so the
-        // agility is increased. If the filter follows the noise, their signs alternate, so the
-        // agility is decreased.
+        // agility is increased. If the filter follows the noise, consecutive innovations have
+        // opposite signs, so the agility is decreased.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));
         motion.agility[i] = std::clamp(std::max(agility, needed), kMinAgility, 1.0F);

@@ -158,8 +158,8 @@ struct SpinCalibration {
     /// Rms difference, per axis, between the measured and the fitted positions of the camera.
     double residual_mm = 0;
     double turn_rad = 0;  ///< angle of the smallest arc that contains the directions of all frames
-    /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. It
-    /// is included in `sigma_mm`. 0 if noise explains the drift.
+    /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned.
+    /// Included in `sigma_mm`. 0 if noise explains the drift.
     double drift_mm = 0;
     MountVerdict verdict = MountVerdict::good;
     std::vector<SpinStation> stations;
@@ -241,8 +241,9 @@ struct FlatFieldCalibration {
     Camera camera;  ///< the given camera with `flat_field` set
     int frames = 0;
     double min_brightness = 0;  ///< minimum brightness of the flat field, relative to its maximum
-    /// Rms deviation of the mean frame from the flat field, relative to the flat field. It is
-    /// caused by dots that did not average out completely, and by differences in pixel sensitivity.
+    /// Rms deviation of the mean frame from the flat field, relative to the flat field. The
+    /// deviation is caused by dots that did not average out completely, and by differences in pixel
+    /// sensitivity.
     double residual = 0;
 };
 

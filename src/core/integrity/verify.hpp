@@ -15,12 +15,15 @@
 namespace dotpose::core {
 
 /// Verifies a decoded position. Sets `fix.bit_errors`, `fix.p_wrong_log2`, `decoding.bits` and
-/// `decoding.p_wrong_log2_q8`. The probability covers chance matches, alternatives and seams
-/// between sections. `others` contains log2 of the number of possible codes
-/// (`log2_in_question_q8`), and may be null if the code is given. If `decoding.lines_are_scored` is
-/// true, `storage` must contain the line scores computed by the decoder. Error: not_certain, if the
-/// probability exceeds the limit in `options`, or if the fraction of wrong bits on an axis exceeds
-/// its limit.
+/// `decoding.p_wrong_log2_q8`. The probability includes chance matches, alternatives and seams
+/// between sections.
+/// - `others` contains log2 of the number of possible codes (`log2_in_question_q8`). May be null if
+///   the code is given.
+/// - If `decoding.lines_are_scored` is true, `storage` must contain the line scores computed by the
+///   decoder.
+///
+/// Error: not_certain, if the probability exceeds the limit in `options`, or if the fraction of
+/// wrong bits on an axis exceeds its limit.
 Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const OtherCodes* others,
               Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
               Fix& fix);
