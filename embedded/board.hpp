@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-// Maximum frame size: 36 x 36 (only with known sheets), 160 x 120, 188 x 120 or 320 x 240 px. The
-// size determines how much memory the program needs. Change the size here, or define both macros on
-// the compiler's command line.
+// Maximum frame size. Must be one of 36 x 36 (only with known sheets), 160 x 120, 188 x 120 and 320
+// x 240 px. The size determines how much memory the program needs. Change the size here, or define
+// both macros on the compiler's command line.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120

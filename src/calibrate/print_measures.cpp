@@ -200,8 +200,8 @@ void measure_dots(const Measuring& m, const Fitted& fitted, PrintField& result) 
     result.dot_sigma_mm = kSigmaPerDeviation * quantile(diameters_mm, 0.5);
 }
 
-/// Determines whether the measured sizes and faults of dots in a photo are reliable. Noise, blur
-/// and the tone curve of the camera affect these measurements.
+/// Determines whether the measured sizes and faults of dots in a photo are reliable. In some photos
+/// they are not, because noise, blur and the tone curve of the camera affect these measurements.
 void judge_photo_of_dots(const Measuring& m, PrintField& result) {
     // Minimum diameter of a dot whose size can be measured. The edge of a dot has an uncertainty of
     // about one pixel.
