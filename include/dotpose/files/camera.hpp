@@ -199,9 +199,8 @@ double brightness_at(const Camera& camera, PixelPoint pixel);
 /// `height_px` pixels, and its top left pixel is (`left_px`, `top_px`). The reference point remains
 /// the same point of the scene. If `camera.reference_px` is none, this is the point at the centre
 /// of the original image. If the view of the paper is known, the heading also remains the same.
-/// `flat_field` and `readout_ms` are adapted to the crop.
-/// Throws BadArgument if the crop extends beyond the image, or if the result is not a valid camera
-/// (see `validate`).
+/// `flat_field` and `readout_ms` are adapted to the crop. Throws BadArgument if the crop extends
+/// beyond the image, or if the result is not a valid camera (see `validate`).
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
 /// Sets the lens in `options`, and the reference point if the camera has one. If the camera's view

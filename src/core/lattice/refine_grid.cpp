@@ -18,10 +18,10 @@ namespace tuned = tuning::refine_grid;
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Moves the origin by the median offset of the dots near the origin (paper, equation 6). The paper
-/// subtracts the median from the origin, which is a sign error: the offsets are measured from the
-/// estimated origin. This function adds the median to the origin, which subtracts it from all plane
-/// points.
+/// Moves the origin by the median offset of the dots near the origin (paper, equation 6). The
+/// offsets are measured from the estimated origin, so the median must be added to the origin. This
+/// is the same as subtracting it from all plane points. The paper subtracts the median from the
+/// origin, which is a sign error.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
