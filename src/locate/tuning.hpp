@@ -311,9 +311,9 @@ namespace cascade {
 /// The frame is read again in another code if the odds of that code, relative to the code of the
 /// fix, exceed this number.
 inline constexpr float kBetterOdds = 2;
-/// A place in another code is reported only if there is at most one wrong bit per this number of
-/// dots. A dot has two bits, so at most 1 % of the bits are wrong. Misread bits can cause such an
-/// error rate even if the place is correct.
+/// A place in another code is reported only if at most one bit is wrong per this number of dots.
+/// This is an error rate of 1 %, because a dot has two bits. Misread bits can cause such an error
+/// rate even if the place is correct.
 inline constexpr int kMinDotsPerBitError = 50;
 /// A different place in another code is also reported if its likelihood is at least this fraction
 /// of the likelihood of the fix.
