@@ -182,7 +182,7 @@ class PatchSearch {
     }
 
     /// Searches adjacent patches that cover the image. The patch size doubles from round to round.
-    /// Returns the result of the last hypothesis, or implausible if there was none.
+    /// Returns the result of the last patch that was searched.
     Confirmation search_patches() {
         const ImageView& image = frame_.image;
         Confirmation last = Confirmation::implausible;
