@@ -147,8 +147,8 @@ dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, in
 
 /* Writes the symbols (DOTPOSE_SYMBOL_) of columns x rows dots, row by row from `top_left`, for
  * example to print a sheet. `bytes` is the size of `symbols`. Returns TOO_LITTLE_MEMORY if `bytes`
- * is less than columns x rows. `columns` and `rows` must be from 1 to 65535. Treats both
- * axes as cyclic, as locators do. */
+ * is less than columns x rows. `columns` and `rows` must be from 1 to 65535. Treats both axes as
+ * cyclic, as locators do. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
 
