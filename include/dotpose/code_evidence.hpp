@@ -28,14 +28,14 @@ namespace dotpose {
 
 /// Odds for each code variant of a sheet, given all frames so far.
 ///
-/// Each frame changes the odds: the odds of a variant are divided by its likelihood ratio. The
-/// likelihood ratio is the likelihood of the frame's bits in the variant that explains these bits
-/// best, divided by their likelihood in this variant.
+/// Each frame divides the odds of a variant by the likelihood ratio of this variant: the likelihood
+/// of the frame's bits in the variant that explains these bits best, divided by their likelihood in
+/// this variant.
 ///
 /// Consecutive frames at one place show the same dots with the same defects, so they are not
 /// independent. Together, they have the weight of a single frame: the odds are divided by the mean
-/// of their likelihood ratios. A frame is at the same place as the preceding frames if it is less
-/// than 64 cells from the first of them along both axes.
+/// of the likelihood ratios of these frames. A frame is at the same place as the preceding frames
+/// if it is less than 64 cells from the first of them along both axes.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or odds of each code variant, in units of 2^-8.

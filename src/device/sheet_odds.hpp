@@ -17,7 +17,7 @@ namespace dotpose::core {
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options);
 
-/// Returns true if a place on the known sheets is certain:
+/// Returns true if a place on the known sheets is certain. A place is certain if
 /// - log2 of the bound on its probability of being wrong is at most
 ///   IntegrityOptions::max_p_wrong_log2, and
 /// - the fraction of wrong bits on each axis, in units of 1/256, is at most

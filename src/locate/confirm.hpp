@@ -42,8 +42,8 @@ enum class Confirmation : std::uint8_t {
     implausible,
     uncertain,  ///< the hypothesis is plausible, but its position is not certain
     /// The hypothesis is plausible, but its position is not certain, for one of two reasons:
-    /// - The bits in view agree with the code but are too few. All bits must be clear and agree (in
-    ///   small views, nearly all bits).
+    /// - All bits in view (in small views, nearly all bits) are clear and agree with the code, but
+    ///   there are too few of them.
     /// - A small view shows too few cells for a further attempt.
     too_few_bits,
     /// The fix is rough (see `is_rough`), and `Frame::defers_if_rough` is true. The place may be
