@@ -199,7 +199,8 @@ Confirmation settle(const Frame& frame, std::span<std::uint8_t> pixels,
 
 /// Searches for a grid with a place in the code, first at the rotation `turn` if it is not 0, and
 /// then at rotations of increasing magnitude. Sets `turn` to the rotation of the grid that is
-/// found. Returns nullopt if none of the first kMaxClimbs grids has a place in the code.
+/// found. Returns nullopt if none of the first kMaxClimbs grids has a place in the code, or if the
+/// maximum rotation is reached first.
 std::optional<Hypothesis> find_turning_hypothesis(const Frame& frame, const Patch& patch,
                                                   const PlaceEvidence& evidence, TurnSearch& search,
                                                   ReadoutTurn& turn) {

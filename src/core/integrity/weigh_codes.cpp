@@ -71,7 +71,7 @@ struct Losses {
 
 /// Sums the odds of the places in one other code, along one axis. The *same place* is the place in
 /// a4 of the other code with the same index as the place of the reading, at the shift
-/// `shift_here_`. All other places and shifts are *other places*.
+/// `shift_here_`. Every other combination of a place and a shift is an *other place*.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
