@@ -178,8 +178,8 @@ double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 /// Returns the point on the paper that an undistorted pixel shows, in mm relative to the point
 /// under the image centre. x is along the image x axis at the image centre. Throws
 /// std::bad_optional_access if `camera.paper` is none. Use these coordinates to compare two
-/// calibrations of the same camera. For the same point on the paper, even far outside the image,
-/// they differ by only microns between the calibrations, whereas the undistorted pixel coordinates
+/// calibrations of the same camera. The coordinates of a point on the paper differ by only microns
+/// between the calibrations, even far outside the image, whereas its undistorted pixel coordinates
 /// differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Inverse of `from_image_centre`: returns the undistorted pixel that shows `point`. Throws
