@@ -4,8 +4,9 @@
 
 using namespace dotpose;
 
-/// Returns options for the tracker, with the measured errors from docs/firmware.md. The tracker
-/// needs standard deviations for the poses, but fixes from DeviceLocator have no covariance.
+/// Returns options for the tracker. The tracker needs standard deviations for the poses, but fixes
+/// from DeviceLocator have no covariance. The options therefore contain the measured errors from
+/// docs/firmware.md.
 TrackOptions PoseSender::device_tracking() {
     TrackOptions options;
     options.min_sigma_mm = 0.0012F;

@@ -43,10 +43,10 @@ namespace dotpose {
 /// Version of the sheet file format. `read_sheets` accepts no other version.
 inline constexpr int kSheetFileVersion = 1;
 
-/// Width, in cells, of the free border around every allocated region. It exceeds the maximum
-/// diagonal of a frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). Even if a frame
-/// shows two sheets, the pose computed from the dots of one sheet is therefore never in the region
-/// of the other.
+/// Width, in cells, of the free border around every allocated region. The width exceeds the maximum
+/// diagonal of a frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). Therefore, even if
+/// a frame shows two sheets, the pose computed from the dots of one sheet is never in the region of
+/// the other sheet.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Pose of a page in the world.

@@ -110,8 +110,8 @@ enum class DotDrawing {
 /// Options for `write_sheet`.
 struct PrintOptions {
     /// Resolution of PNG and TIFF files, in dpi. It should be the resolution of the printer. A PDF
-    /// has no pixels. For a PDF, the resolution is checked with `validate_resolution`, and it
-    /// defines the pixel size for DotDrawing::glyphs. Not used for text and SVG.
+    /// has no pixels, but its resolution is checked with `validate_resolution`, and defines the
+    /// pixel size for DotDrawing::glyphs. Not used for text and SVG.
     double dpi = 600;
     DotDrawing drawing = DotDrawing::automatic;  ///< PDF only: method of drawing dots
     /// PDF only: true to add labels (name, page, region and spacing) and rulers in the margins
