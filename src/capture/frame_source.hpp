@@ -92,9 +92,9 @@ struct SourceOptions {
 /// Returns a region of an image. Throws BadArgument if the region extends beyond the image.
 GreyImage cropped(const GreyImage& image, const Region& region);
 
-/// Flips and crops a frame according to the options. Throws BadArgument if the region extends
-/// beyond the frame. Throws Error if the frame size differs from `options.whole_size_px`. The
-/// message contains `name`.
+/// Flips and crops a frame according to the options. If the options contain a region, throws
+/// BadArgument if the region extends beyond the frame, and Error if the frame size differs from
+/// `options.whole_size_px`. The message of the Error contains `name`.
 void prepare(const SourceOptions& options, const std::string& name, GreyImage& image);
 
 /// Returns the time of frame `index` in microseconds: index / fps.

@@ -38,8 +38,9 @@ constexpr std::int64_t kFrameTime_us = 20'000;
 constexpr double kFps = 50;
 constexpr double kSpacing_mm = 0.508;
 
-/// A robot that rests, drives half a circle at up to 170 mm/s, and rests again. The second rest is
-/// long enough for the pacer to reduce the rate to one frame per second.
+/// The robot rests until kStart_s, drives about half a circle at up to 170 mm/s until kStop_s, and
+/// rests again until kEnd_s. The second rest is long enough for the pacer to reduce the rate to one
+/// frame per second.
 constexpr double kStart_s = 0.2;
 constexpr double kStop_s = 2.2;
 constexpr double kEnd_s = 10;
