@@ -60,7 +60,7 @@ std::int64_t stamp_us(const camera_fb_t& of) {
 }
 
 /// Returns the frame period. Measures the time from one frame to the next several times and returns
-/// the shortest time, because the other times are longer if the driver skips frames.
+/// the shortest time. Longer times are due to frames that the driver skipped.
 std::int64_t frame_period_us() {
     std::int64_t shortest_us = 1'000'000;
     std::int64_t last_us = 0;
