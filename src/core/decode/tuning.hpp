@@ -27,7 +27,7 @@ inline constexpr std::size_t kMedianSample = 256;
 inline constexpr int kShadePart = 5;
 /// Offsets from a dot position to the eight squares that are tested for graphics, in units of 1/60
 /// of the spacing. Four squares are offset along one axis, and four squares are offset diagonally.
-/// A stroke that touches the dot covers at least one of the squares.
+/// Together, the eight squares detect any stroke that touches the dot.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
 /// Darkness of solid ink relative to the paper level, in units of 1/256. A dot position is

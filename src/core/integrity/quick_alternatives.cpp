@@ -194,8 +194,9 @@ class ByShift {
     std::array<Loss, kMaxLines> losses_;  ///< losses of these lines, in decreasing order
     std::uint32_t in_all_ = 0;            ///< total of all losses
     /// Number of elements of `losses_` that `may_matter` adds before its first check, and the sum
-    /// of these losses. An earlier check would be useless: an alternative that shares the first of
-    /// these lines loses less than `loss_limit_` in the other lines.
+    /// of these losses. An earlier check would be useless: it could not reject alternatives that
+    /// share the first of these lines, because they lose less than `loss_limit_` in the other
+    /// lines.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// For each shift, `none_` plus the losses that the current alternative avoids by sharing
