@@ -52,8 +52,8 @@ inline constexpr int kReliabilityNearGraphics_q4 = 7;
 inline constexpr int kDark_10ths = 13;
 /// Reliability of a cell whose darkest dot position may contain dirt, in units of 1/16.
 inline constexpr int kReliabilityDark_q4 = 12;
-/// Second limit for the darkness of the darkest dot position in a cell, in the same unit. Above
-/// this limit, the dot position probably contains dirt.
+/// Higher limit for the darkness of the darkest dot position in a cell, in units of 1/10 of the
+/// darkness of a typical dot. Above this limit, the dot position probably contains dirt.
 inline constexpr int kTooDark_10ths = 16;
 /// Reliability of a cell whose darkest dot position probably contains dirt, in units of 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
