@@ -106,8 +106,9 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the most difficult value of a condition at which the fraction of located frames is at
-/// least `fraction`. For the spacing, returns the range between its lower and its upper limit.
+/// Returns the most difficult value of a condition up to which the fraction of located frames is at
+/// least `fraction`, or "never" if there is no such value. For the spacing, returns the first range
+/// of such values, from the smallest to the largest.
 std::string reach(const Sweep& sweep, Decoder decoder, double fraction) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];

@@ -1,7 +1,7 @@
-// Measures the accuracy for frames whose dots all have the same sub-pixel phase: the spacing is a
-// whole number of pixels, there are no printing errors, and the angle is 0, 45 or 90 degrees. The
-// reference is the accuracy at 7 degrees, where the biases of the dots average out. Prints a table
-// for docs/accuracy.md in Markdown.
+// Measures the accuracy for frames in which all dots have the same sub-pixel phase. In these
+// frames, the spacing is a whole number of pixels, there are no printing errors, and the angle is
+// 0, 45 or 90 degrees. The reference is the accuracy at 7 degrees, where the biases of the dots
+// average out. Prints a table for docs/accuracy.md in Markdown.
 //
 //   dotpose_tables alike [--frames N] [--seed S] [--threads N] [--spacings P,...] [--dots D,...]
 //                        [--blurs B,...]
@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kReference_deg = 7;
 constexpr std::array kAngles_deg{0.0, 45.0, 90.0};
-/// Limits for the error relative to the error at 7 degrees, and for the mean of error^2 / variance.
-/// The table marks values outside these limits with "!".
+/// Limits beyond which the table marks a value with "!": the maximum ratio of the error to the
+/// error at 7 degrees, and the range for the mean of error^2 / variance.
 constexpr double kMaxErrorRatio = 2;
 constexpr std::array kNormalisedRange{0.7, 1.5};
 

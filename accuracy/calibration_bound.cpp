@@ -77,11 +77,10 @@ Vector2d on_paper_at(const Camera& camera, PixelPoint pixel) {
     return {point.x_mm, point.y_mm};
 }
 
-/// Returns a matrix with one column for each parameter, and one more column. The column of a
-/// parameter is the change in a dot's position on the paper if the parameter changes by one step.
-/// The last column is the derivative of the position with respect to the length of the dots'
-/// displacement, relative to its nominal value. This length is also unknown, because it depends on
-/// ink and blur.
+/// Returns the Jacobian of a dot's position on the paper. The column of a parameter contains the
+/// change in the position if the parameter changes by one step. The last column is the derivative
+/// with respect to the length of the dots' displacement, relative to its nominal value. This length
+/// is also unknown, because it depends on ink and blur.
 MatrixXd jacobian(const Camera& camera, const TrueDot& dot,
                   const std::vector<Parameter>& parameters) {
     MatrixXd rows(2, static_cast<Eigen::Index>(parameters.size()) + 1);

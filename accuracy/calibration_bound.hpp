@@ -28,9 +28,9 @@ enum class Unknown {
     straight,  ///< lens, one scale
 };
 
-/// Returns the minimum standard deviations of any unbiased estimate from these dots, keyed by the
-/// names in `Camera::sigma`. `jitter_mm` is the standard deviation of a printed dot's position
-/// along each axis.
+/// Returns the Cramer-Rao bounds: the minimum standard deviation that an unbiased estimate of each
+/// parameter from `dots` can have. The keys are the names in `Camera::sigma`. `jitter_mm` is the
+/// standard deviation of a printed dot's position along each axis.
 std::map<std::string, double> min_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
                                          double jitter_mm, Unknown unknown);
 

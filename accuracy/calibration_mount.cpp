@@ -60,8 +60,9 @@ Table draw_table(Rng& rng) {
         lying.print = {1 + rng.uniform(-kPrintError, kPrintError),
                        1 + rng.uniform(-kPrintError, kPrintError)};
     }
-    // The sheet file contains the true mean scale of the first sheet. The print scales of this
-    // sheet are therefore normalised to a mean of 1, but may differ between the two axes.
+    // Stitching keeps the mean print scale of the first sheet, which is 1 in the sheet file. The
+    // drawn print scales of this sheet are therefore normalised to a mean of 1. They may still
+    // differ between the two axes.
     const double mean = std::sqrt(table[0].print.x * table[0].print.y);
     table[0].print = {table[0].print.x / mean, table[0].print.y / mean};
     return table;

@@ -1,15 +1,16 @@
 // Compares p_wrong, the upper bound on the probability that a position is wrong, with the frequency
-// of wrong positions. Accepts readings with any p_wrong and groups them by p_wrong.
+// of wrong positions. Accepts all readings, and groups them by p_wrong.
 //
 //   dotpose_tables integrity [--grids N] [--doubtful N] [--frames N] [--seed S] [--threads N]
 //
 // A grid consists of bits with random errors and is decoded without an image. As in the model from
 // which p_wrong is computed, the errors are independent, and bits of larger weight have fewer
-// errors. The error rate of doubtful grids is chosen for a p_wrong of 1e-5 to 1e-3. In this range,
+// errors. Doubtful grids have so many errors that p_wrong is between 1e-5 and 1e-3. In this range,
 // wrong positions are frequent enough to show whether p_wrong is too small. Frames are images of
-// patterns with flipped bits, which `locate` reads. The exit status is 1 if significantly more
-// positions are wrong than p_wrong predicts. Ctrl-C ends the run early and prints the results so
-// far.
+// patterns with flipped bits. They are read by `locate`.
+//
+// The exit status is 1 if significantly more positions are wrong than p_wrong predicts. Ctrl-C ends
+// the run early and prints the results so far.
 #include "integrity.hpp"
 
 #include <algorithm>

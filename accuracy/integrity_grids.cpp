@@ -66,10 +66,10 @@ struct Noise {
     }
 };
 
-/// Draws a random `odds_log2` with which a reading of `cells` cells is doubtful. Along one axis,
-/// there are 2^36.6 combinations of position, section and turn. The decoder needs 36.6 bits of
-/// information to distinguish these combinations, and about 30 more bits to make a wrong position
-/// unlikely. The total information is therefore drawn from a range around 67 bits.
+/// Draws a random `odds_log2` at which a reading of `cells` cells is doubtful. There are 2^36.6
+/// combinations of position, section and turn along one axis, so the decoder needs 36.6 bits of
+/// information to distinguish them. It needs about 30 more bits to make a wrong position unlikely.
+/// The information in the reading is therefore drawn from 60 to 80 bits.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;
@@ -142,8 +142,8 @@ bool is_right(const Reading& reading, const Decoding& decoding) {
     return true;
 }
 
-/// Returns the mean information per axis, in bits. It is computed from the odds per bit that
-/// `verify` estimates. The more information, the smaller p_wrong.
+/// Returns the mean information per axis, in bits, computed from the odds per bit that `verify`
+/// estimates. p_wrong decreases as the information increases.
 double apparent_information(const core::Grid& grid, const Decoding& decoding,
                             const core::Nominal& nominal) {
     core::Confidence confidence;
@@ -162,9 +162,10 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Returns true if p_wrong is probably near 1e-5, the range that requires the most readings. The
-/// selection also includes enough readings with p_wrong near 1e-4 and 1e-3. Other readings are
-/// skipped, because `verify` takes 20 times as long as all previous steps together.
+/// Returns true if a reading should be verified. This is the case if its p_wrong is probably near
+/// 1e-5, where the most readings are needed. The selection also includes enough readings with
+/// p_wrong near 1e-4 and 1e-3. Other readings are skipped, because `verify` takes 20 times as long
+/// as all previous steps together.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);

@@ -68,7 +68,7 @@ int print_limit(const test::Limit& limit, std::uint64_t frames, const TableRun& 
 }
 
 /// Prints the number of mirror images that are refused with the status `mirrored`. Returns the
-/// number of fixes, because every fix for a mirror image is wrong.
+/// number of wrong fixes: a mirror image has no correct fix, so every fix is wrong.
 int print_mirrored(std::uint64_t frames, const TableRun& run) {
     FrameRun frame_run;
     frame_run.frames = static_cast<int>(std::min(std::max(frames / 10, kMinFrames), frames));

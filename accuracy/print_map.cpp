@@ -1,5 +1,5 @@
-// Measures how much a map of the print improves positions (docs/print-map.md). The map is tested on
-// frames that were not used to make it.
+// Measures how much a print map improves the accuracy of positions (docs/print-map.md). The map is
+// tested on frames that were not used to make it.
 //
 //   dotpose_tables print_map [--frames N] [--tests N] [--side MM] [--update DOCUMENT]
 //

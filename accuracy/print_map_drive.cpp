@@ -1,7 +1,8 @@
 // Measures how much a map of the print improves the positions of a driving robot
 // (docs/print-map.md). Simulates the drive of `dotpose_tables drive` on a print with jitter, and on
 // a print with jitter and a feed wave. The map is made from other frames, which cover the whole
-// rectangle around the path. A map of only the narrow band along the path would be distorted.
+// rectangle around the path, because a map of only the narrow band along the path would be
+// distorted.
 //
 //   dotpose_tables print_map_drive [--frames N] [--update DOCUMENT]
 //

@@ -5,8 +5,8 @@
 //   dotpose_tables print_map_solver [--frames N]
 //
 // The processor time is the sum over all threads, so other programs on the machine hardly affect
-// it. The exit status is 1 if the solver takes more than 10 minutes (5 minutes on two cores) or
-// uses more than 2 GB of memory.
+// it. The exit status is 1 if the solver needs more than 10 minutes of processor time (5 minutes on
+// each of two cores) or more than 2 GB of memory.
 #include <cmath>
 #include <cstddef>
 #include <ctime>

@@ -10,9 +10,9 @@ namespace dotpose::tables {
 
 /// Renders a shot with a tag of the family tag36h11 instead of the pattern. The tag is centred in
 /// the image and has no printing errors. The tag and its white border together are as large as the
-/// view permits. Returns the error of the pose that libapriltag computes with its default options
-/// but without decimating the image, or nullopt if libapriltag does not find the tag. The shot must
-/// not have lens distortion.
+/// view permits. Returns the error of the pose that libapriltag computes, or nullopt if libapriltag
+/// does not find the tag. libapriltag uses its default options, except that it does not decimate
+/// the image. The shot must not have lens distortion.
 std::optional<SpaceVector> apriltag_error(const Shot& shot, int id);
 
 }  // namespace dotpose::tables

@@ -1,6 +1,6 @@
 // Renders frames from a camera that moves and tilts, and measures the errors of tracking the camera
-// in space (docs/pose-in-space.md). Prints a table in Markdown, and --update also writes it to the
-// document.
+// in space (docs/pose-in-space.md). Prints a table in Markdown. With --update, also writes the
+// table to DOCUMENT.
 //
 //   dotpose_tables space_track [--frames N] [--seed S] [--threads N] [--update DOCUMENT]
 #include "dotpose/tools/space_track.hpp"

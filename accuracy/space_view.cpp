@@ -28,8 +28,9 @@ bool is_in_view(const Shot& shot, const Vec2& pixel) {
            pixel.y <= camera.height_px - 1 - radius_px;
 }
 
-/// Returns the length of a spacing in the image, in px, at a point on the paper. The length depends
-/// on the direction, and the minimum over all directions is returned.
+/// Returns the length in the image, in px, of one spacing at a point on the paper. In a tilted
+/// view, this length depends on the direction of the spacing. Returns the minimum over all
+/// directions.
 double shortest_spacing_px(const Projection& projection, const Vec2& place_mm, double spacing_mm) {
     const auto step = [&](double x_mm, double y_mm) {
         const Vec2 to = projection.pixel_from_offset({place_mm.x + x_mm, place_mm.y + y_mm});
@@ -190,8 +191,8 @@ SpaceMatrix space_bound(const Shot& shot, double jitter_mm) {
     const double mm = pattern.spacing_mm;
     const Vector3d from_camera =
         Vector3d(x_grid(shot.pose) * mm, y_grid(shot.pose) * mm, 0) - truth.position_mm;
-    // A tilted camera also sees dots outside the area that is visible without tilt, so the search
-    // covers three times the width of that area.
+    // A tilted camera also sees dots outside the area that is visible without tilt. The search
+    // therefore extends three times the width of that area in each direction.
     const auto reach = static_cast<int>(3 * shot.camera.width_px * shot.camera.mm_per_px / mm);
     SpaceMatrix information = SpaceMatrix::Zero();
     for (int j = -reach; j <= reach; ++j) {

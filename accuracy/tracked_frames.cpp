@@ -43,9 +43,9 @@ Setup nominal(std::uint64_t seed) {
     return setup;
 }
 
-/// Locates a frame without a prediction, and then with one prediction for each error in kOffsets.
-/// The first tally counts the fixes without a prediction, in `afresh`. Tally i + 1 counts the
-/// results for the error kOffsets[i].
+/// Locates a frame without a prediction. If this succeeds, locates the frame again for each error
+/// in kOffsets, with a prediction that has this error. Tally i + 1 counts the results for
+/// kOffsets[i]. In tally 0, `afresh` counts the fixes without a prediction.
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
     const Fix fresh = Locator(thread_memory(), DeviceOptions{}).locate(image.view());
@@ -93,8 +93,8 @@ void turn(Shot& shot, const Shot&, Rng& rng) {
 /// A change between the first and the second frame.
 struct Change {
     const char* text;
-    /// Changes the first shot into the second shot. `other` is a shot of another sheet. The
-    /// function is null if the camera is lifted.
+    /// Changes the first shot into the second shot. `other` is a shot of another sheet. If the
+    /// camera is lifted, `apply` is null, and `nothing_in_focus` returns the second frame.
     void (*apply)(Shot& shot, const Shot& other, Rng& rng);
 };
 constexpr std::array kChanges{

@@ -78,9 +78,9 @@ struct Varied {
     const FrameSpread& of(Way way) const { return spreads[static_cast<std::size_t>(way)]; }
 };
 
-/// Measures every method on individual frames of 188 x 120 px: libapriltag on `frames` / 10 frames
-/// with tags, and all other methods on `frames` nominal frames. Each frame is measured `passes`
-/// times. Throws Error if a fix is wrong.
+/// Measures the time that every method takes for single frames of 188 x 120 px. libapriltag
+/// processes `frames` / 10 frames with tags. All other methods process `frames` nominal frames.
+/// Each frame is measured `passes` times. Throws Error if a fix is wrong.
 Varied time_varied_frames(int frames, int passes);
 std::string varied_table(const Varied& varied);
 

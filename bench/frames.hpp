@@ -12,9 +12,9 @@ namespace dotpose::bench {
 /// Seed of the frames. No test uses this seed, and no parameter was tuned with it.
 inline constexpr std::uint64_t kSeed = 606;
 
-/// Returns nominal frames that both the first attempt and the attempt of DeviceLocator locate. The
-/// smaller the frames, the more frames are returned (at most 20). The first call for a camera
-/// renders its frames.
+/// Returns 20 nominal frames, or fewer if a frame has more than 200,000 px. All of them are located
+/// both by the first attempt and by the attempt of DeviceLocator. The first call for a camera
+/// renders the frames, and later calls return the same frames.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
 /// Returns true if the fix has a pose and that pose is correct.

@@ -1,8 +1,8 @@
-// Locates nominal frames of 188 x 120 px. bench/instructions counts the instructions executed by
-// the functions that call the locator. Prints the number of frames, and the number of frames that
-// the first attempt locates without a given code. If a side length and a spacing, both in px, are
-// given as arguments, locates small square frames instead, and prints 1 for each located frame and
-// 0 for the others.
+// Locates nominal frames of 188 x 120 px. The script bench/instructions runs this program under
+// callgrind, and counts the instructions of the functions that call the locator. Prints the number
+// of frames, and the number of frames that the first attempt locates without a given code. If a
+// side length and a spacing, both in px, are given as arguments, locates small square frames
+// instead, and prints 1 for each located frame and 0 for the others.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -46,9 +46,9 @@ extern "C" [[gnu::noinline]] void count_frame_in_code(const ImageView& image, Lo
 
 namespace {
 
-/// Counts the instructions needed to locate the frame, first without and then with a given code,
-/// and returns true. Counts nothing and returns false if the first attempt does not locate the
-/// frame in the code `anoto`.
+/// Locates the frame with `count_frame_in_any_code` and with `count_frame_in_code`, and returns
+/// true. Calls neither function and returns false if the first attempt does not locate the frame in
+/// the code `anoto`.
 bool compare_codes(const ImageView& image, Locator& locator) {
     const auto is_settled = [](const CodeReading& reading) {
         return reading.fix.status == Status::ok && reading.fix.attempt == Attempt::first &&

@@ -96,9 +96,8 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
                               [](const FrameTimes& t) { return t.camera.width_px; });
 }
 
-/// Returns the percentage of frames that the first attempt locates, at the tilt with the lowest
-/// percentage. Also returns the median time per frame relative to a tilt of 0 degrees, at the tilt
-/// with the highest ratio.
+/// Returns two worst values over all tilts: the lowest percentage of frames that the first attempt
+/// locates, and the highest ratio of the median time to the median time without tilt.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     double fraction = 100;
     double ratio = 1;

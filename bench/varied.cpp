@@ -124,8 +124,8 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
 }
 
 /// Measures the time of every frame once. Each frame is first copied to the same buffer, as if a
-/// real camera had written it there. All other frames are processed between two measurements of the
-/// same frame, so caches and branch prediction do not adapt to it.
+/// real camera had written it there. Between two measurements of a frame, all other frames are
+/// processed, so caches and branch prediction do not adapt to the frame.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;
     GreyImage camera = *subject.frames.front();

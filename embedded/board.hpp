@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-// Maximum frame size: 36 x 36 (only with known sheets), 160 x 120, 188 x 120 or 320 x 240 px. The
-// size determines how much memory the program needs. Change the size here, or define both macros on
-// the compiler's command line.
+// Maximum frame size. Must be one of 36 x 36 (only with known sheets), 160 x 120, 188 x 120 and 320
+// x 240 px. The size determines how much memory the program needs. Change the size here, or define
+// both macros on the compiler's command line.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120
@@ -26,8 +26,9 @@ struct Frame {
 };
 
 /// Waits until `not_before_us` (on the same clock as Frame::time_us), and then starts a frame. Does
-/// not wait if `not_before_us` is 0. The camera then fills one of two row buffers by DMA while the
-/// program reads the other. The first call also initialises the camera and the serial line.
+/// not wait if `not_before_us` is 0. During the frame, the camera fills one of two row buffers by
+/// DMA while the program reads the other. The first call also initialises the camera and the serial
+/// line.
 Frame start_frame(std::int64_t not_before_us);
 
 /// Waits for the next row of the frame, from top to bottom, and returns its grey values. The grey

@@ -4,8 +4,9 @@
 
 using namespace dotpose;
 
-/// Returns options for the tracker, with the measured errors from docs/firmware.md. The tracker
-/// needs standard deviations for the poses, but fixes from DeviceLocator have no covariance.
+/// Returns options for the tracker. The tracker needs standard deviations for the poses, but fixes
+/// from DeviceLocator have no covariance. The options therefore contain the measured errors from
+/// docs/firmware.md.
 TrackOptions PoseSender::device_tracking() {
     TrackOptions options;
     options.min_sigma_mm = 0.0012F;
@@ -13,9 +14,10 @@ TrackOptions PoseSender::device_tracking() {
     return options;
 }
 
-/// Begins a frame with the prediction from the tracker. After a frame without a pose, begins
-/// without a prediction. The rows of a frame are not stored, so a frame that does not confirm its
-/// prediction cannot be located again without the prediction.
+/// Begins a frame with the prediction from the tracker, or without a prediction if the previous
+/// frame gave no pose. A wrong prediction may be the reason why there was no pose: the rows of a
+/// frame are not stored, so a frame that does not confirm its prediction cannot be located again
+/// without the prediction.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =

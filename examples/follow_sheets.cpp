@@ -1,4 +1,6 @@
-// Follows a robot over printed sheets: dotpose_follow_sheets SHEETS.json FRAMES_PER_SECOND IMAGE...
+// Follows a robot over printed sheets.
+//
+//   dotpose_follow_sheets SHEETS.json FRAMES_PER_SECOND IMAGE...
 //
 // The sheet file is written by `dotpose print -o table.pdf --sheets sheets.json --name table`. If
 // the sheets have world poses, the example prints the pose of the robot in the world.

@@ -28,8 +28,8 @@ constexpr KnownRegion kSheets[] = {
 
 DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory;
 DeviceLocator locator(memory, program_options());
-// One row of a frame. It is aligned to a word, like a row that a camera writes by DMA, because
-// aligned rows are copied faster.
+// One row of a frame. It is aligned to a word because aligned rows are copied faster. Rows that a
+// camera writes by DMA are aligned in the same way.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
 
 struct FrameHeader {

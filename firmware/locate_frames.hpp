@@ -10,9 +10,10 @@ dotpose::DeviceOptions program_options();
 void set_known_sheet(dotpose::DeviceLocator& locator);
 
 /// Locates the frames in the file at `path`. The file is a sequence of binary PGM images (P5, 8
-/// bits, no comments). A prediction may precede an image, which is then tracked. A prediction is a
-/// line with the letter T and the integer members of Place (x, y, u, v), PlaneFromImage (centre,
-/// at_centre, du, dv) and displacement_q16, separated by spaces. Prints one line for each frame:
+/// bits, no comments). An image may be preceded by a prediction, with which the image is tracked.
+/// The prediction is a line with the letter T and the integer members of Place (x, y, u, v),
+/// PlaneFromImage (centre, at_centre, du, dv) and displacement_q16, separated by spaces. Prints one
+/// line for each frame:
 ///
 ///     STATUS CELL_X CELL_Y FRACTION_X FRACTION_Y THETA SECTION_U SECTION_V SPACING SEEN USED
 ///     BIT_ERRORS P_WRONG

@@ -1,5 +1,5 @@
-/// Measures the stack usage. At the start, `paint` fills the stack with a pattern. A word that no
-/// longer contains the pattern has been used.
+/// Measures the stack usage. `paint` fills the stack with a pattern at the start of the program.
+/// Words that no longer contain the pattern have been used.
 #pragma once
 
 #include <cstddef>

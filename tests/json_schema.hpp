@@ -1,5 +1,6 @@
-/// Checks JSON against a JSON Schema (draft 2020-12), with the keywords used in docs/schema. Throws
-/// an exception if the schema contains another keyword, so that no part of it remains unchecked.
+/// Validates JSON against a JSON Schema (draft 2020-12). Supports only the keywords that are used
+/// in docs/schema. Throws an exception for other keywords, because ignoring them would leave a part
+/// of the schema unchecked.
 #pragma once
 
 #include <algorithm>

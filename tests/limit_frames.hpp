@@ -183,7 +183,8 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                  },
                  camera});
             // If the scene moves in the direction of the readout, the image contains fewer rows of
-            // cells. The small frames of devices may then contain too few rows.
+            // cells. The small frames of devices may then contain too few rows. For devices, the
+            // test therefore requires all frames to be located only if the motion is at most 30 %.
             limits.back().is_held = percent <= 30 || !is_device;
         }
         for (const int degrees : {2, 10, 20, 40, 60}) {

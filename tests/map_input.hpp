@@ -12,8 +12,8 @@
 
 namespace dotpose::test {
 
-/// A page and frames of it. The offsets of all dots on the page are known, and the dots have been
-/// measured in the frames.
+/// A page and frames that show parts of it: the true offsets of all dots on the page, and the
+/// measured positions of the dots in the frames.
 struct SolverInput {
     calibrate::MapGrid grid;
     std::vector<Eigen::Vector2d> offsets_mm;  ///< true offsets
@@ -27,8 +27,8 @@ struct SolverInput {
 SolverInput simulated_input(const MappedPrint& print, std::uint64_t frames, std::uint64_t seed);
 
 /// Returns the error of each dot's offset in a solution, in mm. Subtracts the mean shift, rotation
-/// and scale, which the frames do not determine. They are fitted to all dots that are visible in at
-/// least one frame.
+/// and scale of the errors, because the frames do not determine these means. The means are fitted
+/// to the dots that are visible in at least one frame.
 std::vector<Eigen::Vector2d> offset_errors_mm(const SolverInput& input,
                                               const calibrate::MapSolution& solution);
 

@@ -1,6 +1,7 @@
-/// Frames of sheets that are not planar: wrinkled paper, and sheets whose two halves are displaced
-/// relative to each other, by faulty paper feed or at a seam between two sheets. The true pose is
-/// the pose of the shot. It refers to the part of the paper at the image centre.
+/// Frames of sheets whose dots are not on a regular grid: wrinkled paper, and sheets whose two
+/// halves are displaced relative to each other, by faulty paper feed or at a seam between two
+/// sheets. The true pose is the pose of the shot. It refers to the part of the paper at the image
+/// centre.
 #pragma once
 
 #include <array>

@@ -75,8 +75,8 @@ struct GuideState {
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what the user should do now
     std::optional<CalibrationStatus> lens;  ///< progress of the step `lens`
-    /// One flag for each heading of the turning robot, or for each direction in which the pen must
-    /// be tilted. True if enough frames have been collected for this direction.
+    /// True for each direction for which enough frames have been collected. A direction is a
+    /// heading of the turning robot, or a direction in which the pen must be tilted.
     std::vector<bool> directions;
     std::vector<PenLean> leans;      ///< tilts of the pen
     std::vector<std::string> needs;  ///< unmet requirements, not used in the step `lens`

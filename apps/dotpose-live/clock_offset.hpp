@@ -8,9 +8,9 @@
 
 namespace dotpose::cli {
 
-/// Estimates the offset as the minimum of (received - sent) over recent messages. The network and
-/// queues can only increase this difference, so the minimum is the best estimate. Old messages are
-/// ignored, because clocks drift.
+/// Estimates the clock offset as the minimum of (received - sent) over the messages of the last 10
+/// to 20 seconds. Delays in the network and in queues can only increase this difference, so the
+/// minimum is closest to the true offset. Older messages are ignored, because clocks drift.
 class ClockOffset {
   public:
     void take(std::int64_t received_us, std::int64_t sent_us) {

@@ -15,10 +15,11 @@ namespace dotpose::cli {
 class FailureHint {
   public:
     /// Must be called after each frame. `options` are the options with which the frame was located.
-    /// Returns a hint for the user if this frame failed and, in the last second, at least three
-    /// frames and more than half of all frames failed. Returns an empty string otherwise. The hint
-    /// is not repeated until the fraction of failed frames in the last second has dropped to one
-    /// half or less. `bits_per_px` is the bit rate of the source (capture/frame_source.hpp).
+    /// `bits_per_px` is the bit rate of the source (capture/frame_source.hpp). Returns a hint for
+    /// the user if this frame failed, and if more than half of the frames in the last second, and
+    /// at least three of them, failed. Returns an empty string otherwise, and during the first
+    /// second. The hint is not repeated until the fraction of failed frames in the last second has
+    /// dropped to one half or less.
     std::string after(const Reading& reading, ImageView image, const DeviceOptions& options,
                       double bits_per_px);
 

@@ -61,8 +61,8 @@ class Window {
             if (is_inside(entry.second)) visible_.push_back(&entry);
         }
         // Positions are sent in single precision, relative to an origin in the window. The origin
-        // of the pattern is up to 200 km away. Relative to that origin, the resolution of the
-        // positions would be only about a centimetre.
+        // of the pattern would be unsuitable: it may be 200 km away, and at this distance single
+        // precision resolves only about a centimetre.
         const draw::Point middle{(x_min_ + x_max_) / 2, (y_min_ + y_max_) / 2};
         const bool is_finite = std::isfinite(middle.x) && std::isfinite(middle.y);
         if (is_finite) {

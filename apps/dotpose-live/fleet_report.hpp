@@ -63,8 +63,9 @@ std::string summary_of(const FleetState& fleet, const FleetRobots& robots, const
 std::string table_of(const FleetState& fleet, const FleetMap& map, Delivery delivery,
                      const Now& now);
 
-/// Returns a drawing of the map `map_id` with its robots and the sheets that they have visited, or
-/// with all sheets if none has been visited. Robots on other maps are listed in the notes.
+/// Returns a drawing of the map `map_id`, with the robots on this map and the sheets that these
+/// robots have visited, or with all sheets if none has been visited. The notes list up to 20 robots
+/// on other maps.
 draw::Map drawing_of(const FleetState& fleet, const std::string& map_id, const FleetMap& map,
                      const Now& now);
 

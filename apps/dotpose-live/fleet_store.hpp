@@ -31,8 +31,8 @@ std::string stored_name(std::string_view name);
 /// the names.
 class StoredStates {
   public:
-    /// Converts a state. The result contains the robot's time stamp or, if that differs from the
-    /// arrival time by more than half an hour, the arrival time.
+    /// Converts a state. The time of the result is the robot's time stamp. If the time stamp
+    /// differs from the arrival time by more than half an hour, the arrival time is used instead.
     store::State of(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
   private:
@@ -55,8 +55,9 @@ class FleetStore {
     }
     store::QueueStatus status() const { return queue_.status(); }
 
-    /// Stores the queued states and reports their number. Throws Error if some states were not
-    /// stored, for example because the database was unavailable for 10 s.
+    /// Waits up to 10 s until the queued states are stored. Reports how many states were stored and
+    /// how many were dropped. Throws Error if some states were not stored, for example because the
+    /// database was unavailable.
     void finish();
 
   private:

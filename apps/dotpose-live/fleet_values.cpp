@@ -134,8 +134,9 @@ nlohmann::json camera_json(const CameraReport& camera) {
     return {{"rate_hz", camera.rate_hz}, {"frames", camera.frames}, {"refused", refused}};
 }
 
-/// Returns the height and the tilt of a camera. The optical axis points into the paper, but the z
-/// axis of a world frame points out of it, so the angle between the axes may be near 180 degrees.
+/// Returns the height and the tilt of a camera. The tilt is the acute angle between the optical
+/// axis and the z axis. The angle between the two directions may be near 180 degrees, because the
+/// optical axis points into the paper, but the z axis of a world frame points out of it.
 nlohmann::json space_json(const CameraInWorld& camera) {
     const double tilt_rad = lean_of(camera.rotation).tilt_rad;
     return {{"height_mm", rounded(std::abs(camera.z_m) * kMm_per_m, 1000)},

@@ -1,6 +1,6 @@
 /// Values of the topics for the web page of `dotpose fleet --web`, except the map topics.
-/// docs/fleet.md describes them. All names are printable (printable.hpp), and requests identify
-/// robots by number.
+/// docs/fleet.md describes the topics. All names are printable (printable.hpp), and requests
+/// identify robots by number.
 #pragma once
 
 #include <chrono>

@@ -29,8 +29,8 @@ constexpr double kMinMotion = 0.5;
 /// kMaxPivots frames in any case.
 constexpr std::size_t kWantedPivots = 30;
 constexpr std::size_t kMaxPivots = 80;
-/// Minimum distance between the tilts (PenLean) in two collected frames. A frame is skipped if its
-/// tilt is closer to the tilt in an earlier frame.
+/// Minimum distance between the tilts (PenLean) of any two collected frames. A frame is skipped if
+/// its tilt is closer than this to the tilt of a frame that was already collected.
 constexpr double kMinLeanStep = 0.08;
 /// A direction is covered if the pen is tilted in this direction by kMinLean_deg or more in at
 /// least kMinLeans frames.

@@ -23,8 +23,8 @@ constexpr double kSteady_px_s = 30;
 /// If no frame is steady for this long, frames from a moving camera are also accepted, because the
 /// robot may never stop.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// A frame that shows a known place is accepted only if its dots cover at least this number of
-/// image blocks that no collected frame covers.
+/// A frame that shows no new place (see `NewPlaces`) is accepted only if its dots cover at least
+/// this number of image blocks that the collected frames do not cover.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {

@@ -84,9 +84,9 @@ class LensCollector {
     /// calls `goes_on` repeatedly. If `goes_on` returns false, stops waiting and returns false.
     bool finish(const std::function<bool()>& goes_on);
 
-    /// Returns the last calibration. Must be called after `finish`. If the frames are not
-    /// sufficient for the verdict `good`, throws Error with a message that names the unmet
-    /// requirements.
+    /// Returns the last calibration. Must be called after `finish`. Throws Error if the calibration
+    /// failed, or if the frames are not sufficient for the verdict `good`. In the latter case, the
+    /// message names the unmet requirements.
     const LensCalibration& result() const;
 
     /// Returns the unmet requirements. `take` must have been called at least once.
@@ -122,8 +122,8 @@ class LensCollector {
     int height_px_ = 0;
     NewPlaces places_;
     ImageMotion motion_;
-    /// Time of the newest steady frame. If there is none, the time of the first frame, or 0 if the
-    /// first frame was not located.
+    /// Time of the newest frame in which the camera was steady. Before the first such frame, this
+    /// is the time of the first frame, or 0 if the first frame was not located.
     std::int64_t steady_us_ = 0;
     Tally tally_;
     GreyImage failed_;  ///< newest frame that was refused before the first fix

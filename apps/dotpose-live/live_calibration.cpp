@@ -66,10 +66,10 @@ bool LiveCalibration::look(capture::Frame& frame) {
     return display_.show(collector_.status(outcome), outcome.image, collector_.trace());
 }
 
-/// Starts a calibration with the frames collected so far if the result is likely to be better than
-/// the last one. With a camera, returns without waiting for the calibration, because the camera
-/// continues to deliver frames. With any other source, waits for the calibration, so the result
-/// does not depend on the speed of the computer. Returns false if the user wants to stop.
+/// Starts a calibration with the frames collected so far if its result is likely to be better than
+/// the last result. If the source is a camera, returns without waiting for the calibration, because
+/// the camera continues to deliver frames. For any other source, waits for the calibration, so the
+/// result does not depend on the speed of the computer. Returns false if the user wants to stop.
 bool LiveCalibration::go_on_calibrating() {
     collector_.start_if_useful();
     while (collector_.is_calibrating()) {

@@ -11,8 +11,9 @@ class MetricsFile {
     /// Throws Error if the file cannot be written.
     MetricsFile(std::string path, std::function<void(const std::string&)> notify);
 
-    /// Replaces the file atomically, so a reader never sees an incomplete file. A failure is
-    /// reported once and otherwise ignored, because later attempts may succeed.
+    /// Replaces the file atomically, so a reader never sees an incomplete file. Does not throw if
+    /// this fails, because later attempts may succeed. Reports only the first of several
+    /// consecutive failures.
     void write(const std::string& text);
 
   private:

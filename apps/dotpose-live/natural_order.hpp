@@ -31,7 +31,7 @@ struct NaturalOrder {
     }
 
   private:
-    /// Removes the digits at the start of a string and returns them without leading zeros. Returns
+    /// Removes the digits at the start of `text`, and returns them without leading zeros. Returns
     /// "0" if all digits are zeros, and an empty string if there are no digits.
     static std::string_view take_number(std::string_view& text) {
         const std::size_t size = std::min(text.find_first_not_of("0123456789"), text.size());

@@ -32,8 +32,8 @@ struct ConditionLimits {
     std::int64_t gone_after_us = 60'000'000;  ///< must be at least `silent_after_us`
 };
 
-/// Returns the condition of a robot. `newest` is its newest state, `presence` the state of its
-/// connection, and `silence_us` the time since its newest message.
+/// Returns the condition of a robot. `newest` is the newest state of the robot, `presence` is the
+/// state of the robot's connection, and `silence_us` is the time since the robot's newest message.
 Condition condition_of(const RobotState& newest, publish::Presence presence,
                        std::int64_t silence_us, const ConditionLimits& limits);
 

@@ -51,8 +51,8 @@ class SheetEdits {
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
 
     /// Removes a sheet. Throws Error if it is the only sheet in the file, because `dotpose watch`
-    /// needs at least one sheet. Undoing the removal appends the sheet to the file, without the
-    /// keys that dotpose does not recognise.
+    /// needs at least one sheet. If the removal is undone, the sheet is appended to the file, and
+    /// keys of the sheet that dotpose does not recognise are lost.
     void remove(const Target& target);
 
     /// Replaces the world poses and print scales of several sheets with the values in `measured`,

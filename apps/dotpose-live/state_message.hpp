@@ -20,8 +20,9 @@ namespace dotpose::cli {
 /// Prefix of all robot topics. A topic has the form kTopicRoot/ROBOT/SUBJECT.
 inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 
-/// Prefix of all alert topics. A topic has the form kAlertRoot/ROBOT. It is separate from
-/// kTopicRoot, because a broker may allow each robot to publish below kTopicRoot/ROBOT.
+/// Prefix of all alert topics. A topic has the form kAlertRoot/ROBOT. Alert topics are not below
+/// kTopicRoot, because a broker may allow each robot to publish below kTopicRoot/ROBOT, but robots
+/// must not be able to publish alerts.
 inline constexpr const char* kAlertRoot = "dotpose/alerts";
 
 /// Values of `connectionState`, indexed by publish::Presence.

@@ -27,8 +27,9 @@ StateNumbers::Arrival StateNumbers::take(const RobotState& state, StateCounts& c
         counts.missed = std::max<std::int64_t>(counts.missed - 1, 0);
         return Arrival::late;
     }
-    // If numbers are skipped between the previous state and this state, states are missing. A lower
-    // number means that the robot was restarted, so no states are missing.
+    // If this number is higher than the previous number by more than 1, the states with the numbers
+    // in between are missing. A lower number means that the robot was restarted, so no states are
+    // missing.
     if (!is_first && sent.number > newest_.number) {
         constexpr std::uint64_t kMax = 1'000'000'000;
         counts.missed +=
@@ -45,8 +46,8 @@ bool StateNumbers::is_late(const Sent& sent) {
         return false;
     }
     // After an interruption, the robot sends queued states newest first, so late states arrive in
-    // descending order of time. If older states arrive in ascending order instead, the clock of the
-    // robot was set back.
+    // descending order of time. If kDoubts older states arrive in ascending order instead, the
+    // clock of the robot was set back, and the states are not late.
     doubts_ = sent.time_us > doubted_us_ || doubts_ == 0 ? doubts_ + 1 : 1;
     doubted_us_ = sent.time_us;
     if (doubts_ < kDoubts) return true;

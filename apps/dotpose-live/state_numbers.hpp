@@ -27,9 +27,10 @@ class StateNumbers {
     enum class Arrival { news, late, repeated };
 
     /// Counts a state and classifies it:
-    /// - `repeated`: the same state was received recently,
-    /// - `late`: the state is older than the newest state, and its number is not higher,
-    /// - `news`: any other state. A lower number than before means that the robot was restarted.
+    /// - `repeated`: the same state was received recently.
+    /// - `late`: the state is older than the newest state, and its number is not higher.
+    /// - `news`: any other state. If its number is lower than that of the newest state, the robot
+    ///   was restarted.
     ///
     /// Late states in ascending order of time indicate that the clock of the robot was set back.
     /// The fifth consecutive such state is classified as `news` and becomes the newest state.

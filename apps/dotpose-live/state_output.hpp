@@ -33,8 +33,8 @@ class StateSource {
   public:
     /// `sheets` is the path of the sheet file. Its file name without extension is the name of the
     /// map in which world poses are given. `max_rate_hz` is the maximum number of states per
-    /// second. However, every event creates a state immediately. If `max_rate_hz` is 0, every
-    /// reading creates a state.
+    /// second, or 0 for one state per reading. An event always creates a state immediately,
+    /// regardless of this maximum.
     StateSource(std::string robot, const std::string& sheets, double max_rate_hz);
 
     /// Counts a reading. Returns its state, or nullopt if no state is due.

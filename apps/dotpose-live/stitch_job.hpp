@@ -40,9 +40,12 @@ class StitchJob {
     StitchJob(const StitchJob&) = delete;
     StitchJob& operator=(const StitchJob&) = delete;
 
-    /// Copies a frame if the job is idle and the frame may show two sheets: either it shows a new
-    /// place near the edge of a sheet, or it was not located. `image` is the image that was
-    /// located.
+    /// Copies a frame if the job is idle and the frame may show two sheets. This is the case if the
+    /// frame
+    /// - shows a new place near the edge of a sheet, or
+    /// - was not located. Such frames are copied at most once every 500 ms.
+    ///
+    /// `image` is the image that was passed to the locator.
     void offer(const Reading& reading, ImageView image);
 
     const std::vector<SheetEntry>& sheets() const { return sheets_; }

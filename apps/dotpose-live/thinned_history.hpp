@@ -21,8 +21,8 @@ class ThinnedHistory {
 
     std::int64_t states() const { return states_; }
 
-    /// Returns an object with an array for each member of Point and with the number of states for
-    /// each kind of motion. docs/fleet.md describes the value.
+    /// Returns the history as a JSON object. The object contains an array for each member of Point,
+    /// and the number of states for each kind of motion (see docs/fleet.md).
     nlohmann::json value() const;
 
   private:

@@ -126,7 +126,7 @@ class Pace {
 };
 
 /// Warns on standard error about sheets without a world pose. Also warns if poses are published
-/// without a sheet file, because they are then not in world coordinates.
+/// without a sheet file, because the published poses are then not in world coordinates.
 void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follower) {
     const OutputOptions& outputs = arguments.outputs;
     const bool is_published = !outputs.publish.mqtt.url.empty() || outputs.messages.is_wanted();

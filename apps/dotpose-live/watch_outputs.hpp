@@ -38,7 +38,7 @@ struct OutputOptions {
 class PacketOutput {
   public:
     /// Opens the file or device. Throws Error on failure. `write` throws ReaderLeft if the output
-    /// is a pipe whose reader has closed it, and Error on any other failure.
+    /// is a pipe and its reader has closed the pipe, and Error on any other failure.
     explicit PacketOutput(const std::string& path);
     ~PacketOutput();
     PacketOutput(const PacketOutput&) = delete;
@@ -69,8 +69,10 @@ class WatchOutputs {
     /// Returns the sheets if the web page or another program has changed them since the previous
     /// call. Returns nullopt if the sheets have not changed or no web page is served.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
-    /// Uses the follower's new sheets for the outputs. `was_in_world` is true if the earlier poses
-    /// are in world coordinates. If the plane of the poses has changed, starts a new path.
+    /// Makes all outputs use the current sheets of the follower. `was_in_world` is true if poses
+    /// were in world coordinates before the sheets changed. If poses have changed from sheet to
+    /// world coordinates or back, starts a new path, because the earlier points are in a different
+    /// plane.
     void use_sheets(bool was_in_world);
 
     const WatchTally& tally() const { return tally_; }

@@ -231,8 +231,8 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     return stitching_report(stitching);
 }
 
-/// If --camera is not given, uses the camera file that -o will overwrite. This keeps the values
-/// that the calibration does not determine, such as the mount.
+/// If --camera is not given and the file given to -o exists, uses this file as the camera file. The
+/// values that the calibration does not determine, such as the mount, are then kept.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
     if (!camera.path.empty()) return;
     camera.camera = replaced_camera("-o", out);

@@ -30,9 +30,12 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
 }
 
 /// Returns true if the true places are in world coordinates, and false if they are in sheet
-/// coordinates. Throws Error if a place is given only in the pattern frame, if its sheet is unknown
-/// or not specified, or if places on several sheets are to be aligned. Also throws Error if the
-/// places are in world coordinates but no sheet has a world pose.
+/// coordinates. Throws Error if
+/// - a place is given only in the pattern frame,
+/// - the sheet file does not contain the sheet of a place,
+/// - a place on a sheet does not name its sheet, and the sheet file contains several sheets,
+/// - the places must be aligned, but are on several sheets, or
+/// - the places are in world coordinates, but no sheet has a world pose.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;

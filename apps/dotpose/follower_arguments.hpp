@@ -28,8 +28,13 @@ struct FollowerArguments {
     void add_files(RunFiles& files) const;
 
     /// Returns `options` with the camera, the sheets and the print map. Reads the sheet file and
-    /// the print map. Throws Error if a file cannot be read, if the sheet file contains no sheets,
-    /// or if the map does not belong to the sheets.
+    /// the print map. Throws Error in these cases:
+    /// - A file cannot be read.
+    /// - The sheet file contains no sheets.
+    /// - The print map does not belong to the sheets.
+    /// - Poses in space are required, but the camera file contains no focal length.
+    ///
+    /// Throws BadArgument if poses in space are required, but no camera file is given.
     FollowerOptions read() const;
 };
 

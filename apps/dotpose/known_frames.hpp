@@ -24,12 +24,14 @@ struct KnownFrames {
     std::function<void()> finish = [] {};
 };
 
-/// Returns the frames from the sources, together with their true poses. The poses are read from
-/// `poses` or, if `poses` is empty, from truth.csv next to the images or the video. For a folder,
-/// returns the frames listed in the pose file. For an image, the pose is in the row whose `file` is
-/// the image name. If the sources include a video, a camera or a raw stream, row N contains the
-/// pose of frame N, where frames are numbered across all sources. Throws Error if there are no
-/// poses, or if an image has no pose.
+/// Returns the frames from the sources, together with their true poses. The pose file is `poses`
+/// or, if `poses` is empty, truth.csv next to the images or the video.
+/// - For a folder, only the frames listed in the pose file are returned.
+/// - For an image, the pose is in the row whose `file` is the name of the image.
+/// - If the sources include a video, a camera or a raw stream, row N contains the pose of frame N.
+///   The frames are numbered across all sources.
+///
+/// Throws Error if there are no poses, or if an image has no pose.
 KnownFrames known_frames(const SourceArguments& arguments, const std::string& poses,
                          std::optional<double> spacing_mm);
 

@@ -17,9 +17,11 @@ struct LiveCalibrationOptions {
 
 /// Captures frames while the user moves the camera, displays the unmet requirements, and calibrates
 /// the lens. Stops capturing when there are enough frames, when the source ends, or when the user
-/// ends the capture. In `dotpose`, replaces this process with dotpose-live. Throws Error if the
-/// source fails, or if there are too few frames for the verdict `good`. In the second case, the
-/// error message lists the unmet requirements.
+/// ends the capture. If called in the program dotpose, replaces the process with dotpose-live.
+/// Throws Error in these cases:
+/// - The source fails.
+/// - There are too few frames for the verdict `good`. The error message lists the unmet
+///   requirements.
 LensCalibration calibrate_live(const SourceArguments& arguments, Sources& sources,
                                const CalibrateOptions& calibration,
                                const LiveCalibrationOptions& options);

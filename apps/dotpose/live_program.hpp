@@ -9,8 +9,8 @@ namespace dotpose::cli {
 /// with the value of errno.
 int become_live();
 
-/// Returns the second part of an error message such as "--web needs ...": the name dotpose-live and
-/// the reason why the program cannot be started.
+/// Returns the end of an error message that begins with, for example, "--web needs". The text names
+/// dotpose-live, the reason why it cannot be started, and the remedy.
 std::string live_program_text(int error_number);
 
 }  // namespace dotpose::cli

@@ -22,8 +22,8 @@ void hand_over_if_possible();
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
-/// Creates a video file: H.264 if the name ends in .mp4, and Motion JPEG if it ends in .avi. In
-/// `dotpose`, throws Error, because only dotpose-live can write videos.
+/// Creates a video file: H.264 if the name ends in .mp4, and Motion JPEG if it ends in .avi. Throws
+/// Error if called in the program dotpose, because only dotpose-live can write videos.
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

@@ -60,8 +60,8 @@ std::optional<ros::PlanarCovariance> covariance_in(const LogCells& row,
     return covariance;
 }
 
-/// Returns the pose and the velocities in a row. The log contains one standard deviation for the
-/// velocity. It is used for both components.
+/// Returns the pose and the velocities in a row. The log contains only one standard deviation for
+/// the velocity, so it is used for both components.
 ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
                             const PoseColumns& columns) {
     const auto value = [&row](const char* column) { return row.number(column).value_or(0); };
@@ -132,8 +132,8 @@ std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     return space_pose_in(row, "camera_", is_in_world);
 }
 
-/// Returns the motion of the tracked camera. The log contains one standard deviation for the
-/// velocity, and one for the angular velocity. Each is used for all three components.
+/// Returns the motion of the tracked camera. The log contains only one standard deviation for the
+/// velocity and one for the angular velocity, so each of them is used for all three components.
 std::optional<CameraMotion> camera_motion_in(const LogCells& row, bool is_in_world) {
     const auto pose = space_pose_in(row, "camera_track_", is_in_world);
     if (!pose) return std::nullopt;

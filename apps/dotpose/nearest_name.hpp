@@ -12,9 +12,12 @@ namespace dotpose::cli {
 /// No character is edited twice, so the distance from "ca" to "abc" is 3.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// Returns the name that was probably meant by `word`: the nearest name if its edit distance is at
-/// most a third of the length of the longer word, and otherwise the only name that begins with
-/// `word`. Ignores case and leading hyphens. Returns an empty string if no name is similar.
+/// Returns the name that was probably meant by `word`, or an empty string if no name is similar.
+/// Ignores case and leading hyphens.
+/// - If the edit distance of the nearest name is at most a third of the length of the longer word,
+///   returns this name.
+/// - Otherwise, if `word` has at least two characters and exactly one name begins with `word`,
+///   returns this name.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 /// Returns "; did you mean 'NAME'?" with the nearest name. Returns an empty string if no name is

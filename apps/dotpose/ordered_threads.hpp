@@ -16,8 +16,8 @@
 
 namespace dotpose::cli {
 
-/// Calls `work` in n threads. In thread i, `work` must process the items i, i + n, i + 2n, and so
-/// on, and emit one result per item.
+/// Runs `work` in n threads and returns their results in the order of the items. Thread i must
+/// process the items i, i + n, i + 2n, and so on, and emit one result per item.
 template <typename Result>
 class OrderedThreads {
   public:

@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Adds -o. Calls `choose` to select the format if the file name ends with `ending` and the option
-/// `format` is not given. `format` must be added first, because it must be parsed before -o.
+/// Adds the option -o. If the file name after -o ends with `ending` and the option `format` is not
+/// given, calls `choose` to select the format. `format` must be added before -o, because it must
+/// also be parsed before -o.
 void add_out_option(Command& command, std::string& out, const std::string& help,
                     const Option* format, const char* ending, const std::function<void()>& choose) {
     command

@@ -38,9 +38,9 @@ class PacketFollower {
     /// Returns the record for a packet, including the place of the fix on the sheets.
     Record record_of(const PosePacket& packet) const;
 
-    /// Updates the track. Returns nullopt if the packet is a duplicate or is older than the
-    /// newest packet. The times of the readings start at 0 and always increase, even when the clock
-    /// of the device wraps around or the device is restarted.
+    /// Updates the track. Returns nullopt if the packet is a repetition or arrived late (see
+    /// `is_late`). The times of the readings start at 0 and always increase, even when the clock of
+    /// the device wraps around or the device is restarted.
     std::optional<Reading> follow(const PosePacket& packet);
 
   private:

@@ -145,7 +145,7 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             const auto b = seen(0, 1);
             // The singular values of the matrix (a b) are the dimensions, in cells, of the area
             // that one pixel covers on the paper: along the direction of the tilt and perpendicular
-            // to it.
+            // to it. The ratio of the smaller to the larger dimension is the cosine of the tilt.
             const double sum = a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1];
             const double area = std::abs(a[0] * b[1] - a[1] * b[0]);
             const double root = std::sqrt(std::max(sum * sum - 4 * area * area, 0.0));
@@ -206,9 +206,9 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Downscales the image by increasing factors until it finds a grid of dots whose spacing in the
-/// original image exceeds kMaxSpacing_px. Returns this spacing, in px of the original image, or
-/// nullopt if no downscaled image shows such a grid.
+/// Downscales the image by increasing factors until it shows a grid of dots whose spacing, in px of
+/// the original image, exceeds kMaxSpacing_px. Returns this spacing, or nullopt if no downscaled
+/// image shows such a grid.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
@@ -249,9 +249,9 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// If the position is certain when only one of the codes is tried, returns the advice to specify
-/// this code. Otherwise, returns an empty string. If the code is not given, a position may be
-/// uncertain only because positions in other codes are also possible.
+/// Returns the advice to specify a code, or an empty string. If the code is not given, a position
+/// may be uncertain only because positions in other codes are also possible. If the position is
+/// certain when only one of the codes is tried, the advice names this code.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {

@@ -10,9 +10,9 @@ namespace dotpose::cli {
 /// Ignores SIGPIPE. Writing to a closed output then fails instead of terminating the program.
 void ignore_broken_pipes();
 
-/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of terminating the program. The
-/// program can then remove its temporary files. A second signal terminates the program if it
-/// arrives more than half a second after the first.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP. After such a signal, `interrupted` returns
+/// true, and the program can remove its temporary files before it ends. A second signal terminates
+/// the program immediately if it arrives more than half a second after the first.
 void catch_interrupts();
 bool interrupted();
 

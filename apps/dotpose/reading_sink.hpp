@@ -24,9 +24,9 @@ class ReadingSink {
     virtual void finish() = 0;
 };
 
-/// Connects to the broker. Returns null if --mqtt is not given. `sheets` is the path of the sheet
-/// file. In `dotpose`, replaces this process with dotpose-live, passing the same command line.
-/// Throws Error on failure.
+/// Connects to the broker. In `dotpose`, which cannot connect, replaces this process with
+/// dotpose-live instead, passing the same command line. `sheets` is the path of the sheet file.
+/// Returns null if --mqtt is not given. Throws Error on failure.
 std::unique_ptr<ReadingSink> open_publisher(const PublishArguments& arguments,
                                             const std::string& sheets);
 

@@ -38,8 +38,9 @@ struct MeasuredLength {
 /// Returns the entry with the print scale computed from a measured length.
 SheetEntry scaled(SheetEntry entry, const MeasuredLength& length);
 
-/// Returns the entry with all dots shifted by the same amount. The first intersection is then
-/// `right_mm` to the right of the top left corner of the page and `below_mm` below it.
+/// Returns a copy of `entry` in which all dots are shifted by the same amount. The shift moves the
+/// first intersection to the point that is `right_mm` to the right of the top left corner of the
+/// page and `below_mm` below it.
 SheetEntry with_offset(SheetEntry entry, double right_mm, double below_mm);
 
 }  // namespace dotpose::cli

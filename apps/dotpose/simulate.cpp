@@ -217,9 +217,9 @@ std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
     return frames;
 }
 
-/// Returns the drive over the sheets in the file, or none if --drive is not given. All frames have
-/// the imperfections of the first shot. If `has_length` is false, also sets `arguments.frames` to
-/// the number of frames in one lap.
+/// Returns the drive over the sheets in the file `arguments.sheets`, or nullopt if --drive is not
+/// given. All frames have the imperfections of the first shot. If `has_length` is false, also sets
+/// `arguments.frames` to the number of frames in one lap.
 std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
     if (!arguments.drives) return std::nullopt;
     const std::vector<SheetEntry> sheets = read_sheets(system::path_of(arguments.sheets));

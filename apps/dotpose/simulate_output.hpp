@@ -30,9 +30,9 @@ class SimulateOutput {
 
 bool is_video_name(const std::string& out);
 
-/// Opens a video or a folder. Creates the folder if it does not exist. Removes the frames of
-/// earlier runs from an existing folder. Throws Error if the folder contains frames that `dotpose
-/// simulate` did not create.
+/// Opens `out`, a video or a folder, for writing. Creates the folder if it does not exist, and
+/// otherwise removes the frames of earlier runs from it. Throws Error if the folder contains frames
+/// that `dotpose simulate` did not create.
 std::unique_ptr<SimulateOutput> open_simulate_output(const std::string& out, double fps);
 
 }  // namespace dotpose::cli

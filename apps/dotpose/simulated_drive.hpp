@@ -23,8 +23,8 @@ struct PoseOnSheet {
 
 /// A robot that repeatedly drives a figure of eight at a constant speed. The x axis of its camera
 /// points in the direction of travel. The path fills the bounding rectangle of all sheets that have
-/// a world pose. If no sheet has a world pose, the path fills the first sheet. The table between
-/// the sheets is dark. Frames are independent of each other and may be rendered in parallel.
+/// a world pose. If no sheet has a world pose, the path fills the first sheet. The sheets lie on a
+/// dark table. Frames are independent of each other and may be rendered in parallel.
 class SimulatedDrive {
   public:
     /// `imperfections` apply to all frames, except that the motion blur is computed from the speed.

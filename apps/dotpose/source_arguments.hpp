@@ -48,10 +48,10 @@ struct SourceArguments {
 /// All sources of one run.
 class Sources {
   public:
-    /// Collects the sources. If one of them is a camera or a video, which only dotpose-live can
-    /// read, `dotpose` replaces this process with dotpose-live (live_sources.hpp). Therefore, no
-    /// output may be open yet. Throws BadArgument if no source is given or if standard input is
-    /// given twice. Throws Error if the list, a folder or a glob cannot be read.
+    /// Collects the sources. Only dotpose-live can read cameras and videos. If a source is a camera
+    /// or a video, `dotpose` therefore replaces this process with dotpose-live (live_sources.hpp),
+    /// so no output may be open yet. Throws BadArgument if no source is given or if standard input
+    /// is given twice. Throws Error if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
     /// Returns true if a pipe may deliver more names.

@@ -40,8 +40,9 @@ std::string places_of_documents() {
                        folder.string());
 }
 
-/// Adds the commands `help` and `version`. `help locate` stores the words of `locate --help` in
-/// `help_words`, in reverse order. `help_words` must outlive the app.
+/// Adds the commands `help` and `version`. The callback of `help locate` only stores the words of
+/// `locate --help` in `help_words`, in reverse order as CLI11 expects them. The caller then parses
+/// these words. `help_words` must outlive the app.
 void add_help_and_version(Command& app, std::vector<std::string>& help_words) {
     std::vector<std::string> names;
     for (const Command* command : app.get_all_subcommands())

@@ -59,8 +59,8 @@ std::int64_t stamp_us(const camera_fb_t& of) {
     return of.timestamp.tv_sec * std::int64_t{1'000'000} + of.timestamp.tv_usec;
 }
 
-/// Returns the time from one frame to the next. Measures several of these times and returns the
-/// shortest one, because the driver may skip frames.
+/// Returns the frame period. Measures the time from one frame to the next several times and returns
+/// the shortest time. Longer times are due to frames that the driver skipped.
 std::int64_t frame_period_us() {
     std::int64_t shortest_us = 1'000'000;
     std::int64_t last_us = 0;

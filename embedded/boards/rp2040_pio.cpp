@@ -171,7 +171,7 @@ Frame start_frame(std::int64_t not_before_us) {
     for (int row = 0; row < kTop; ++row)
         next_row();
     // The time of the frame is the time at which its middle row will arrive, half a frame after the
-    // first row. A row arrives at about the end of its exposure.
+    // first row. The exposure of the middle row ends at about this time.
     constexpr std::int64_t kRow_us = 66'667 / 510;
     return {kWidth_px, kHeight_px,
             static_cast<std::int64_t>(time_us_64()) + kRow_us * kHeight_px / 2};

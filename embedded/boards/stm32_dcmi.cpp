@@ -2,7 +2,7 @@
 // MT9V034 or OV9281. The port was reviewed, but neither compiled nor run. The camera must already
 // have been configured over I2C.
 //
-// DCMI crops the frame to its central part and writes it by DMA to two row buffers in turn.
+// DCMI crops each frame to its central part, and DMA writes the rows alternately to two buffers.
 // Settings in CubeMX: DCMI with 8 bits and its interrupt enabled; circular DMA of DCMI with
 // word-sized transfers; TIM2 running as a 32-bit microsecond counter; USART2 at 115200 baud. Call
 // run_device() instead of the main loop of the generated program, and compile main.cpp with

@@ -1,5 +1,5 @@
-// Port for an emulated board: qemu-system-arm -M microbit (nRF51822) with its serial line. A file
-// of frames, which the emulator opens for the program, replaces the camera.
+// Port for an emulated board with a serial line: qemu-system-arm -M microbit (nRF51822). A file of
+// frames replaces the camera. The emulator opens this file for the program.
 //
 // The file is a sequence of binary PGM images (P5, 8 bits, no comments). The simulated camera
 // delivers a frame every 20 ms, even if the program does not read it.

@@ -8,8 +8,8 @@
 /// `DeviceMemoryFor<160, 120>` or `DeviceMemoryFor<320, 240>`, or `DeviceMemoryFor<36, 36>` with
 /// known sheets.
 ///
-/// Include this header before all other dotpose headers, because this header name is the only one
-/// by which Arduino finds the library.
+/// Include this header before all other dotpose headers, because Arduino finds the library only by
+/// the name of this header.
 #pragma once
 
 #include "dotpose/frame_pacer.hpp"

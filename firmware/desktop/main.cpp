@@ -1,6 +1,6 @@
-// Runs the firmware program on a desktop. The devices must print the same lines. With --predict,
-// writes a file of frames in which each frame is preceded by a prediction, so the devices track the
-// frames.
+// Runs the firmware program on a desktop, to obtain the lines that the devices must print. With
+// --predict, writes a file of frames in which each frame is preceded by a prediction, so the
+// devices track the frames.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

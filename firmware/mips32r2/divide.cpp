@@ -1,6 +1,6 @@
 // 64-bit division, which is the only libgcc function that the core calls. Debian's libgcc cannot be
-// used, because it is compiled as plain MIPS32 code, which short calls from microMIPS code cannot
-// reach.
+// used, because it is compiled as plain MIPS32 code, and the short call instructions of microMIPS
+// cannot switch to plain MIPS32.
 #include <algorithm>
 #include <bit>
 #include <cstdint>

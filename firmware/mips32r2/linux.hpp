@@ -1,5 +1,5 @@
-/// Linux system calls with the o32 ABI, which QEMU provides in user mode. The programs use them
-/// instead of the peripherals of a board.
+/// Linux system calls with the o32 ABI, as provided by QEMU in user mode. The firmware programs use
+/// these system calls instead of the peripherals of a board.
 #pragma once
 
 #include <cstddef>

@@ -28,12 +28,14 @@ namespace dotpose {
 
 /// Odds for each code variant of a sheet, given all frames so far.
 ///
+/// Each frame divides the odds of a variant by the likelihood ratio of this variant: the likelihood
+/// of the frame's bits in the variant that explains these bits best, divided by their likelihood in
+/// this variant.
+///
 /// Consecutive frames at one place show the same dots with the same defects, so they are not
-/// independent. Together, they have the weight of a single frame: the odds of a variant are divided
-/// by the mean of its likelihood ratios in these frames. The likelihood ratio of a variant is the
-/// likelihood of the frame's bits in the variant that explains them best, divided by their
-/// likelihood in this variant. A frame is at the same place as the preceding frames if it is less
-/// than 64 cells from the first of them along both axes.
+/// independent. Together, they have the weight of a single frame: the odds are divided by the mean
+/// of the likelihood ratios of these frames. A frame is at the same place as the preceding frames
+/// if it is less than 64 cells from the first of them along both axes.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or odds of each code variant, in units of 2^-8.
@@ -83,9 +85,8 @@ struct CodeReading {
     CodeEvidence evidence;                  ///< evidence including this frame
     /// True if a place in another code variant also explains the frame. The members below describe
     /// that place. `Locator::locate_in_any_code` sets the flag only with the status ambiguous_code.
-    /// `Locator::locate_in_code` also sets it in the cases that the comment on that function lists.
-    /// If the fix is ok, `Fix::p_wrong_log2` does not include the probability that the other place
-    /// is correct.
+    /// `Locator::locate_in_code` also sets the flag in the cases listed in its comment. If the fix
+    /// is ok, `Fix::p_wrong_log2` does not include the probability that the other place is correct.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
     /// `Fix::cell` of the other place. The fractions and the angle are the same as in `fix`.

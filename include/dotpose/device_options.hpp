@@ -34,8 +34,8 @@ struct FixedLens {
 };
 
 /// Thresholds that separate dots from paper (paper, section II-B.1). A DeviceLocator uses these
-/// values. The second attempt (see Effort) derives lower thresholds from them, because it filters
-/// the image first.
+/// values. The second attempt (see Effort) filters the image first, and therefore uses lower
+/// thresholds, which it derives from these values.
 struct ThresholdOptions {
     /// Low threshold, in 1/256 of the local contrast. All pixels in a blob must be at least this
     /// much darker than the paper. Smaller values merge neighbouring dots. Larger values lose

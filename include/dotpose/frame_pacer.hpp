@@ -31,9 +31,9 @@ struct PacerOptions {
     std::int64_t stationary_period_us = 1'000'000;
     /// Frame period while moving. With the default of 0, frames are captured as fast as possible.
     std::int64_t moving_period_us = 0;
-    /// Displacement along either axis that counts as movement, in units of 2^-16 spacings, measured
-    /// from the position at which the device came to rest. Must be well above the noise of fixes at
-    /// rest. Default: a tenth of a spacing.
+    /// Minimum displacement along either axis that counts as movement, in units of 2^-16 spacings.
+    /// The displacement is measured from the position at which the device came to rest. Must be
+    /// well above the noise of fixes at rest. Default: a tenth of a spacing.
     std::int32_t moved_q16 = 6554;
     /// Rotation that counts as movement, as a binary angle: 2^31 is half a turn. Default: one
     /// degree.

@@ -139,13 +139,15 @@ class Locator : public RowLocator {
     /// Locates an image from a camera that has moved by `since_last` since the previous image. If
     /// the previous image was located, first searches near the place that the motion predicts.
     ///
-    /// Successive images that are located with a motion form a series, which may include images
-    /// without a pattern. If this image alone does not make the position certain, combines its bits
-    /// with those of the previous images in the series. A moving camera can therefore obtain a fix
-    /// from views that are individually too small or too dirty. `Fix::frames` is the number of
-    /// images whose bits were combined. Locating an image without a motion ends the series. An
-    /// unusable motion (see `MeasuredMotion::is_usable`) or an unknown spacing of the printed grid
-    /// also ends the series, and the image is located without the previous images.
+    /// Consecutive calls that pass a motion form a series, which may include images without a
+    /// pattern. If the current image alone does not make the position certain, its bits are
+    /// combined with those of the previous images in the series. A moving camera can therefore
+    /// obtain a fix from views that are individually too small or too dirty. `Fix::frames` is the
+    /// number of images whose bits were combined.
+    ///
+    /// A call without a motion ends the series. A call with an unusable motion (see
+    /// `MeasuredMotion::is_usable`), or with an unknown spacing of the printed grid, also ends the
+    /// series, and locates its image without the previous images.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
     /// Locates an image whose code variant is not known. Considers places in all code variants,

@@ -18,8 +18,9 @@ namespace dotpose {
 /// Options for a Locator. All options apply to every attempt, and also to images that are pushed
 /// row by row.
 struct LocatorOptions {
-    /// Code variant of the sheet. By default, it is detected from all frames so far. If two code
-    /// variants explain a frame about equally well, the status is ambiguous_code.
+    /// Code variant of the sheet. If none is given, the locator detects the variant from all frames
+    /// so far. If two code variants explain a frame about equally well, the status is
+    /// ambiguous_code.
     std::optional<CodeVariant> code;
     /// Spacing of the printed grid. Used to convert positions to millimetres. Default: 0.508 mm, as
     /// in the paper. Use 0 if the spacing is unknown. [0 to 1000 mm]

@@ -44,11 +44,10 @@ class AnyDeviceMemory {
     friend class DeviceLocator;
 };
 
-/// Memory for a DeviceLocator that processes frames of Width x Height px. The end of this header
-/// lists the supported sizes. Frames may be smaller. The memory for 36 x 36 px is intended for the
-/// sensors of optical mice, whose frames can be located only on known sheets
-/// (DeviceLocator::set_known). Memory for a width of 160 or 188 px also supports frames with more
-/// rows than Height.
+/// Memory for a DeviceLocator that processes frames of up to Width x Height px. The end of this
+/// header lists the supported sizes. The memory for 36 x 36 px is intended for the sensors of
+/// optical mice, whose frames can be located only on known sheets (DeviceLocator::set_known).
+/// Memory for a width of 160 or 188 px also supports frames with more rows than Height.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:

@@ -54,8 +54,8 @@ inline constexpr int kStatusCount = static_cast<int>(Status::ambiguous_code) + 1
 /// numbers that this version does not define.
 const char* name(Status status) noexcept;
 
-/// Returns a plain sentence for the user, without a full stop, that is true for every frame with
-/// this status.
+/// Returns a sentence that explains the status to the user, without a full stop. The sentence is
+/// true for every frame with this status.
 const char* message(Status status) noexcept;
 
 }  // namespace dotpose

@@ -17,8 +17,9 @@ struct Character {
     std::size_t bytes = 0;
 };
 
-/// Decodes the first character of a string, which must not be empty. According to table 3-7 of the
-/// Unicode standard, overlong sequences, surrogates and code points above U+10FFFF are invalid.
+/// Decodes the first character of a string, which must not be empty. If the UTF-8 sequence is
+/// invalid, the result has `bytes` = 0. Overlong sequences, surrogates and code points above
+/// U+10FFFF are invalid (Unicode standard, table 3-7).
 Character first_of(std::string_view text) {
     const auto byte = [&text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     if (byte(0) < 0x80) return {byte(0), 1};

@@ -11,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
-/// Tolerance for comparing lengths, in mm. Decimal lengths have no exact binary representation. A
-/// tenth of a nanometre is far below the accuracy of any printer.
+/// Tolerance for comparing lengths, in mm. A tolerance is necessary because decimal lengths have no
+/// exact binary representation. A tenth of a nanometre is far below the accuracy of any printer.
 inline constexpr double kTolerance_mm = 1e-7;
 
 /// Throws BadArgument unless each side of a page is in (0, kMaxPage_mm].

@@ -8,8 +8,7 @@
 namespace dotpose::calibrate {
 
 /// Replaces the dots that `locate` read in each frame with all blobs close to a dot position
-/// predicted by `fit`. If a frame has fewer than half as many such blobs as dots read by `locate`,
-/// the frame keeps the dots read by `locate`.
+/// predicted by `fit`. A frame keeps its dots if it has fewer than half as many such blobs as dots.
 ///
 /// `locate` reads only the dots that it needs for a pose. If the camera is slightly tilted, the
 /// plane that `locate` fits is inaccurate in the corners of the image, so `locate` omits dots with

@@ -182,8 +182,8 @@ double PrintField::bad_fraction() const {
 namespace {
 
 /// If the fraction of wrong bits exceeds kSuspicious in any field, checks whether the page uses a
-/// different code variant. If so, only the wrong variant is reported, because it causes all other
-/// findings.
+/// different code variant. In this case, the finding about the code variant replaces all other
+/// findings, because the wrong code variant causes them.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;

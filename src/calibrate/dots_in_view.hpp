@@ -29,8 +29,8 @@ struct CodeDot {
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< offset in the print map, in spacings
 };
 
-/// Returns the dot of the code at the offset `step` from `trace.decoding.place`. Returns nullopt if
-/// `view` has a map for which this dot was not measured.
+/// Returns the dot of the code at the offset `step` from `trace.decoding.place`. If `view` has a
+/// map, returns nullopt for dots that were not measured for this map.
 std::optional<CodeDot> code_dot(const PatternView& view, const Trace& trace, FixedVec step);
 
 /// Returns the position of a dot on the paper, together with the undistorted pixel at which it was

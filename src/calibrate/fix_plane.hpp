@@ -7,8 +7,11 @@
 
 namespace dotpose::calibrate {
 
-/// Map from a pixel to a position: at + linear q / (1 + perspective . q + lens q^2), where
-/// q = pixel - centre_px.
+/// Map from a pixel to a position in the pattern:
+///
+///   at + linear q / (1 + perspective . q + lens |q|^2)
+///
+/// where q = pixel - centre_px.
 struct FixPlane {
     FixPlane() = default;
     explicit FixPlane(const PlaneFromImage& fixed) {

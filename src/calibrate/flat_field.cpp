@@ -1,5 +1,5 @@
-// Computes the flat field of a camera from the mean of many frames. If the camera moves between the
-// frames, dots darken all pixels of the mean equally.
+// Computes the flat field of a camera from the mean of many frames. The camera must move between
+// the frames, so that the dots darken all pixels of the mean equally.
 #include <cmath>
 #include <optional>
 
@@ -41,8 +41,9 @@ MatrixXd mean_of(int frames, const FrameAt& frame_at, const std::optional<Camera
     return sum / (255.0 * frames);
 }
 
-/// Returns a matrix that interpolates the values of a flat field linearly along one axis, with one
-/// row per pixel. The positions of the values are equidistant, from the first to the last pixel.
+/// Returns a matrix that interpolates the values of a flat field linearly along one axis. The
+/// matrix has one row per pixel and one column per value. The values are equally spaced, from the
+/// first to the last pixel.
 MatrixXd interpolation(Index pixels, Index longer_side) {
     const double distance_px = std::max(static_cast<double>(longer_side - 1) / kIntervals, 1.0);
     const auto values = std::max(
@@ -92,8 +93,9 @@ FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                         "of the brightest part: light the paper more evenly",
                         100 * kMinFlatField));
     }
-    // Dots cover a tenth of the paper. They cause an rms deviation of 25 % in a single frame and of
-    // 6 % in the mean of 20 frames.
+    // Maximum rms deviation of the mean of the frames from a smooth flat field. Dots cover a tenth
+    // of the paper, which causes a deviation of 25 % in a single frame, and of 6 % in the mean of
+    // 20 independent frames.
     constexpr double kMaxResidual = 0.08;
     if (!(result.residual <= kMaxResidual)) {
         throw Error(

@@ -63,8 +63,8 @@ struct Seen {
 struct MountedResidual {
     Seen seen;
 
-    /// Returns the position on the paper in mm, relative to the point under the distortion centre
-    /// and along the image axes at that point.
+    /// Returns the position on the paper, in mm. The origin is the point under the distortion
+    /// centre, and the axes are the image axes at that point.
     template <typename T>
     std::array<T, 2> on_paper(const T* lens, const T* paper) const {
         const auto [a, b] = seen.undistorted(lens);

@@ -34,8 +34,8 @@ struct LensFit {
     SharedModel sigma;  ///< standard deviations of `camera`
     /// Covariance of `camera.lens` and `camera.paper`. Set only if the camera is mounted.
     Eigen::MatrixXd mounted_covariance;
-    /// Pose of each frame: x and y in mm from `LocatedFrame::place`, and the rotation in radians.
-    /// For a hand-held camera, also mm per px and the two tilts in radians.
+    /// Pose of each frame: x and y in mm relative to `LocatedFrame::place`, and the rotation in
+    /// radians. For a hand-held camera, also mm per px and the two tilts in radians.
     std::vector<std::array<double, 6>> poses;
     /// Residual of each dot in each frame.
     std::vector<std::vector<std::array<double, 2>>> residuals_px;

@@ -19,9 +19,10 @@ namespace dotpose::calibrate {
 
 /// The equations for slow deformations. A deformation consists of a shift along x, a shift along y,
 /// and a change in the displacement of the dots. These three values are interpolated bilinearly
-/// between coarse nodes. They determine all unknowns of the map: the field is equal to the shifts,
-/// the offset of a dot is the shift plus the change in its displacement, and the terms of a frame
-/// are a least-squares fit to the offsets of its dots.
+/// between coarse nodes, and determine all unknowns of the map:
+/// - The field is equal to the shifts.
+/// - The offset of a dot is the shift plus the change in the displacement of the dot.
+/// - The terms of a frame are a least-squares fit to the offsets of its dots.
 class MapDeformation {
   public:
     MapDeformation(const MapGrid& grid, const EarlierOffsets& earlier,
@@ -31,8 +32,9 @@ class MapDeformation {
     /// to `result`.
     void add_solution(const MapUnknowns& residual, MapUnknowns& result) const;
 
-    /// Returns the covariance of three linear functions of the deformation. Each row of `functions`
-    /// contains the coefficients of all unknowns. The unknowns of a node begin at `first_term`.
+    /// Returns the covariance of three linear functions of the deformation. Row i of `functions`
+    /// contains the coefficients of function i. The coefficients for node n begin at column
+    /// first_term(n).
     Eigen::Matrix3d covariance_of(const Eigen::Matrix<double, 3, Eigen::Dynamic>& functions) const;
     /// Returns the coarse nodes.
     const MapField& nodes() const { return nodes_; }
@@ -44,9 +46,9 @@ class MapDeformation {
   private:
     using Following = Eigen::Matrix<float, kFrameTerms, Eigen::Dynamic>;
 
-    /// Response of a frame to a deformation. Each column of `terms` belongs to one unknown of the
-    /// coarse nodes around the frame's dots: it contains the terms of the frame if this unknown is
-    /// 1 and all other unknowns are 0.
+    /// Response of a frame to a deformation. `nodes` are the coarse nodes around the frame's dots.
+    /// Each column of `terms` belongs to one unknown of these nodes. The column contains the terms
+    /// that the frame has if this unknown is 1 and all other unknowns are 0.
     struct Follower {
         std::vector<std::uint32_t> nodes;
         Following terms;  ///< columns: shift x, shift y and displacement of each node

@@ -63,8 +63,9 @@ Vector2d middle_of(const MapGrid& grid) {
     return grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;
 }
 
-/// Returns the similarity fitted to all dots that were seen, as a linear function of the shifts of
-/// the nodes. If the gauge is fixed, this similarity has been removed from the map.
+/// Returns the similarity fitted to the shifts at all dots that were seen, as a linear function of
+/// the shifts of the deformation nodes. If the gauge is `Gauge::fixed`, `fix_gauge` has removed
+/// this similarity from the map.
 SimilarityRows page_similarity(const MapGrid& grid, const MapSolution& solution,
                                const MapDeformation& deformation) {
     SimilarityOfShifts fit(deformation, grid, middle_of(grid));
@@ -76,7 +77,7 @@ SimilarityRows page_similarity(const MapGrid& grid, const MapSolution& solution,
 }
 
 /// Returns the similarity fitted to the part of the page in a view, as a linear function of the
-/// shifts of the nodes. The view is a square whose diagonal is twice `reach_mm`.
+/// shifts of the deformation nodes. The view is a square whose diagonal is twice `reach_mm`.
 SimilarityRows view_similarity(const MapGrid& grid, double reach_mm, const Vector2d& centre_mm,
                                const MapDeformation& deformation) {
     constexpr int kSamples = 9;  // number of samples along each axis

@@ -26,8 +26,8 @@ class MapView {
                rotation_.transpose() * (target - frame_.place_mm);
     }
 
-    /// Position (x, y) of an observation, in units of the reach, and the direction in which its dot
-    /// is displaced. The derivatives of the residual depend only on these values.
+    /// Position (x, y) of an observation, in units of `reach_mm`, and the direction in which its
+    /// dot is displaced. The derivatives of the residual depend only on these values.
     struct Terms {
         double x;
         double y;
@@ -44,8 +44,8 @@ class MapView {
                     frame[1] + frame[2] * x + y * (scale - shared[1]) + x * shared[2] -
                         frame[3] * direction.y()};
         }
-        /// Multiplies the transposed derivatives by `g`. Adds the elements of the product that
-        /// belong to the frame to `frame`, and the element of the lens distortion to `distortion`.
+        /// Multiplies the transposed derivatives by `g`. Adds the result for the parameters of the
+        /// frame to `frame`, and the result for the lens distortion to `distortion`.
         void add_transposed(const Eigen::Vector2d& g, FrameVector& frame,
                             double& distortion) const {
             const double along = x * g.x() + y * g.y();
@@ -80,9 +80,9 @@ class MapView {
     Eigen::Matrix2d rotation_;
 };
 
-/// Adds the prior on the view terms to `block`, the matrix of the normal equations of a frame. The
-/// equations must already be multiplied by `variance`. The prior makes `block` invertible even if
-/// the dots of the frame do not determine all terms.
+/// Adds the prior on the view terms to `block`, the matrix of the normal equations of a frame.
+/// `variance` is the factor by which the equations have been multiplied. The prior makes `block`
+/// invertible even if the dots of the frame do not determine all terms.
 inline void add_view_prior(const MapSolution& solution, double variance, FrameBlock& block) {
     for (int k = 0; k < kViewTerms; ++k) {
         const double sigma = solution.view_sigma[static_cast<std::size_t>(k)];

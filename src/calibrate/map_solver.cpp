@@ -176,11 +176,11 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
 }
 
 /// Removes the mean shift, scale and turn from all offsets, because views of the page do not
-/// determine these means. The means form a similarity fitted to the dots that were seen. Its
-/// inverse is applied to the complete positions of the dots, not only to their intersections,
-/// because offsets and displacements turn with the page. For example, a turn by 0.003 rad changes
-/// the 40 µm offsets of a feed wave by 0.13 µm, and moves a dot with a displacement of 85 µm by
-/// 0.26 µm.
+/// determine them. Fits a similarity (shift, scale and turn) to the offsets of the dots that were
+/// seen, and applies its inverse to the positions of all dots. The position of a dot includes its
+/// displacement and its offset, because both turn with the page. For example, a turn by 0.003 rad
+/// changes the 40 µm offsets of a feed wave by 0.13 µm, and moves a dot with a displacement of
+/// 85 µm by 0.26 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;

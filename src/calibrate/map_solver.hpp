@@ -16,8 +16,8 @@
 
 namespace dotpose::calibrate {
 
-/// Observation of a dot in one frame: the index of the dot on the page, and its position on the
-/// paper in mm, in the camera frame.
+/// Observation of a dot in one frame: the index of the dot on the page, and the measured position
+/// of the dot on the paper, in mm, in the camera frame.
 struct MapObservation {
     /// Bit that marks an observation as an outlier. Outliers are not used.
     static constexpr std::uint32_t kOutlier = 1U << 31;

@@ -24,19 +24,20 @@ struct MapSighting {
     PlaneFromImage plane;
 };
 
-/// Adds the dots of a fix that are on the page. Their coordinates are undistorted and in px until
-/// `start_map` converts them to mm. Returns false and adds nothing if fewer than `min_dots` dots
-/// are on the page.
+/// Adds the dots of `fix` that are on `page` to `observations`, and adds the frame to `frames`. The
+/// coordinates of the observations are undistorted and in px until `start_map` converts them to mm.
+/// If fewer than `min_dots` dots are on the page, adds nothing and returns false.
 bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::size_t min_dots,
                   std::vector<MapSighting>& frames, std::vector<MapObservation>& observations);
 
 /// Converts the observations to positions on the paper in the camera frame, and adds the frames
-/// with their approximate poses to `solution`. All frames use the view in the camera file or, if
-/// the file has no view, the median of their views. If the file has no view and the camera was
-/// hand-held, each frame uses its own view. Scales all positions so that the median scale between
-/// the frames and the page is 1. The positions of the dots on the page include their offsets in the
-/// earlier map. Returns the maximum distance between a dot and the origin of the camera frame, in
-/// mm.
+/// with their approximate poses to `solution`. The view that is used for the conversion is
+/// - the view in the camera file, if the file has one,
+/// - otherwise, if the camera was mounted, the median of the views of all frames,
+/// - otherwise, if the camera was hand-held, the view of each frame.
+/// Scales all positions so that the median scale between the frames and the page is 1. The
+/// positions of the dots on the page include their offsets in the earlier map. Returns the maximum
+/// distance between a dot and the origin of the camera frame, in mm.
 double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
                  const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
                  std::vector<MapObservation>& observations, MapSolution& solution);

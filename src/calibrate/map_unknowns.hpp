@@ -7,8 +7,9 @@
 
 namespace dotpose::calibrate {
 
-/// Unknowns of a map. The positions, angles (multiplied by the reach) and displacements of the
-/// frames are relative to the frames of the solution. All other values are absolute.
+/// Unknowns of a map. The positions, angles and displacements in `frames` are relative to the
+/// frames of the solution. The positions are in the camera frame, and the angles are multiplied by
+/// `MapSolution::reach_mm`. The view terms, `camera` and `field` are absolute values.
 struct MapUnknowns {
     std::vector<FrameVector> frames;
     CameraVector camera = CameraVector::Zero();

@@ -32,8 +32,8 @@ MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace);
 /// Adds the covariance of the map error at the position of a fix to the covariance of the fix.
 void add_map_error(const MapPage& page, Fix& fix);
 
-/// Returns true if the variances of the residuals with and without the map show that the map
-/// belongs to this print. `noise` is the noise of the map, in the same unit as the residuals.
+/// Returns true if the map belongs to this print. Compares the variances of the residuals with and
+/// without the map. `noise` is `MapPage::noise`, in the same unit as the residuals.
 bool is_same_print(double variance_with_map, double variance_without, double noise);
 
 }  // namespace dotpose::calibrate

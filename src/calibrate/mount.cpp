@@ -35,8 +35,8 @@ constexpr double kFalseDrift = 1e-3;
 /// Minimum number of frames required to distinguish a drift from noise.
 constexpr int kMinDriftFrames = 5;
 
-/// Position of the image centre in one frame, in mm from the cell of the first frame, and angle of
-/// the image x axis.
+/// Position of the image centre in one frame, and angle of the image x axis. The position is in mm
+/// relative to the cell of the first fix.
 struct Station {
     Vector2d place_mm;
     double theta_rad = 0;
@@ -225,9 +225,9 @@ double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on
     return (drifting.offset - on_the_spot.offset).norm() / std::numbers::sqrt2;
 }
 
-/// Throws Error if the centre of rotation is not accurate enough. If the residual is above one
-/// spacing, the robot did not turn on the spot. If the uncertainty is above half a spacing, the
-/// cell under the centre is uncertain.
+/// Throws Error if the centre of rotation is not accurate enough:
+/// - The residual is above one spacing, so the robot did not turn on the spot.
+/// - The uncertainty is above half a spacing, so the cell under the centre is uncertain.
 void require_spin(const SpinCalibration& spin, double spacing_mm) {
     if (spin.residual_mm > spacing_mm) {
         throw Error(

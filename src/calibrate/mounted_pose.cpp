@@ -264,8 +264,9 @@ MappedMovingFix with_camera_and_map(const Fix& seen, const Camera& camera, const
         result.dots_used = pose.dots;
         result.dots_seen = std::max(result.dots_seen, result.dots_used);
         result.residual_px = static_cast<float>(std::sqrt(pose.variance) * fix.spacing_px());
-        // The angle is defined at the image centre. At other pixels, the image rows of a tilted
-        // camera have a different direction on the paper.
+        // Theta is defined at the image centre, so the direction of the image x axis is computed
+        // there. At other pixels, the image rows of a tilted camera have a different direction on
+        // the paper.
         const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
         theta_rad =
             std::atan2(pose.parameters[3], pose.parameters[2]) + image_axis_rad(camera, centre);

@@ -127,8 +127,8 @@ Step improved(const std::vector<PivotView>& views, const Points& start) {
     return step;
 }
 
-/// Returns the covariance of the points due to dot errors. The error of a dot is the same in all
-/// frames that show the dot.
+/// Returns the covariance of the points that results from dot errors. The error of a dot is the
+/// same in all frames that show the dot.
 Matrix6d covariance_of_dots(const std::vector<PivotView>& views, const Step& step) {
     std::unordered_map<std::uint64_t, Vector6d> shifts;
     for (std::size_t i = 0; i < views.size(); ++i) {

@@ -37,9 +37,9 @@ struct PivotFit {
     double error_ratio = 1;  ///< rms residual, relative to the value expected from the pose errors
 };
 
-/// Returns the rms change in the direction of an axis of the camera frame, for the axis whose
-/// direction changes least. The result is 0 if all rotations are about the same axis. The position
-/// of the tip along this axis is then not determined.
+/// Returns the smallest rms change of direction, in rad, that any axis fixed to the camera
+/// undergoes between the views. The result is 0 if all rotations are about the same axis. The
+/// position of the tip along this axis is then not determined.
 double pivot_angle_rad(const std::vector<PivotView>& views);
 
 /// Fits the tip by weighted least squares. Views that contradict the majority are not used.

@@ -57,9 +57,9 @@ std::optional<std::array<SpaceState, 2>> plane_starts(const std::vector<SpaceDot
                                                       const Vector2d& focal_px) {
     const LocalView view = local_view(dots, focal_px);
     if (!view.per_mm.allFinite() || !view.ray.allFinite()) return std::nullopt;
-    // Rotates the camera towards the middle of the dots. In the frame of the rotated camera, the
-    // derivative is the upper left 2 x 2 block of the paper's rotation matrix, divided by the
-    // distance.
+    // Rotates the camera towards the middle of the dots. `local` is the derivative of the viewing
+    // direction in the frame of the rotated camera. It equals the upper left 2 x 2 block of the
+    // paper's rotation matrix, divided by the distance.
     const Matrix3d turn =
         Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), view.ray.homogeneous())
             .toRotationMatrix();

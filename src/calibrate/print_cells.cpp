@@ -16,14 +16,15 @@ constexpr double kMinLineShare = 0.5;
 /// any column or row.
 constexpr double kMinLength = 0.15;
 
-/// Minimum fraction of correct dots among the dots in an outer line. A quarter of the dots are
-/// correct by chance. If the line belongs to a different region of the code whose columns happen to
-/// match those of the field, half of the dots are correct.
+/// Minimum fraction of correct dots among the dots in an outer line. If the line is outside the
+/// field, a quarter of its dots are correct by chance. Half of its dots are correct if the line is
+/// in a different region of the code, and the columns of this region happen to match the columns of
+/// the field.
 constexpr double kMinRightShare = 0.7;
 
-/// Returns the located tiles whose maps are used to predict the cells of a tile: the tile itself
-/// or, if it has no fix, its neighbours. For example, a tile that shows only the edge of a field
-/// has no fix.
+/// Returns the located tiles whose maps are used to predict the cells of a tile. If the tile has a
+/// fix, the result is the tile itself. Otherwise, the result contains the located tiles next to it.
+/// A tile has no fix, for example, if it shows only the edge of a field.
 std::vector<const LocatedTile*> views_of(int tile, const Tiling& tiling, const Field& field) {
     if (const auto& own = field.tiles[static_cast<std::size_t>(tile)]) return {&*own};
     std::vector<const LocatedTile*> views;

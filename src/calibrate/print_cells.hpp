@@ -20,8 +20,8 @@ struct CellGrid {
     }
 };
 
-/// Measures all cells of a field. Removes outer columns and rows until the outermost lines belong
-/// to the field. If no line remains, the grid has no columns.
+/// Measures all cells of a field, and returns them as a grid. Outer columns and rows that do not
+/// belong to the field are removed. If no cells remain, the grid has no columns.
 CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field& field);
 
 }  // namespace dotpose::calibrate

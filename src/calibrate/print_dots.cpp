@@ -160,10 +160,10 @@ class Meter {
         return offset;
     }
 
-    /// Returns true if the border of a cell is darker or lighter than `paper_` by more than
-    /// `min_darkness`. It may be lighter because `paper_` is too dark if grey print fills most of
-    /// the tile. The middles of the four sides are not checked, because swollen dots may merge
-    /// there.
+    /// Returns true if the border of a cell differs from `paper_` by more than `min_darkness`, in
+    /// either direction. The border may be lighter than `paper_`, because `paper_` is too dark if
+    /// grey print fills most of the tile. The middles of the four sides are not checked, because
+    /// swollen dots may merge there.
     bool is_covered(const Vector2d& intersection_px, double min_darkness) const {
         const Vector2d x = map_.px_per_cell.col(0);
         const Vector2d y = map_.px_per_cell.col(1);

@@ -25,8 +25,8 @@ struct SeenCell {
     std::uint32_t x = 0;  ///< column of the cell
     std::uint32_t y = 0;
     Symbol nominal = Symbol::up;
-    /// True if print that is not part of the pattern, such as text, crosses the border of the cell.
-    /// Dots do not extend to this border.
+    /// True if the border of the cell is not blank. Dots do not extend to the border, so something
+    /// that is not part of the pattern, such as text, is printed there.
     bool is_covered = false;
     /// Symbol that was read. This member and all members below except `strength` are valid only if
     /// `has_dot` is true.

@@ -12,10 +12,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Maximum difference, in cells, between the positions that the maps of two tiles of one field
-/// predict for the same pixel. The maximum is kAgree_cells plus kAgreeShare times the distance
-/// between the centres of the tiles. A difference is permitted because paper stretches and a camera
-/// adds perspective.
+/// Two tiles belong to the same field if their maps predict nearly the same position, in cells, for
+/// the same pixel. The positions may differ by kAgree_cells plus kMinAgreeing times the distance
+/// between the centres of the tiles in cells, because paper stretches and a camera adds
+/// perspective.
 constexpr double kAgree_cells = 1.5;
 constexpr double kMinAgreeing = 0.05;
 

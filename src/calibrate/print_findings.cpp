@@ -34,8 +34,9 @@ constexpr double kThinGain = -0.3;
 constexpr double kNotableFraction = 0.01;
 constexpr double kMinContrast = 0.2;
 /// If the spacing in the scan is less than kCoarse_px, faults of individual dots may be due to the
-/// scan. They are attributed to the scan if the scatter of the dots is more than kCoarseScatter
-/// spacings, if more than kCoarseWrongShare of the bits are wrong, or if dots are blurred together.
+/// scan. These faults are attributed to the scan if the scatter of the dots is more than
+/// kCoarseScatter spacings, if more than kCoarseWrongShare of the bits are wrong, or if dots are
+/// blurred together.
 constexpr double kCoarse_px = 10;
 constexpr double kCoarseScatter = 0.05;
 constexpr double kCoarseWrongShare = 0.001;

@@ -55,8 +55,9 @@ std::int16_t to_q14(double spacings) {
 }
 
 /// Converts the covariances from mm to spacings. If an earlier map is updated, adds the covariances
-/// of its errors, because its slowly varying errors remain in the result. The equations do not
-/// include these errors: they assume that the errors of the earlier offsets are independent.
+/// of its errors. The slowly varying errors of the earlier map remain in the result, but `found`
+/// does not include them, because the equations assume that the errors of the earlier offsets are
+/// independent.
 MapErrors errors_of(const MapGrid& grid, const MapErrorGrid& found, const EarlierOffsets& earlier,
                     const MapPage& page) {
     if (!earlier.views.empty() && page.errors.nodes.empty()) return {};

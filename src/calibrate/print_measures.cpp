@@ -20,8 +20,9 @@ constexpr double kInch_mm = 25.4;
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a distortion bin. Bins with fewer dots are not reported.
 constexpr int kMinBinDots = 60;
-/// Quantile of the darkness of the dots that is used as the darkness of solid ink, unless the
-/// expected darkness of the ink is greater.
+/// The darkness of solid ink is estimated as this quantile of the darkness of the dots. If the
+/// expected darkness of the ink is greater than the quantile, the expected darkness is used
+/// instead.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 
@@ -199,8 +200,8 @@ void measure_dots(const Measuring& m, const Fitted& fitted, PrintField& result) 
     result.dot_sigma_mm = kSigmaPerDeviation * quantile(diameters_mm, 0.5);
 }
 
-/// Determines whether the measured sizes and faults of dots in a photo are reliable. Noise, blur
-/// and the tone curve of the camera affect these measurements.
+/// Determines whether the measured sizes and faults of dots in a photo are reliable. In some photos
+/// they are not, because noise, blur and the tone curve of the camera affect these measurements.
 void judge_photo_of_dots(const Measuring& m, PrintField& result) {
     // Minimum diameter of a dot whose size can be measured. The edge of a dot has an uncertainty of
     // about one pixel.

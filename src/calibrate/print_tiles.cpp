@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kTileCells = 24;
 constexpr int kMaxTile_px = 2048;
-/// If the spacing in the scan is less than this value, tiles are magnified before they are located.
-/// The minimum spacing for `locate` is 6 px. The difference is a safety margin.
+/// Spacing in the scan below which tiles are magnified before they are located. Exceeds 6 px, the
+/// minimum spacing for `locate`, by a safety margin.
 constexpr double kSmallSpacing_px = 9;
 /// Number of crops that suffice to determine the spacing or the code.
 constexpr std::size_t kEnoughProbes = 40;
-/// Approximate maximum for the total number of pixels in a sample of crops, after magnification.
-/// The crops in a sample have the same size and are spread over the page.
+/// Approximate maximum of the total number of pixels in a sample of crops, after magnification. The
+/// crops in a sample have the same size and are spread over the page.
 constexpr int kSample_px = 8'000'000;
 
 /// Side and magnification of a crop. A crop must contain at least 8 x 8 cells.

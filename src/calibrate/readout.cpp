@@ -1,6 +1,6 @@
-// Finds the readout time of a rolling shutter from frames captured during a drive. The motion
-// during the readout of a frame is the velocity of the camera during this frame, multiplied by the
-// readout time. The velocity is computed from the previous and the next frame.
+// Finds the readout time of a rolling shutter from frames captured during a drive. The camera moves
+// during the readout of each frame, by its velocity multiplied by the readout time. The velocity is
+// computed from the previous and the next frame, and the readout time is fitted to all frames.
 #include <array>
 #include <cmath>
 #include <cstddef>

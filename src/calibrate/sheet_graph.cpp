@@ -114,8 +114,9 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Converts a pose from the camera frame of a view to the page frame of its sheet. The position of
-/// the pose is `in_camera`, and its direction is the x axis of the camera frame.
+/// Returns a pose in the page frame of the sheet that `view` shows. The position of the pose is the
+/// point `in_camera` in the camera frame, and its direction is that of the x axis of the camera
+/// frame.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);

@@ -36,9 +36,9 @@ class FrameSource {
   public:
     virtual ~FrameSource() = default;
 
-    /// Gets the next frame, or the newest frame from a camera. Returns false at the end or when
-    /// `SourceOptions::stop` returns true. If the source fails, first returns the frames captured
-    /// before the failure, and then throws Error.
+    /// Gets the next frame, or, if the source is a camera, its newest frame. Returns false at the
+    /// end of the source, or when `SourceOptions::stop` returns true. If the source fails, returns
+    /// the frames captured before the failure, and then throws Error.
     virtual bool next(Frame& frame) = 0;
 
     /// Returns the number of frames that were captured but not returned by `next`.
@@ -92,9 +92,9 @@ struct SourceOptions {
 /// Returns a region of an image. Throws BadArgument if the region extends beyond the image.
 GreyImage cropped(const GreyImage& image, const Region& region);
 
-/// Flips and crops a frame according to the options. Throws BadArgument if the region extends
-/// beyond the frame. Throws Error with `name` in its message if the frame size differs from
-/// `whole_size_px`.
+/// Flips and crops a frame according to the options. If the options contain a region, throws
+/// BadArgument if the region extends beyond the frame, and Error if the frame size differs from
+/// `options.whole_size_px`. The message of the Error contains `name`.
 void prepare(const SourceOptions& options, const std::string& name, GreyImage& image);
 
 /// Returns the time of frame `index` in microseconds: index / fps.

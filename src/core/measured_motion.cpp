@@ -14,8 +14,8 @@ bool MeasuredMotion::is_usable() const {
 MeasuredMotion followed_by(const MeasuredMotion& first, const MeasuredMotion& second) {
     const float c = std::cos(first.turn_rad);
     const float s = std::sin(first.turn_rad);
-    // Standard deviation of the endpoint due to the error of the first rotation. This error also
-    // turns the second displacement.
+    // Standard deviation of the endpoint due to the error of the first rotation, which turns the
+    // second displacement by the same angle.
     const float lever_mm = first.sigma_rad * std::hypot(second.right_mm, second.down_mm);
     return {.right_mm = first.right_mm + c * second.right_mm - s * second.down_mm,
             .down_mm = first.down_mm + s * second.right_mm + c * second.down_mm,

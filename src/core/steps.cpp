@@ -26,9 +26,9 @@ bool are_valid(const DeviceOptions& options) {
 
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
-    // Refuses small images if only the second attempt would be made, because this attempt requires
-    // sides of at least kMinFrameSide_px. With Decoder::window, only the second attempt is made,
-    // unless the effort is `device`.
+    // Rejects images smaller than kMinFrameSide_px if only the second attempt would be made,
+    // because this attempt requires sides of at least that length. With Decoder::window, only the
+    // second attempt is made, unless the effort is `device`.
     const bool may_be_small = options.effort == Effort::device || options.decoder == Decoder::all;
     if (std::min(width_px, height_px) < (may_be_small ? w.min_side_px : kMinFrameSide_px))
         return Status::image_too_small;

@@ -56,8 +56,8 @@ inline int min_dots(const DeviceOptions& options, const Workspace& w) {
 /// Selects the dots among the blobs and undistorts them. Errors: no_contrast, too_few_dots.
 Status find_dots(const DeviceOptions& options, Workspace& w);
 
-/// Finds the directions and spacings of the grid from edges between neighbouring dots. Uses at most
-/// `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
+/// Finds the directions and spacings of the grid from the vectors between neighbouring dots. Uses
+/// at most `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
 /// Chooses the region of the grid to decode. The memory for line scores limits the numbers of

@@ -60,8 +60,8 @@ class PhasesOfAxis {
     Line fit(int dots) const {
         const int first_q8 = halves_[0].q8();
         const int rise_q8 = static_cast<std::int8_t>(halves_[1].q8() - first_q8);
-        // The distance between the centroids of the two halves is twice the mean distance of a dot
-        // from the line between the halves.
+        // The slope is `rise_q8` divided by the distance between the centroids of the two halves.
+        // This distance is twice the mean distance of a dot from the line between the halves.
         return {static_cast<std::int8_t>(first_q8 + rise_q8 / 2),
                 (rise_q8 * dots * (1 << 15)) / std::max<std::int32_t>(across_q8_, 1)};
     }
@@ -135,8 +135,8 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     PhasesOfAxis along_y;
     const FixedVec middle_q8{at_q24_.x >> 16, at_q24_.y >> 16};
     // Maximum distance of the dots from the image centre along each axis: 3.5 cells. Dots farther
-    // out are not used. Their predicted centres may be wrong by more than half a spacing, because
-    // the predicted rotation is inaccurate.
+    // out are not used, because an error of the predicted rotation may move their predicted centres
+    // by more than half a spacing.
     constexpr std::int32_t kNear_q8 = 7 * 128;
     int count = 0;
     for (const DetectedDot& dot : all()) {

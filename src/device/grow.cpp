@@ -24,8 +24,8 @@ struct Square {
     }
 };
 
-/// Returns the set of plane points, in 2^-16 spacings, whose cells are at most `limit` cells from
-/// cell (0, 0) along each axis. The cell of a point is its integer part.
+/// Returns the set of plane points in cells that are at most `limit` cells from cell (0, 0) along
+/// each axis. The points are in units of 2^-16 spacings. The cell of a point is its integer part.
 Square cells_within(int limit) {
     return {static_cast<std::uint32_t>(-limit * 65536),
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};

@@ -19,8 +19,8 @@ bool lay_dot_pixels(Tracking& tracking) {
         for (std::size_t s = 0; s < 4; ++s) {
             const FixedVec displaced_q16 = tracking.displaced_q16[s];
             // The four pixels that are read for a dot must be inside the square around the
-            // intersection. Rounding changes the offset of the first pixel by at most 3/4 of a
-            // pixel.
+            // intersection. The limits allow for rounding, which changes the offset of the first
+            // pixel by at most 3/4 of a pixel.
             if (!is_within(displaced_q16, half_px * 65536 - 49153)) half_px = kHalf_px;
             if (!is_within(displaced_q16, kHalf_px * 65536 - 49153)) return false;
             const FixedVec place_q16 = in_pixel_q16 + displaced_q16;

@@ -14,7 +14,7 @@ constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
 }
 
-/// Stores a row as image row `Tracking::rows_taken`, and increments this number. The memory must
+/// Stores a row as image row `Tracking::rows_taken`, and increments `rows_taken`. The memory must
 /// have room for this row.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 

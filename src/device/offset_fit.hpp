@@ -13,7 +13,8 @@ namespace dotpose::core {
 class OffsetFit {
   public:
     /// Adds a dot and its offset, in 2^-24 cells. The offset must be at most 2^21, an eighth of a
-    /// cell, along each axis. The sums over 2^9 dots are then at most 2^27.
+    /// cell, along each axis. This limit ensures that the sums over 2^9 dots are at most 2^27, so
+    /// they fit in 32 bits.
     [[gnu::always_inline]] void add(const DetectedDot& dot, FixedVec offset_q24) {
         const FixedVec r{offset_q24.x >> 12, offset_q24.y >> 12};
         const FixedVec p{dot.centre_q8.x >> 6, dot.centre_q8.y >> 6};

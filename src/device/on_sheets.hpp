@@ -17,7 +17,7 @@ struct SheetFunctions {
     /// Otherwise, returns false.
     bool (*read)(const DeviceOptions& options, DeviceWorkspace& w);
     /// Returns true if the predicted place of a tracked frame is on the known sheets and the bits
-    /// of the frame make it certain (see `is_certain_place`).
+    /// of the frame make the place certain (see `is_certain_place`).
     bool (*verify)(const DeviceOptions& options, DeviceWorkspace& w);
     /// Prepares the workspace to store the rows of a small frame (see `begin_small_frame`).
     bool (*begin_small)(int width_px, int height_px, const DeviceOptions& options,

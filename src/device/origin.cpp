@@ -6,7 +6,8 @@ namespace dotpose::core {
 namespace {
 
 /// Maximum distance between `near_q8` and the dots that determine the origin, in cells along each
-/// axis. At larger distances, the first grid may be wrong by a third of a cell.
+/// axis. At larger distances, positions computed from the first grid may be off by a third of a
+/// cell.
 constexpr int kReach_cells = 4;
 
 /// Circular mean of dot offsets along one axis: the angle of a sum of unit vectors.

@@ -35,10 +35,10 @@ TrackedView view_of(const Tracking& tracking) {
             extent_q16(tracking.height_px)};
 }
 
-/// Finds the first visible cell, in the reading direction, in row `j`, row `j` + `j_step`, and so
-/// on. Stops at a row without a visible cell. The visible cells of a row are contiguous, and close
-/// to the visible cells of the previous row. Each search therefore starts at the result of the
-/// previous search.
+/// Finds, in each row of cells, the first visible cell in the reading direction. Starts at row `j`,
+/// continues in steps of `j_step`, and stops at a row without a visible cell. The visible cells of
+/// a row are contiguous, and close to the visible cells of the previous row. The search in a row
+/// therefore starts at the result for the previous row.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const RowDirection direction = row_direction(tracking);
@@ -87,9 +87,9 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
 
 /// Adds the next dot of a row to the sums. Skips the dot if it is too close to the border, if its
 /// mass is implausible, or if its centre is far from the predicted centre. The symbol of the dot
-/// must agree with the code. Masses are below 2^12, offsets are at most 2 px (2^9 units of
-/// 2^-8 px), and columns are at most 2^4 from the middle. The sums over a row of at most 32 dots
-/// are therefore at most 2^30.
+/// must agree with the code. The sums cannot overflow: masses are below 2^12, offsets are at most 2
+/// px (2^9 units of 2^-8 px), columns are at most 2^4 from the middle, and a row has at most 32
+/// dots, so each sum over a row is at most 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];

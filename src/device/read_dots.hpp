@@ -6,11 +6,13 @@
 namespace dotpose::core {
 
 /// Prepares the tracked cells for reading. The cells must already be fitted to the image. Returns
-/// false if the displacement of dots is too large for the squares around intersections.
+/// false if the dots are displaced so far that the pixels read for a dot may be outside the square
+/// around its intersection.
 bool begin_reading(Tracking& tracking);
 
 /// Reads all dots that have not been read yet and whose pixels have all arrived. If a dot agrees
-/// with the code, adds its offset from the predicted centre to the sums.
+/// with the code, adds its offset from the predicted centre to the sums from which the pose is
+/// fitted.
 void read_ready_dots(Tracking& tracking);
 
 }  // namespace dotpose::core

@@ -32,8 +32,8 @@ struct PlacedLines {
 };
 
 /// Returns the difference between the roll of a line and its roll in section 0, modulo 63. The
-/// difference is the same for all lines along an axis. It is the section of this axis plus the
-/// position on the other axis.
+/// difference is the same for all lines along an axis: the section of this axis plus the position
+/// on the other axis.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
@@ -97,10 +97,10 @@ int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int
     return log2_of_places_q8(std::max<std::uint64_t>(4 * places, 1024));
 }
 
-/// Returns an upper bound on the probability of an accidental match with an unknown sheet, as log2
-/// in units of 2^-8. Such a sheet has the same columns or the same rows as a known sheet, and
-/// agrees with the bits on the other axis by chance. On the other axis, only one position in 63 is
-/// possible, because the rolls of the matching lines determine this position modulo 63.
+/// Returns an upper bound on the probability that an unknown sheet matches by accident, as log2 in
+/// units of 2^-8. An accidental match has the columns or the rows of a known sheet, and agrees with
+/// the bits on the other axis by chance. On the other axis, only one position in 63 is possible,
+/// because the rolls of the matching lines determine this position modulo 63.
 int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const PlacedLines& x,
                           const PlacedLines& y, int bits, int odds_per_bit_q8) {
     std::uint32_t columns = 0;

@@ -17,13 +17,15 @@ namespace dotpose::core {
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options);
 
-/// Returns true if a place on the known sheets is certain. A place is certain if log2 of the bound
-/// on its probability of being wrong is at most IntegrityOptions::max_p_wrong_log2, and the
-/// fraction of wrong bits on each axis, in units of 1/256, is at most
-/// IntegrityOptions::max_bit_error_q8. `columns` and `rows` are the lines of the upright block, and
-/// `corner` is the place where the first column and the first row cross. If the result is true,
-/// sets `bit_errors`, `p_wrong_log2` and `prior` in the fix. Otherwise, may set `bit_errors` and
-/// `p_wrong_log2`.
+/// Returns true if a place on the known sheets is certain. A place is certain if
+/// - log2 of the bound on its probability of being wrong is at most
+///   IntegrityOptions::max_p_wrong_log2, and
+/// - the fraction of wrong bits on each axis, in units of 1/256, is at most
+///   IntegrityOptions::max_bit_error_q8.
+///
+/// `columns` and `rows` are the lines of the upright block, and `corner` is the place where the
+/// first column and the first row cross. If the result is true, sets `bit_errors`, `p_wrong_log2`
+/// and `prior` in the fix. Otherwise, may set `bit_errors` and `p_wrong_log2`.
 bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLines& columns,
                       const HardLines& rows, const Place& corner, const IntegrityOptions& options,
                       Fix& fix);

@@ -201,9 +201,9 @@ void SheetSearch::test_crossing(const KnownRegion& region, Axis axis, int quarte
     if (!PositionRange(along.first, along.size, block_.lines(axis, quarters).count)
              .contains(position))
         return;
-    // `added` is the section plus the position on the other axis, modulo 63. Within a region, it
-    // therefore determines the position on the other axis modulo 63, so only every 63rd position is
-    // tested.
+    // `added` is the section plus the position on the other axis, modulo 63. All positions in a
+    // region have the same section, so `added` determines the position on the other axis modulo 63,
+    // and only every 63rd position is tested.
     const PositionRange range(across.first, across.size, crossing.count);
     const std::uint32_t first_class = code::modulo_sections(range.first);
     const std::uint32_t wanted_class = difference(added, along.section);

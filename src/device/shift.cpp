@@ -12,8 +12,9 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // Maximum distance of the summed dots from the middle column, in px: two spacings. A rotation
-    // relative to the prediction changes the sums over these dots only slightly.
+    // Maximum distance from the middle column, in px, of the dots whose darkness is summed: two
+    // spacings. A rotation relative to the prediction moves these dots only slightly, so it has
+    // little effect on the sums.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
     // If the frame is rotated by 4 degrees (18/256 rad) about its centre, its first rows move
@@ -138,8 +139,8 @@ bool Shifts::next(FixedVec& shift_q8) {
     }
     if (best == 0) return false;
     constexpr int kStep_q8 = kStep_px * 256;
-    // Interpolates the position of the maximum along one axis: the centroid of the mean at the best
-    // step and the means at the two adjacent steps.
+    // Returns the offset of the maximum from the best step along one axis, in 2^-8 px: the centroid
+    // of the means at the best step and at the two adjacent steps.
     const auto between = [](int before, int here, int after) {
         return (after - before) * kStep_q8 / std::max(before + here + after, 1);
     };

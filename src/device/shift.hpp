@@ -7,18 +7,18 @@
 
 namespace dotpose::core {
 
-/// For each shift in the search range, the mean darkness of the pixels at the shifted predicted
-/// centres of the dots near the middle column of the image. The mean is largest at the correct
-/// shift, because all shifted centres then coincide with dots. If few dots are in view, the mean
-/// may be nearly as large at a shift that is wrong by one spacing.
+/// For each shift in the search range, the mean darkness of the image at the predicted dot centres,
+/// moved by the shift. Only dots near the middle column of the image are used. The mean is largest
+/// at the correct shift, because all moved centres then coincide with dots. If few dots are in
+/// view, the mean may be nearly as large at a shift that is wrong by one spacing.
 class Shifts {
   public:
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Finds the shift with the largest mean darkness. Sets `shift_q8` to this shift, which is the
-    /// vector from the predicted to the measured position in 2^-8 px, and returns true. Excludes
-    /// shifts that are within two steps of an earlier result along both axes. Returns false if the
+    /// Finds the shift with the largest mean darkness, except shifts that are within two steps of
+    /// an earlier result along both axes. Sets `shift_q8` to this shift, which is the vector from
+    /// the predicted to the measured position in 2^-8 px, and returns true. Returns false if the
     /// darkness of all remaining shifts is 0.
     bool next(FixedVec& shift_q8);
 

@@ -64,8 +64,9 @@ Status read_rows(DeviceWorkspace& w) {
 }
 
 /// Verifies the predicted place against the bits of the dots. If sheets are known, first tests
-/// whether the place is certain on these sheets. If it is not, and if other sheets are possible,
-/// verifies it in the whole code. Error: not_certain.
+/// whether the place is certain on these sheets. If the place is not certain on the known sheets,
+/// but other sheets are possible, tests whether it is certain in the whole code. Error:
+/// not_certain.
 Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->verify(options, w)) return Status::ok;

@@ -11,9 +11,9 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the right shift, in bits, that reduces the total mass to less than 2^16. The same shift
-/// is applied to the masses and to the mass-weighted sums. All sums are then less than 2^31,
-/// because dots are at most 16 cells from the middle and offsets are at most 448/256 px, which is
-/// an eighth of the maximum spacing of 14 px.
+/// is applied to the masses and to the mass-weighted sums. All sums are then less than 2^31: a dot
+/// is at most 16 cells from the middle, and its offset is at most an eighth of the maximum spacing
+/// of 14 px, which is 448/256 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)
@@ -66,8 +66,8 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // A fit to only a few dots may be arbitrarily wrong. Rejects very small cells, because the
-    // slopes would overflow.
+    // A fit to only a few dots may be arbitrarily wrong, and give very small cells. These are
+    // rejected, because the slopes would overflow.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {
         return short_quotient(std::int64_t{a_q16} << 32, det_q24);

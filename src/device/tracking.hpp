@@ -67,7 +67,8 @@ struct Tracking {
     // members fastest.
     int width_px = 0;
     int height_px = 0;
-    /// Number of rows received. Negative before the first row of the tracked part.
+    /// Number of rows of the tracked part that have been received. Starts at -`rows_above`, so it
+    /// is negative until all rows above the tracked part have been received.
     int rows_taken = 0;
     int first_kept = 0;  ///< index of the first stored image row
     int stride_px = 0;

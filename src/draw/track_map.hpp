@@ -37,7 +37,8 @@ struct Map {
 };
 
 /// Removes the sheets that contain neither a point on a path nor the position of a robot, and adds
-/// a note stating how many were removed. If this would remove all sheets, keeps all of them.
+/// a note with the numbers of remaining sheets and of all sheets. If this would remove all sheets,
+/// keeps all of them.
 void keep_visited_sheets(Map& map);
 
 /// Returns the drawing. It is as large as the bounding box of its contents.

@@ -92,9 +92,9 @@ double near_limit(std::span<const Pair> pairs, const Map& map) {
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits a similarity transform to the pairs that are not outliers. Starts with the transform that
-/// has the smallest median residual: either the fit to all pairs, or a fit to two pairs. Then
-/// repeatedly fits a new transform to the pairs within the outlier limit of the previous one.
+/// Fits a similarity transform to the pairs that are not outliers. Starts with the fit to all
+/// pairs, or with a fit to two pairs if its median residual is smaller. Then repeatedly fits a new
+/// transform to the pairs within the outlier limit of the previous transform.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;
@@ -103,8 +103,8 @@ Map fit_most(std::span<const Pair> pairs) {
     const std::size_t n = pairs.size();
     const std::size_t all = n * (n - 1) / 2;
     for (std::size_t k = 0; k < std::min(all, kTries); ++k) {
-        // Combines frames that are far apart in the list, because they are usually also far apart
-        // on the sheet. A fit to two distant points is more accurate.
+        // A fit to two points is more accurate if the points are far apart on the sheet. Frames
+        // that are far apart in the list are usually also far apart on the sheet.
         const std::size_t apart = 1 + (n / 2 + 7 * (k / n)) % (n - 1);
         const Map map = fit(std::array{pairs[k % n], pairs[(k + apart) % n]});
         const double median = median_residual(pairs, map);

@@ -16,9 +16,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::files {
 
-/// Returns the text of a file or pipe, or an empty optional if the file does not exist. Throws
-/// Error if the file cannot be read or has more than `max_bytes` bytes. Never reads much beyond
-/// this limit, because a pipe or device may be endless.
+/// Returns the text of a file or pipe, or nullopt if the file does not exist. Throws Error if the
+/// file cannot be read or has more than `max_bytes` bytes. Never reads much beyond this limit,
+/// because a pipe or device may be endless.
 std::optional<std::string> text_of(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Reads the next line without its line break. Returns false at the end of the file. Throws Error

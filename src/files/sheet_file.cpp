@@ -28,8 +28,8 @@ std::optional<std::string> text_of(const fs::path& path) {
     return files::text_of(path, kMaxBytes);
 }
 
-/// Acquires the lock of a sheet file. Throws Error if the lock cannot be acquired within the time
-/// limit, or if the file system does not support locks.
+/// Acquires the lock of a sheet file. Throws Error if the lock cannot be acquired within
+/// `wait.max_s`, if `wait.stop` returns true, or if the file system does not support locks.
 void take(system::FileLock& lock, const fs::path& path, const SheetFileWait& wait) {
     using Clock = std::chrono::steady_clock;
     constexpr auto kPause = std::chrono::milliseconds(10);

@@ -25,8 +25,9 @@ Located Follower::locate(const GreyImage& image) {
     return result;
 }
 
-/// Tries each code variant, and returns the first fix that is on one of the sheets. If no fix is on
-/// a sheet, returns the first fix. If there is no fix, returns the result for the first variant.
+/// If `codes_` is empty, detects the code variant. Otherwise, tries each variant in `codes_`, and
+/// returns the first fix that is on one of the sheets. If no fix is on a sheet, returns the first
+/// fix. If there is no fix, returns the result for the first variant.
 Follower::Found Follower::read() {
     if (codes_.empty()) {
         const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);

@@ -39,7 +39,7 @@ constexpr double kMinAgility = 1e-6;
 /// is applied once per sighting, so the fraction is averaged over about 50 sightings.
 constexpr double kInformationKept = 0.98;
 /// Minimum fraction of independent errors. With a minimum of 0.01, the positions in `dotpose_tables
-/// space_track` are 0.3 to 0.6 % more accurate, but the velocities up to 18 % less accurate.
+/// space_track` are 0.3 to 0.6 % more accurate, but the velocities are up to 18 % less accurate.
 constexpr double kMinIndependent = 0.05;
 /// Maximum change in log(fraction of independent errors) per sighting.
 constexpr double kMaxFractionStep = 0.5;
@@ -111,10 +111,11 @@ Matrix6 matrix_of(const SpaceCovariance& covariance) {
     return matrix;
 }
 
-/// Returns the matrix that converts from the agility axes to position and rotation. In a view of a
-/// plane, the point in front of the camera is measured more accurately than the camera position.
-/// The position error is therefore mostly the rotation error multiplied by a lever arm. The lever
-/// arm is the regression of the position on the rotation. `noise` is the covariance of a sighting.
+/// Returns the matrix that converts from the axes of `Motion::agility` to position and rotation. In
+/// a view of a plane, the point in front of the camera is measured more accurately than the camera
+/// position. The position error is therefore mostly the rotation error multiplied by a lever arm.
+/// The lever arm is the regression of the position on the rotation. `noise` is the covariance of a
+/// sighting.
 Matrix6 lever_of(const Matrix6& noise) {
     Matrix6 result = Matrix6::Identity();
     const Matrix3d rotation = noise.bottomRightCorner<3, 3>();

@@ -15,8 +15,9 @@
 namespace dotpose::images {
 namespace {
 
-/// Reads a PNG file. libpng reports errors with longjmp, so only `guarded` may call it, and no
-/// objects with destructors may be created in the scope of that call.
+/// Reads a PNG file. libpng reports errors with longjmp. Therefore, libpng functions that can fail
+/// must be called only through `guarded`, and code passed to `guarded` must not create objects with
+/// destructors.
 class PngReader {
   public:
     explicit PngReader(Bytes file)

@@ -28,7 +28,7 @@ std::span<const CodeVariant> Attempts::codes_for(Step step) const {
     return codes_.in_order();
 }
 
-/// Selects the code of the next attempt, and returns the input of this attempt. Discards the odds
+/// Selects the code of the next attempt and returns the input of that attempt. Discards the odds
 /// that the previous attempt stored for the other codes.
 Frame Attempts::frame_in(CodeVariant code) {
     options_.code = code;

@@ -16,10 +16,14 @@
 
 namespace dotpose::core {
 
-/// Attempts without a prediction. `first` ends without a fix if the fix would be rough and a second
-/// attempt is possible (see `Attempts::is_rough`). `complete_first` does not end early. `resampled`
-/// is a second attempt that samples the bits again if the position is doubtful. It takes three
-/// times as long as `second`.
+/// Attempts without a prediction:
+/// - `first` ends without a fix if the fix would be rough and a second attempt is possible (see
+///   `Attempts::is_rough`).
+/// - `complete_first` is `first`, but never ends early.
+/// - `turning` searches for a rotation of the scene during the readout.
+/// - `resampled` is `second`, but samples the bits again if the position is doubtful. It takes
+///   three times as long as `second`.
+/// - `device` locates the frame as a DeviceLocator does.
 enum class Step : std::uint8_t { first, complete_first, turning, second, resampled, device };
 
 /// Returns true if the status means that the image shows a grid of dots whose bits do not determine

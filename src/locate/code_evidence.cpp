@@ -11,8 +11,8 @@ namespace {
 /// Two frames are at the same place if their positions differ by less than this number of cells
 /// along each axis. Such frames may show the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
-/// Maximum number of frames that are counted at one place. Further frames are ignored. A float
-/// represents all integers up to this limit exactly.
+/// Maximum number of frames that are counted at one place. Further frames are ignored. The limit
+/// ensures that the number of frames can be converted to a float without rounding.
 constexpr std::uint32_t kMaxFrames = 1U << 23;
 
 bool is_near(std::uint32_t a, std::uint32_t b) {

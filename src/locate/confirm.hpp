@@ -41,8 +41,10 @@ enum class Confirmation : std::uint8_t {
     /// The plane is not plausible, or the dots or their bits contradict the hypothesis.
     implausible,
     uncertain,  ///< the hypothesis is plausible, but its position is not certain
-    /// Same as `uncertain`, but all bits in view (in small views, nearly all bits) are clear and
-    /// agree with the code, or a small view shows too few cells for a further attempt.
+    /// The hypothesis is plausible, but its position is not certain, for one of two reasons:
+    /// - All bits in view (in small views, nearly all bits) are clear and agree with the code, but
+    ///   there are too few of them.
+    /// - A small view shows too few cells for a further attempt.
     too_few_bits,
     /// The fix is rough (see `is_rough`), and `Frame::defers_if_rough` is true. The place may be
     /// wrong, because it was not confirmed.
@@ -76,9 +78,10 @@ struct Measurement {
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. If
 /// the hypothesis is predicted, and its dots can be sampled directly (see `can_sample_directly`),
-/// tries direct sampling first. If the result is ok or rough, sets the fix and the results in
-/// `measurement`.
-/// Otherwise, only `p_wrong_log2`, `prior`, `frames` and `bit_errors` of the fix may have changed.
+/// tries direct sampling first.
+///
+/// If the result is ok or rough, sets the fix and the results in `measurement`. Otherwise, only
+/// `p_wrong_log2`, `prior`, `frames` and `bit_errors` of the fix may have changed.
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix);
 

@@ -35,9 +35,9 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
     }
 }
 
-/// Drops windows that are much darker than the paper. Such windows are on the table beyond the
-/// sheet, where noise can look like dots. `paper` is the mean level around dots. If `paper` is 0,
-/// drops nothing and sets `paper` to the measured level.
+/// Drops windows that are much darker than the paper. Such windows are beyond the edge of the
+/// sheet, for example on a dark table, where noise can look like dots. `paper` is the mean level
+/// around dots. If `paper` is 0, drops nothing and sets `paper` to the measured level.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
@@ -124,7 +124,7 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     WindowOptions window = window_options(hypothesis);
     window.is_partial_view = hypothesis.is_partial_view;
     // In later rounds of a partial view, most windows may be empty. A typical mass estimated from
-    // them would be wrong, so these rounds use the typical mass of the first round.
+    // empty windows would be wrong, so these rounds use the typical mass of the first round.
     if (hypothesis.is_partial_view) window.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
     if (hypothesis.is_partial_view) drop_table(dots_, paper_);

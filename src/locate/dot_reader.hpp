@@ -43,8 +43,8 @@ class DotReader {
     /// Measures the centres again and subtracts the pixel bias if the bias is significant (see
     /// `may_be_biased`). The plane must have been fitted to the current centres, and must be fitted
     /// again to the corrected centres. Sets `remaining_px2` to the variance of the mean dot centre
-    /// due to the remaining bias. If the bias is not significant, returns false and changes
-    /// nothing.
+    /// due to the remaining bias. Returns false and changes nothing if the bias is not significant,
+    /// if the hypothesis is exact, or if the lens has distortion.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias caused by facing dots, which are adjacent dots displaced towards each

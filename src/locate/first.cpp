@@ -78,10 +78,10 @@ class PatchSearch {
     }
 
   private:
-    /// Searches the patch at the image centre for a square grid. Also searches for a grid of
-    /// arbitrary parallelograms if there is no plausible hypothesis, or if the square grid is
-    /// probably false and its hypothesis is uncertain. A rolling shutter shears and stretches
-    /// moving scenes.
+    /// Searches the patch at the image centre for a square grid, and tests its hypothesis. Also
+    /// searches for a skewed grid, whose cells are arbitrary parallelograms, if there is no
+    /// plausible hypothesis, or if the square grid is probably false and its hypothesis is
+    /// uncertain. Grids are skewed if a rolling shutter reads the image of a moving scene.
     Confirmation search_middle() {
         if (!find_patch_dots(frame_, patch_, fix_)) return Confirmation::implausible;
         measurement_.shows_too_few_cells = shows_too_few_dots();
@@ -109,10 +109,10 @@ class PatchSearch {
     }
 
     /// Finds the grid in the patch at the image centre. If `is_skewed` is true, cells may be
-    /// arbitrary parallelograms. Otherwise, cells must be approximately square. A search for a
-    /// skewed grid may find no grid, or a grid that is probably false. The search is then repeated
-    /// with other numbers of central dots for the waves. The default number is unsuitable if it is
-    /// too small, or if a rotation displaces some of these dots.
+    /// arbitrary parallelograms. Otherwise, cells must be approximately square. If a search for a
+    /// skewed grid finds no grid, or a grid that is probably false, the search is repeated with
+    /// waves computed from a different number of central dots. The default number is unsuitable if
+    /// it is too small, or if a rotation displaces some of these dots.
     bool find_middle_grid(bool is_skewed, PatchGrid& grid) const {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;
@@ -182,7 +182,7 @@ class PatchSearch {
     }
 
     /// Searches adjacent patches that cover the image. The patch size doubles from round to round.
-    /// Returns the result of the last hypothesis, or implausible if there was none.
+    /// Returns the result of the last patch that was searched.
     Confirmation search_patches() {
         const ImageView& image = frame_.image;
         Confirmation last = Confirmation::implausible;

@@ -20,8 +20,8 @@ struct Frame {
     /// Rotation during the readout that was removed from `image`. Null if `image` is the original
     /// image.
     const ReadoutTurn* removed_turn = nullptr;
-    /// True if the attempt ends with Confirmation::rough before it computes the exact probability
-    /// that a rough fix is wrong.
+    /// If true, an attempt whose fix is rough may end with Confirmation::rough, without computing
+    /// the exact probability that the fix is wrong.
     bool defers_if_rough = false;
 };
 

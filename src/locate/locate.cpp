@@ -59,7 +59,8 @@ class Cascade {
 
   private:
     /// Makes the tracked attempt. Searches for a rotation if the residuals indicate one. Returns
-    /// nullopt if there is no prediction, or if no fix is certain.
+    /// nullopt if no fix is certain, if there is no prediction, or if the effort is
+    /// `Effort::device`.
     std::optional<Judgement> track(const Prediction* prediction) {
         if (prediction == nullptr || options_.effort == Effort::device) return {};
         const CodeVariant code = options_.code;

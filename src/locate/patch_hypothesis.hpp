@@ -36,9 +36,9 @@ bool place_patch_in_middle(const ImageView& image, int scale, Patch& patch);
 bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix, DotTiles tiles = DotTiles::median);
 
 /// Finds a place in the code from the dots and the grid of a patch. The dots, the grid and the
-/// hypothesis are relative to `from_centre`. A thorough search takes a long time, so
-/// `PlaceSearch::thorough` has an effect only if the grid is probably correct and the patch has few
-/// dots. Returns nullopt if no place is found.
+/// hypothesis are relative to `from_centre`. `PlaceSearch::thorough` has an effect only if the grid
+/// is probably correct and the patch has few dots, because a thorough search takes a long time.
+/// Returns nullopt if no place is found.
 std::optional<Hypothesis> read_grid(const Patch& patch, const PatchGrid& grid, FloatVec from_centre,
                                     const PlaceEvidence& evidence, PlaceSearch search);
 

@@ -44,8 +44,8 @@ struct TurnedPlace {
 enum class PlaceSearch : std::uint8_t {
     brief,  ///< searches only at the most likely quarter turn
     /// If the brief search finds no place that agrees with the bits, searches thoroughly at all
-    /// quarter turns. In a block of few cells, many lines are too short to determine their rolls,
-    /// or to vote for a quarter turn.
+    /// quarter turns. Blocks of few cells need the thorough search, because many of their lines are
+    /// too short to determine the roll, or to vote for a quarter turn.
     thorough,
 };
 
@@ -54,10 +54,12 @@ enum class PlaceSearch : std::uint8_t {
 std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block,
                                              PlaceSearch search);
 
-/// Outside a series of frames, does nothing and returns true. Within a series, stores the bits of
-/// the current frame and returns true. If frames are being read together, instead adds the bits of
-/// the earlier frames to the block, and returns false if the grids of the frames do not match. The
-/// plane is relative to `from_centre`.
+/// Combines a block with a series of frames. `from_centre` is the origin of the coordinates of
+/// `grid_from_image`, relative to the image centre.
+/// - Outside a series, does nothing and returns true.
+/// - Within a series, stores the bits of the current frame and returns true.
+/// - If frames are being read together, adds the bits of the earlier frames to the block instead.
+///   Returns false if the grids of the frames do not match.
 bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, EarlierBits& earlier,
                   BitBlock& block);
 
@@ -68,7 +70,7 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits);
 /// Returns true if the bits make the place of the hypothesis certain. If frames are being read
 /// together, also uses the bits of earlier frames. If the place is certain, sets `p_wrong_log2` in
 /// the fix. Also sets `prior` if known sheets were needed, and `frames` if earlier frames were
-/// needed.
+/// needed. Within a series of frames, stores the block for the following frames.
 bool confirm_place(const PlaceEvidence& evidence, const Hypothesis& hypothesis,
                    const CellsInView& view, const BitBlock& block, const BitsRead& bits, Fix& fix);
 

@@ -47,8 +47,8 @@ Status decode(const DeviceOptions& options, const Grid& grid, std::span<ScoredLi
     return decode_all(grid, options.code, line_scores, decoding);
 }
 
-/// Returns true if the pixel bias of the fix is significant. In this case, the dots are measured
-/// again as in the tracked attempt, and this measurement corrects the bias.
+/// Returns true if the pixel bias of the fix may be significant. The dots are then measured again
+/// in the same way as in the tracked attempt, which corrects the bias.
 bool may_be_biased(const Fix& fix, const PlaneFromImage& plane, const ImageView& image) {
     const float variance_px2 =
         fix.residual_px * fix.residual_px / static_cast<float>(fix.dots_used);

@@ -18,10 +18,11 @@ class SecondAttempt {
 
     explicit SecondAttempt(DesktopWorkspace& w) : w_(w) {}
 
-    /// Locates the frame in the code that its options specify. All calls must pass the same image.
-    /// If there is a fix, stores it in the workspace and returns true. Otherwise, stores the
-    /// status. If the position is not certain, `Resampling::if_doubtful` fits the grid to the dots
-    /// that the code predicts at this position, and reads and decodes the bits again.
+    /// Locates the frame in the code `frame.options.code`. All calls must pass the same image. If
+    /// there is a fix, stores it in the workspace and returns true. Otherwise, stores the status
+    /// and returns false. If the position is not certain and `resampling` is `if_doubtful`, fits
+    /// the grid to the dots that the code predicts at this position, and reads and decodes the bits
+    /// again.
     bool read(const Frame& frame, Resampling resampling);
 
   private:

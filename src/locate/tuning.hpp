@@ -13,13 +13,13 @@ namespace patch_grid {
 /// value, in spacings^2. The offset of a dot is relative to the nearest of the four dot positions
 /// of its cell. In a false grid, the offsets are uniformly distributed over discs with a radius of
 /// 0.18 spacings, so their variance is 0.008. If the fit of a false grid includes perspective, the
-/// variance is smaller, but at least 0.0017 in the rolling-shutter frames tested. In 1,000 nominal
-/// frames, the variance is always less than 0.002, and less than 0.001 in 996 frames. In hard
-/// frames, the variance of correct grids can exceed 0.002, because the dots are printed
-/// inaccurately. The limit was tested in 3,000 frames of scenes that rotate by 10 to 40 degrees
-/// during the readout. With a limit of 0.002, false grids end the search for a rotation too early
-/// in 3 frames, or in 6 frames if the sheet is known. With a limit of 0.0015, this does not happen
-/// in any frame.
+/// variance is smaller, but at least 0.0017 in the rolling-shutter frames tested. The variance of
+/// the correct grid was less than 0.002 in all of 1,000 nominal frames, and less than 0.001 in 996
+/// of them. In hard frames, the variance of correct grids can exceed 0.002, because the dots are
+/// printed inaccurately. The limit was tested in 3,000 frames of scenes that rotate by 10 to 40
+/// degrees during the readout. With a limit of 0.002, false grids end the search for a rotation too
+/// early in 3 frames, or in 6 frames if the sheet is known. With a limit of 0.0015, this does not
+/// happen in any frame.
 inline constexpr float kMaxVariance = 0.0015F;
 /// The search for the place is thorough only if the patch has at most this number of dots. With
 /// more dots, enough lines are long enough to determine their rolls, so the brief search finds the
@@ -54,8 +54,8 @@ inline constexpr int kMaxTries = 4;
 /// weak waves.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
-/// Numbers of central dots from which the waves of a skewed grid at the image centre are computed
-/// if the default number leads to no grid, or to a grid that is probably false.
+/// If the search for a skewed grid at the image centre finds no grid, or a grid that is probably
+/// false, it is repeated with waves computed from each of these numbers of central dots.
 inline constexpr float kOtherCentralDots[] = {45, 20};
 /// Factors applied to the estimated spacing if sheets are known. On a known sheet, a strip of only
 /// three rows of dots can make the place certain. The estimated spacing of such a strip is too
@@ -66,16 +66,16 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F, 0.85F, 0.65F};
 
 /// Search for a rotation of the scene during the readout (locate/turning).
 namespace turning {
-/// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum distance, in
-/// rows, by which the rotation moves the scene at the left or right image border down while a row
-/// is read.
+/// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum number of rows
+/// by which the rotation moves a point at the left or right image border down while one row is
+/// read.
 inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
 /// Maximum drift of the scene while a row is read, in rows.
 inline constexpr float kMaxDrift = 0.9F;
-/// kStep is the first step of the search for the rotation. It is expressed as the distance by which
-/// the dots in the corners of the patch move, in spacings. The search ends when the step is kStep /
-/// kStepParts.
+/// kStep is the first step of the search for the rotation, expressed as the distance, in spacings,
+/// by which it moves the dots in the corners of the patch. The search ends when the step has been
+/// reduced to kStep / kStepParts.
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
 /// A grid replaces the best grid so far if its agreement exceeds this multiple of the best
@@ -91,14 +91,15 @@ inline constexpr float kMinGain = 3;
 /// Maximum number of grids for which the search looks for a place in the code. If none of these
 /// grids has a place, the search ends, because further rotations usually lead to the same grids.
 inline constexpr int kMaxClimbs = 3;
-/// If the correction of the rotation moves the dots in the image corners by at least kSettled_px,
-/// the image is measured again. Smaller corrections are applied to the measured dots. kMaxRounds is
-/// the maximum number of measurements.
+/// The correction of the rotation moves the dots in the image corners. If it moves them by at least
+/// kSettled_px, the image is measured again. Smaller corrections are applied to the measured dots.
+/// kMaxRounds is the maximum number of measurements.
 inline constexpr float kSettled_px = 0.5F;
 inline constexpr int kMaxRounds = 5;
 /// The search for a rotation is skipped if `keep_isolated` keeps less than this fraction of the
-/// dots. In this case, noise and dirt explain the failure of the first attempt. The fraction was at
-/// least 0.9 in 400 frames of rotating scenes, and less than 0.8 in most hard frames.
+/// dots. The first attempt then probably failed because of noise and dirt, not because of a
+/// rotation. The fraction was at least 0.9 in 400 frames of rotating scenes, and less than 0.8 in
+/// most hard frames.
 inline constexpr float kMinIsolated = 0.88F;
 }  // namespace turning
 
@@ -158,9 +159,10 @@ inline constexpr float kDecidingOfPart = 32;
 /// Maximum growth factor of the reading distance from round to round. The factor is limited,
 /// because the plane fitted in one round must predict the dots of the next round.
 inline constexpr float kFarther = 3.5F;
-/// Limits for clean bits, which need no second reading. At least kClear_percent % of the dots seen
-/// must be read. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
-/// kMaxWrong is 2 because one misread dot can have two wrong bits.
+/// Limits for clean bits. If the bits are clean, the dots are not read a second time. At least
+/// kClear_percent % of the dots seen must be read. If n dots were read, at most max(kMaxWrong, n /
+/// kDotsPerWrong) bits may be wrong. kMaxWrong is 2 because one misread dot can have two wrong
+/// bits.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
@@ -172,8 +174,9 @@ inline constexpr float kOutlier = 8.3F;
 /// axis. If the distance is larger, the dots are measured again, because small centroid windows do
 /// not measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
-/// An exact hypothesis is implausible if this number of fits each move its plane by more than kFar.
-/// docs/accuracy.md, "Dots with the same sub-pixel phase", lists the remaining errors.
+/// If this number of fits move the plane of an exact hypothesis by more than kFar, the hypothesis
+/// is implausible. docs/accuracy.md, "Dots with the same sub-pixel phase", lists the errors that
+/// remain.
 inline constexpr int kMaxLooks = 3;
 /// Windows are dropped if their paper level is less than kTable times the mean paper level. Such
 /// windows are on the table beyond the sheet, where noise can look like dots.
@@ -216,9 +219,9 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// If the image contains fewer than this number of cells, bits are also read from dots that are cut
 /// off by the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels in a small view. A view is small only if it also contains fewer than
-/// kMaxCellsWithCutDots cells. Larger images rarely contain so few cells, except if a rolling
-/// shutter stretches the cells. The effort spent on testing a place is limited only in small views.
+/// Maximum number of pixels in a small view. In small views, the effort spent on testing a place is
+/// limited. A view is small only if it also contains fewer than kMaxCellsWithCutDots cells. Larger
+/// images rarely contain so few cells, except if a rolling shutter stretches the cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Minimum number of cells in a small view for which a second attempt is made. Of 241 frames of 72
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,
@@ -236,7 +239,7 @@ inline constexpr float kMaxOff_px = 1;
 /// explain the frame well (see `is_implausible`). docs/integrity.md contains the measurements.
 inline constexpr float kMaxImplausible = 0.57F;
 /// Limits of `shows_overlay`. Let r be the fraction of the dots seen that were read without a wrong
-/// bit. A fix is refused if r is below kMinRight and more than kMaxWrongInOverlay of the bits read
+/// bit. A fix is rejected if r is below kMinRight and more than kMaxWrongInOverlay of the bits read
 /// are wrong. Of 1,800 fixes in frames with seams, cuts, blank areas and wrong bits, two had an r
 /// below kMinRight but no wrong bits, and two others had an r of 0.40 to 0.51. Two wrong fixes in
 /// the test `Adversarial.ColumnsAndRowsAreOfOnePattern` had r = 0.27 with 3.6 % wrong bits, and r =
@@ -244,8 +247,8 @@ inline constexpr float kMaxImplausible = 0.57F;
 inline constexpr float kMinRight = 0.375F;
 inline constexpr float kMaxWrongInOverlay = 0.005F;
 /// A second attempt may give a better fix if the residual is at least kRough_px and at least kRough
-/// spacings. Residuals due to noise are constant in px. Residuals due to bad printing are constant
-/// in spacings.
+/// spacings. Two limits are needed, because residuals due to noise are constant in px, and
+/// residuals due to bad printing are constant in spacings.
 inline constexpr float kRough_px = 0.30F;
 inline constexpr float kRough = 0.027F;
 }  // namespace confirm
@@ -286,9 +289,10 @@ inline constexpr float kMaxReach = 24;
 
 /// Second attempt (locate/second).
 namespace second {
-/// Factors by which the thresholds are multiplied for a filtered image. Filtering reduces noise to
-/// a third, and makes dots paler and wider. With dirt on 5 % of the area, 93 % of 200 frames are
-/// located with these factors, and 80 % with the original thresholds (docs/limits.md).
+/// Factors for the thresholds in a filtered image: the low threshold is multiplied by kLow_3rds /
+/// 3, and the high threshold by kHigh_10ths / 10. Filtering reduces noise to a third, and makes
+/// dots paler and wider. With dirt on 5 % of the area, 93 % of 200 frames are located with these
+/// factors, and 80 % with the original thresholds (docs/limits.md).
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
 /// If an image has too few dots, dots are detected again with the minimum contrast divided by this
@@ -307,9 +311,9 @@ namespace cascade {
 /// The frame is read again in another code if the odds of that code, relative to the code of the
 /// fix, exceed this number.
 inline constexpr float kBetterOdds = 2;
-/// A place in another code is reported only if there is at most one wrong bit per this number of
-/// dots. A dot has two bits, so at most 1 % of the bits are wrong. Misread bits can cause such an
-/// error rate even if the place is correct.
+/// A place in another code is reported only if at most one bit is wrong per this number of dots.
+/// This is an error rate of 1 %, because a dot has two bits. Misread bits can cause such an error
+/// rate even if the place is correct.
 inline constexpr int kMinDotsPerBitError = 50;
 /// A different place in another code is also reported if its likelihood is at least this fraction
 /// of the likelihood of the fix.

@@ -35,7 +35,8 @@ FloatVec axis_of(const FixedLens& lens) {
 
 /// Returns the maximum rotation, in rad per row. The rotation during the whole readout is at most
 /// kMaxTurn_rad. While a row is read, the scene at the left or right image border moves down by at
-/// most kMaxFall rows, because the readout must be faster than the scene.
+/// most kMaxFall rows. If it moved down by a whole row, several rows would show the same part of
+/// the scene.
 float max_rad_per_row(const ImageView& image) {
     return std::min(tuned::kMaxTurn_rad / static_cast<float>(image.height_px),
                     tuned::kMaxFall / (static_cast<float>(image.width_px) / 2));
@@ -198,7 +199,8 @@ Confirmation settle(const Frame& frame, std::span<std::uint8_t> pixels,
 
 /// Searches for a grid with a place in the code, first at the rotation `turn` if it is not 0, and
 /// then at rotations of increasing magnitude. Sets `turn` to the rotation of the grid that is
-/// found. Returns nullopt if none of the first kMaxClimbs grids has a place in the code.
+/// found. Returns nullopt if none of the first kMaxClimbs grids has a place in the code, or if the
+/// maximum rotation is reached first.
 std::optional<Hypothesis> find_turning_hypothesis(const Frame& frame, const Patch& patch,
                                                   const PlaceEvidence& evidence, TurnSearch& search,
                                                   ReadoutTurn& turn) {
@@ -269,8 +271,9 @@ bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t
                 Measurement& measurement) {
     if ((fix.surface == Surface::even && !is_rough(fix)) || !has_room(frame.image, pixels))
         return false;
-    // If the dots were measured around a point other than the image centre, only the search can
-    // detect a rotation.
+    // If the dots were measured around a point other than the image centre, the rotation cannot be
+    // fitted to them. Only a search can then detect a rotation, and it is worthwhile if the fix is
+    // rough.
     if (!(fix.pattern_from_image.centre_q8 == measurement.pattern_from_image.centre_q8))
         return is_rough(fix);
     // Fits the plane again, because the fix may use only one side of a divided sheet.

@@ -121,8 +121,8 @@ class WorkspaceOf : public DesktopWorkspace {
     // start a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
-    // Size of the largest image that can be pushed row by row: 188 x 188 px for the paper's sensor,
-    // and 1280 x 1024 px otherwise.
+    // Maximum number of pixels in an image that is pushed row by row: a square with sides of
+    // `MaxWidth`, for example 188 x 188 px for the paper's sensor, but at most 1280 x 1024 px.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
     // Maximum number of columns, and of rows, that are read in one view.
@@ -134,9 +134,9 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // The blocks of the PaperMap are squares. Their side is a tenth of the shorter image side,
-    // rounded down. It is at least 6 px, because the shorter image side is at least 60 px. There
-    // are at most 11 x 683 blocks.
+    // The PaperMap divides the image into square blocks. The side of a block is a tenth of the
+    // shorter image side, rounded down. Images are at least 60 px high and wide, so a block is at
+    // least 6 px wide, and there are at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};

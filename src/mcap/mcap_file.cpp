@@ -71,9 +71,10 @@ class McapFile::Writer {
         const auto id = static_cast<std::uint16_t>(channel);
         const std::uint64_t number = contents_.messages.at(id)++;
         chunk_.add_message(id, static_cast<std::uint32_t>(number), time_ns, cdr);
-        // Ends the chunk when it contains at least `chunk_bytes`, or when it covers at least
-        // `chunk_ns` and is at least as large as the end of the file. The end of the file is
-        // rewritten after each chunk, so smaller chunks would multiply the number of bytes written.
+        // Ends the chunk when it contains at least `chunk_bytes`. Also ends the chunk when it
+        // covers at least `chunk_ns` and is at least as large as the end of the file. The end of
+        // the file is rewritten after each chunk, so smaller chunks would more than double the
+        // number of bytes written.
         const bool is_long =
             chunk_.duration_ns() >= static_cast<std::uint64_t>(options_.chunk_ns) &&
             chunk_.size() >= end_bytes_;

@@ -19,8 +19,9 @@ constexpr double kInchesPerMetre = 1 / 0.0254;
 // become much smaller at higher levels either.
 constexpr int kCompressionLevel = 4;
 
-/// Writes a PNG file. libpng reports errors with longjmp. Therefore, libpng must be called only
-/// through `guarded`, and code passed to `guarded` must not create objects with destructors.
+/// Writes a PNG file. libpng reports errors with longjmp. Therefore, libpng functions that can fail
+/// must be called only through `guarded`, and code passed to `guarded` must not create objects with
+/// destructors.
 class Writer {
   public:
     explicit Writer(base::ByteSink& file) {

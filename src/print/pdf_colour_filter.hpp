@@ -14,9 +14,9 @@ namespace dotpose::print {
 class ColourFilter : public QPDFObjectHandle::TokenFilter {
   public:
     /// `spaces` contains the kind of each colour space that the operators `cs` and `CS` may select
-    /// by name. If `starts_black` is true, as it is for pages, the initial colours are black, and
-    /// the filter first writes operators that set the fill and stroke colours to the converted
-    /// black. Otherwise, the initial colours are inherited.
+    /// by name. `starts_black` must be true for pages, where the initial colours are black. The
+    /// filter then first writes operators that set the fill and stroke colours to the converted
+    /// black. If `starts_black` is false, the initial colours are inherited.
     ColourFilter(InkChange change, std::map<std::string, ColourKind> spaces, bool starts_black);
 
     void handleToken(QPDFTokenizer::Token const& token) override;

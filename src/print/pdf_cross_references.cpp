@@ -20,8 +20,8 @@ namespace {
 using Token = QPDFTokenizer::Token;
 
 /// Reads the cross-reference tables and streams of a document. The number after `startxref`, near
-/// the end of the file, is the offset of the newest table or stream. The values of /Prev and
-/// /XRefStm are further offsets.
+/// the end of the file, is the offset of the newest table or stream. Its entries /Prev and /XRefStm
+/// contain the offsets of further tables and streams.
 class CrossReferences {
   public:
     CrossReferences(const std::filesystem::path& path, UnpackedBytes& unpacked)

@@ -26,8 +26,8 @@ struct PageContent {
 };
 
 /// Scans the content of a page and of its forms, and adds their unpacked size to `unpacked`. Throws
-/// Error if the content cannot be read completely. Viewers stop at damaged content, so they would
-/// not show dots that follow it.
+/// Error if the content cannot be read completely, because viewers stop at damaged content and
+/// would not show dots that are added after it.
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 
 /// Returns true if dotpose printed the document, or has already added dots to the page.

@@ -1,5 +1,6 @@
-/// Writers for the file formats. Each writer writes a complete file, which the caller commits. All
-/// writers throw Error if writing fails or `progress` returns false.
+/// Writers for the file formats. Each writer writes the complete contents of a file. The caller
+/// must then commit the file (see base::OutputFile). All writers throw Error if writing fails or
+/// `progress` returns false.
 #pragma once
 
 #include <span>

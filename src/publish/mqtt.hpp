@@ -70,9 +70,9 @@ class MqttClient {
     explicit MqttClient(MqttOptions options);
     virtual ~MqttClient();
 
-    /// Connects and waits up to 3 s for the broker's answer. Throws Error if the broker refuses the
-    /// user or the certificates cannot be read. If the broker does not answer, reports this through
-    /// `MqttOptions::notify`, and the thread keeps trying.
+    /// Connects and waits up to 3 s for the broker's answer. Throws Error if the broker rejects the
+    /// connection, or if the certificates cannot be read. If the broker does not answer, reports
+    /// this through `MqttOptions::notify`. The thread then keeps trying to connect.
     void start();
     /// Disconnects and stops the thread. No virtual function is called afterwards.
     void stop();

@@ -9,12 +9,13 @@
 //         while (auto command = server.take_command()) obey(*command);
 //     }
 //
-// Protocol of the WebSocket /live: the client sends {"do": "subscribe", "topic": NAME}, then {"do":
-// "next", "topic": NAME} after each message that it has displayed, and may send {"do":
-// "unsubscribe", "topic": NAME}. The values of some topics depend on further arguments of
-// "subscribe", which the client can change by sending "subscribe" again. Each message from the
-// server consists of the name of a topic, a line break, and the value. All other commands from
-// clients are passed to the program.
+// Protocol of the WebSocket /live: a client sends these commands.
+// - {"do": "subscribe", "topic": NAME} requests the values of a topic. The values of some topics
+//   depend on further arguments, which the client can change by sending the command again.
+// - {"do": "next", "topic": NAME} must be sent after each message that the client has displayed.
+// - {"do": "unsubscribe", "topic": NAME} ends the subscription.
+// All other commands are passed to the program. Each message from the server consists of the name
+// of a topic, a line break, and the value.
 //
 // The server never opens a file whose name is part of a request. Its limits are in limits.hpp.
 #pragma once

@@ -19,9 +19,9 @@ namespace {
 // Number of pixels that are processed together with vector instructions.
 constexpr std::size_t kLanes = 4;
 
-// Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. For
-// the absorbed light, only the sub-pixels with ink are convolved with the kernel. They are a few
-// percent of all sub-pixels.
+// Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. To
+// save time, the absorbed light is computed by convolving only the sub-pixels with ink, a few
+// percent of all sub-pixels, with the kernel.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)

@@ -74,8 +74,8 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     kernel.border_px = static_cast<int>(
         std::ceil(4 * sigma_px + std::max(std::abs(motion_px.x), std::abs(motion_px.y)) / 2));
     kernel.taps = (static_cast<std::size_t>(2 * kernel.border_px + 1) + 3) / 4 * 4;
-    // Motion is approximated by several moments at which the scene is at rest. From one moment to
-    // the next, the scene moves by at most one sub-pixel.
+    // Motion blur is approximated by the sum of the images at several moments, at which the scene
+    // is at rest. From one moment to the next, the scene moves by at most one sub-pixel.
     const int moments = std::max(1, static_cast<int>(std::ceil(length_px * kernel.per_pixel)));
     for (int moment = 0; moment < moments; ++moment) {
         const double time = (moment + 0.5) / moments - 0.5;

@@ -27,8 +27,8 @@ struct Place {
     auto operator<=>(const Place&) const = default;
 };
 
-/// A state of a robot. Strings must be valid UTF-8 without null characters. Many states may share
-/// the object that contains the name of the robot, or the place.
+/// A state of a robot. Strings must be valid UTF-8 without null characters. `robot` is the name of
+/// the robot. Many states may share the objects to which `robot` and `place` point.
 struct State {
     std::shared_ptr<const std::string> robot;
     std::shared_ptr<const Place> place;

@@ -9,8 +9,8 @@
 
 namespace dotpose::store {
 
-/// Maps keys to database IDs. The cache is cleared when it is full. Its size is limited, because
-/// robots choose their own names and may use any number of them.
+/// A cache that maps keys to database IDs. The cache is cleared when it is full. The size is
+/// limited because robots choose their own names and may use any number of them.
 template <typename Key>
 class Ids {
   public:

@@ -90,8 +90,9 @@ void Queue::run() {
     }
 }
 
-/// Waits for states, and moves the states of the next transaction from the queue to `batch_`.
-/// Returns false if the queue is empty and `finish` was called.
+/// Waits until the queue contains kMaxBatch states, `options_.period` has elapsed, or `finish` is
+/// called. Then moves up to kMaxBatch states from the queue to `batch_`, in the order in which they
+/// are stored. Returns false if the queue is empty and `finish` was called.
 bool Queue::take_batch() {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, options_.period,

@@ -20,7 +20,7 @@ namespace dotpose::store {
 
 struct QueueOptions {
     /// Maximum number of states in the queue. If the queue is full, a new state replaces the oldest
-    /// one that is not in the current transaction. A state takes 96 bytes.
+    /// state that is not in the current transaction. A state takes 96 bytes.
     std::size_t max_states = 1'000'000;
     /// Maximum time for which states are collected before they are written in one transaction.
     /// PostgreSQL stores the states of a transaction together, sorted by robot. The states of one

@@ -20,8 +20,8 @@ namespace dotpose::system {
 /// Opens a file as std::fopen does. Returns nullptr if that fails.
 std::FILE* open_file(const std::filesystem::path& path, const char* mode);
 
-/// Creates a file for writing, with the default permissions, which the umask restricts. Returns
-/// nullptr if that fails. errno is EEXIST if the file exists.
+/// Creates a new file and opens it for writing. The umask restricts its permissions, as for any new
+/// file. Returns nullptr on failure. If the file already exists, errno is EEXIST.
 std::FILE* create_new_file(const std::filesystem::path& path);
 
 /// Returns true if the user may write to an existing file.

@@ -26,8 +26,8 @@ std::filesystem::path program_folder();
 bool is_terminal(std::FILE* stream);
 
 /// Waits up to 100 ms for bytes from a file, a pipe or a device. Returns the number of bytes read,
-/// 0 at the end of the file, or nullopt if no bytes arrived within this time. Throws
-/// std::system_error if reading fails.
+/// or 0 at the end of the file. Returns nullopt if no bytes arrive within this time, or if a signal
+/// interrupts the wait. Throws std::system_error if reading fails.
 std::optional<std::size_t> read_available(int descriptor, void* data, std::size_t max_bytes);
 
 /// Sets the handler for signals that ask the program to exit: Ctrl-C, SIGTERM and a closed

@@ -157,10 +157,10 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         }
         p[i][i] += kRounding * before[i][i];
     }
-    // The upper three rows equal R S^-1 H P. This product involves no cancellation. With the
-    // subtraction above, these rows would lose all significant digits in single precision after a
-    // long gap. The other elements need the subtraction, so the loop adds a bound on the rounding
-    // error to their diagonal.
+    // The upper three rows equal R S^-1 H P, a product without cancellation. If these rows were
+    // computed by the subtraction above, they would lose all significant digits in single precision
+    // after a long gap between sightings. The other elements must be computed by subtraction, so
+    // the loop adds a bound on the rounding error to their diagonal elements.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)
@@ -250,8 +250,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options) {
     const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
     const PlaneMotion seen = in_plane(measured, motion.pose.theta_bam, is_y_up);
-    // The agility is fitted to sightings. It does not apply between them, so this prediction uses
-    // an agility of 1.
+    // The agility is fitted to sightings and does not apply to the motion between sightings, so
+    // this prediction uses an agility of 1.
     MotionEstimate later = motion;
     later.agility = {1, 1, 1};
     later = predicted(later, time_us, options);
@@ -261,8 +261,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
     //
     //     g = e_new - e_old - by_theta * e_old[2]
     //
-    // The displacement is rotated by the old theta. The last term is the effect of the error in
-    // this angle.
+    // The last term is due to the error of the old theta, because the measured displacement is
+    // rotated by the old theta.
     std::array<Vector9, 3> with_old{};  // covariance between old pose and new state
     for (std::size_t k = 0; k < 3; ++k) {
         with_old[k] = motion.covariance[k];
@@ -348,16 +348,16 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         const float possible = squared(moved / kSurprise) / motion.scatter;
         const auto surprise = [&] { return possible - motion.covariance[i][i] - noise[i][i]; };
         // If the filter lags behind the robot, consecutive innovations have the same sign, so the
-        // agility is increased. If the filter follows the noise, their signs alternate, so the
-        // agility is decreased.
+        // agility is increased. If the filter follows the noise, consecutive innovations have
+        // opposite signs, so the agility is decreased.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));
         motion.agility[i] = std::clamp(std::max(agility, needed), kMinAgility, 1.0F);
         add_noise(motion.covariance, i, (motion.agility[i] - old) * pushed, effect);
         // An innovation that the agility does not explain may be caused by a collision or an
         // outlier. The first such innovation therefore increases only the variance of the position.
-        // A second one in the same direction indicates a collision, which changes the velocity
-        // abruptly, so it also increases the variance of the velocity.
+        // A second such innovation in the same direction indicates a collision, which changes the
+        // velocity abruptly. It therefore also increases the variance of the velocity.
         if (surprise() > 0) {
             const bool is_hit = repeated > squared(moved) / 2;
             add_noise(motion.covariance, i, surprise(), {1, is_hit ? 1 / dt_s : 0, 0});

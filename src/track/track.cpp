@@ -26,7 +26,8 @@ float seconds(std::int64_t from_us, std::int64_t to_us) {
 }
 
 /// Returns the maximum accepted differences from the prediction: `gate_sigmas` standard deviations
-/// of the innovation, plus a dt^2 / 2, where a is the maximum acceleration.
+/// of the innovation, plus a dt^2 / 2, where a is the maximum acceleration, or the maximum angular
+/// acceleration for the angle.
 Vector3 gate(const Innovation& found, float dt, const TrackOptions& options) {
     Vector3 limits{};
     for (std::size_t i = 0; i < 3; ++i) {

@@ -104,7 +104,7 @@ class Screen {
     std::unique_ptr<ScreenOutput> output_;
 };
 
-/// Returns true if a window can be opened. Tests whether an X server answers. The X server may be
+/// Returns true if a window can be opened, that is, if an X server answers. The X server may be
 /// part of a Wayland session.
 bool has_display();
 

@@ -62,8 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 0}, 0.006},
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 90}, 0.006}));
 
-// The edges of these dots are sharper than a pixel. Without the correction of the pixel bias, the
-// median error at 12 px per spacing is 0.0100 px.
+// The edges of these dots are sharper than a pixel, so the pixel bias is large. Without its
+// correction, the median error at 12 px per spacing would be 0.0100 px, far above the limit.
 INSTANTIATE_TEST_SUITE_P(
     HardlyBlurred, DotsAlike,
     testing::Values(AlikeCase{{.spacing_px = 8, .blur_px = 0.3, .angle_deg = 0}, 0.004},
@@ -71,9 +71,9 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 0}, 0.0035},
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 90}, 0.0035}));
 
-// Only one or two pixels of each dot are darker than the threshold. If the centroid is computed
-// from these pixels only, the error is 0.030 px, and the mean squared error is more than twice the
-// reported variance.
+// Only one or two pixels of each dot are darker than the threshold. If the centroid were computed
+// from these pixels only, the error would be 0.030 px, and the mean squared error would be more
+// than twice the reported variance.
 INSTANTIATE_TEST_SUITE_P(
     Pale, DotsAlike,
     testing::Values(AlikeCase{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 0}, 0.024},

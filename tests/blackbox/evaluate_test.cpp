@@ -129,7 +129,7 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
     // With the scale and tilt from the camera file, the fit has five parameters. With only the lens
-    // parameters from the file, it has eight, so the fitted angles are different.
+    // parameters from the file, the fit has eight, so the fitted angles are different.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 5);  // truth.csv contains the pose of the image centre

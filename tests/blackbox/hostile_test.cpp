@@ -219,8 +219,8 @@ TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
 
 TEST_F(Hostile, AFullDiskIsToldByTheRecording) {
     simulate(40);
-    // `ulimit` limits the size of files to 8 blocks of 512 bytes. `trap` ignores the signal that
-    // would otherwise end the program when a file reaches this limit.
+    // `ulimit` limits the size of files to 8 blocks of 512 bytes. `trap` makes the program ignore
+    // the signal that would otherwise end it when a file reaches this limit.
     EXPECT_EQ(shell("trap '' XFSZ; ulimit -f 8; \"$T\" watch frames --fps 50 --record a.mp4 | cat"
                     " > /dev/null; \"$T\" watch frames --fps 50 --record a.mp4 > /dev/null"),
               1);

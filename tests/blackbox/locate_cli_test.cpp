@@ -435,8 +435,9 @@ TEST_F(LocateCommand, output_can_go_to_a_file) {
 
 TEST_F(LocateCommand, lines_leave_at_once) {
     write_frame("a.pgm", 0);
-    // The script prints one name and then waits, for at most 10 seconds, until the tool has printed
-    // its first line. The list ends only when the script ends.
+    // The script prints one name, and then waits up to 10 seconds until the tool has printed its
+    // first line. A tool that reads the whole list first would fail this test, because the list
+    // ends only when the script ends.
     write("names.sh",
           "echo a.pgm\n"
           "for i in $(seq 100); do [ -s out ] && echo yes > came && break; sleep 0.1; done\n");

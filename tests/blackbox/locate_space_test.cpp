@@ -41,7 +41,7 @@ class LocateSpace : public LocateCommand {
 TEST_F(LocateSpace, WritesPositionAndAngles) {
     ASSERT_EQ(run("--camera camera.yaml --pose space frame.pgm"), 0) << errors_;
     const json line = json::parse(output_);
-    // The reported pose is that of the point at which the optical axis intersects the paper. The
+    // `x_mm` and `y_mm` refer to the point at which the optical axis intersects the paper. The
     // camera is kDistance_mm from this point, along a line that is tilted by kTilt_deg from the
     // vertical.
     const double aside_mm = kDistance_mm * std::sin(kTilt_rad);

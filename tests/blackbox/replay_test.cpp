@@ -20,7 +20,7 @@ constexpr const char* kHeader =
 /// A run at ten frames per second:
 /// - a drive of 30 mm along x at 100 mm/s,
 /// - three lost frames,
-/// - a new start 1 m away, and a drive of 40 mm to the side at 200 mm/s,
+/// - a fix 1 m away, and a drive of 40 mm along y at 200 mm/s,
 /// - two frames at rest with some noise,
 /// - a frame that was accepted only because of the prior.
 constexpr const char* kRows =

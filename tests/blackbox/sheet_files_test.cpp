@@ -321,8 +321,9 @@ TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
         const double x_mm = (is_b ? u - a.width_px : u) * 25.4 / 1200;
         EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm) << u;
     }
-    // A frame extends 280 printer pixels from its centre. The dots of b begin 430 pixels from the
-    // edge of b, so a frame centred near this edge shows only dots of a.
+    // A frame extends 280 printer pixels to each side of its centre. The dots of b begin 430 pixels
+    // from the edge between a and b. Frames centred on b up to 150 pixels from this edge therefore
+    // show only dots of a.
     EXPECT_GE(on_a, 8);
     EXPECT_GE(on_b, 12);
 }

@@ -69,8 +69,8 @@ TEST_F(SheetsTool, a_new_name_keeps_all_else) {
     expected[0]["name"] = "desk";
     ASSERT_EQ(sheets_tool("rename table desk"), 0) << errors_;
     EXPECT_EQ(sheets(), expected);
-    // The sheet that was called `table` is now called `desk`. If another sheet is renamed to
-    // `table`, it must not inherit the properties of the first sheet.
+    // The sheet that was called `table` is now called `desk`. Another sheet that is renamed to
+    // `table` must not inherit the properties of `desk`.
     ASSERT_EQ(sheets_tool("rename shelf table"), 0) << errors_;
     EXPECT_FALSE(sheets().at(1).contains("room"));
     ASSERT_EQ(sheets_tool("remove desk"), 0) << errors_;

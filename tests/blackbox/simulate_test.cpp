@@ -146,8 +146,9 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
             continue;
         }
         sheets.insert(record["sheet"]);
-        // The sheets span 120 x 40 mm. The distance of the figure eight from the outer edges is
-        // 5 mm plus half the diagonal of the camera's view (about 5 mm).
+        // The sheets span 120 x 40 mm. The figure eight keeps a distance of 5 mm plus half the
+        // diagonal of the camera's view (about 5 mm) from the outer edges, so x is between about 10
+        // and 110 mm.
         EXPECT_GT(record["x_m"], 0.0095);
         EXPECT_LT(record["x_m"], 0.1105);
         if (last) {

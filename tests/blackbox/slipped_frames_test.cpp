@@ -81,8 +81,8 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
     // At most 3 % of the fixes may be off by more than 4 standard deviations. The limit is this
-    // high because there are only a few frames. If the true fraction is 1 %, one run in 70 exceeds
-    // it.
+    // high because there are only a few frames: if the true fraction is 1 %, one run in 70 still
+    // exceeds 3 %.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
     // Only half of the steps need to be detected, because the other steps affect only a corner of
     // the view or are smaller than the scatter of the dots.
@@ -114,8 +114,8 @@ struct Claims {
 };
 
 // A view of 9 x 6 mm is too small to show wrinkles with wavelengths of 8 mm and more, so the
-// covariance must allow for them. Regression: only 62 % (slight wrinkles) and 72 % (stronger
-// wrinkles) of the errors were within 4 reported standard deviations.
+// covariance must allow for wrinkles that are not visible. Regression: only 62 % (slight wrinkles)
+// and 72 % (stronger wrinkles) of the errors were within 4 reported standard deviations.
 TEST(WrinkledSheet, MostErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Claims slightly(0.02);
     EXPECT_EQ(slightly.fixes, 150);

@@ -84,8 +84,8 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
     // The tracker reports `lost` 70 ms (14 frames) after the last frame that shows a sheet.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
-    // At `put_down`, the robot reappears at a place that it cannot have reached at 400 mm/s. The
-    // tracker reports `kidnapped` in the third frame that shows the robot again.
+    // At `put_down`, the robot is put down at a place that it cannot have reached at 400 mm/s. The
+    // tracker reports `kidnapped` in the third frame that shows a sheet again.
     EXPECT_EQ(events[4].first, frame_at(plan.put_down) + 2);
     EXPECT_EQ(events[5].first, frame_at(plan.second_lift) - 1 + 14);
     EXPECT_EQ(events[6].first, frame_at(plan.second_put_down));

@@ -38,8 +38,9 @@ constexpr std::int64_t kFrameTime_us = 20'000;
 constexpr double kFps = 50;
 constexpr double kSpacing_mm = 0.508;
 
-/// A robot that rests, drives half a circle at up to 170 mm/s, and rests again. The second rest is
-/// long enough for the pacer to reduce the rate to one frame per second.
+/// The robot rests until kStart_s, drives about half a circle at up to 170 mm/s until kStop_s, and
+/// rests again until kEnd_s. The second rest is long enough for the pacer to reduce the rate to one
+/// frame per second.
 constexpr double kStart_s = 0.2;
 constexpr double kStop_s = 2.2;
 constexpr double kEnd_s = 10;
@@ -149,8 +150,9 @@ class EmulatedDevice : public testing::Test {
         }
         out.close();
         const SerialLine serial;
-        // Waits until `listen` has configured the terminal, which would otherwise alter the bytes.
-        // At the end, waits until all packets have arrived, because bytes in transit would be lost.
+        // Waits until `listen` has configured the terminal, because an unconfigured terminal alters
+        // bytes. At the end, waits until all packets have arrived, because interrupting `listen`
+        // earlier would lose the bytes in transit.
         const std::string commands =
             "cd " + directory_.path().string() + "; " + test::tool_path() + " listen " +
             serial.name() +

@@ -1,8 +1,9 @@
 // A fake camera for machines that have no camera. It is loaded with LD_PRELOAD, and intercepts
-// OpenCV's system calls on /dev/video0. It repeats the raw grey frames of the file FAKE_CAMERA,
-// which have the size FAKE_CAMERA_SIZE. While this file does not exist, the camera behaves as if
-// unplugged. The requested settings and the frame times in µs are written to the file
-// FAKE_CAMERA_LOG. The camera also offers 640x480 at 15 frames/s.
+// OpenCV's system calls on /dev/video0. It repeats the raw grey frames in the file named by the
+// environment variable FAKE_CAMERA. FAKE_CAMERA_SIZE is the size of the frames, such as 640x480.
+// While the file does not exist, the camera behaves as if unplugged. The requested settings and the
+// frame times in µs are written to the file named by FAKE_CAMERA_LOG. The camera also offers
+// 640x480 at 15 frames/s.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>

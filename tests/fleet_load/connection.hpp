@@ -1,8 +1,8 @@
 /// A connection that publishes MQTT messages with QoS 1 in batches. It connects to a broker, or
 /// acts as a broker for a subscriber.
 ///
-/// It writes MQTT 3.1.1 packets without using a library. A library makes several system calls per
-/// message, and would need more time than the program under test.
+/// The connection writes MQTT 3.1.1 packets without a library, because a library makes several
+/// system calls per message and would need more time than the program under test.
 #pragma once
 
 #include <cstdint>

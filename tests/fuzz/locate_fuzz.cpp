@@ -1,5 +1,5 @@
-// Fuzzes `locate` with arbitrary images, options and predictions. It must terminate and access only
-// its own memory, and a fix must be complete, finite, and within the limits of the options.
+// Fuzzes `locate` with arbitrary images, options and predictions. `locate` must terminate and
+// access only its own memory. A fix must be complete, finite, and within the limits of the options.
 #include <memory>
 #include <span>
 

@@ -67,9 +67,9 @@ inline DeviceOptions options_of(const LocateHeader& header) {
     return options;
 }
 
-/// Returns one of two kinds of predictions. The first kind is arbitrary: it is read from the last
-/// bytes of the input, which also serve as pixels. The second kind is the fix of the frame,
-/// displaced by up to 2 spacings and rotated by up to 11 degrees.
+/// If the flag `own_prediction` is set and the frame has a fix, returns this fix, displaced by up
+/// to 2 spacings and rotated by up to 11 degrees. Otherwise, returns an arbitrary prediction, which
+/// is read from the last bytes of the input. These bytes also serve as pixels.
 inline Prediction prediction_of(const LocateHeader& header, std::span<const std::uint8_t> rest,
                                 const Fix& fix) {
     static_assert(std::is_trivially_copyable_v<Prediction>);

@@ -1,5 +1,6 @@
-// Fuzzes `parse_print_map`. It must return a valid map, or throw Error. Inputs do not contain a
-// checksum, because random checksums would be wrong. The fuzz target appends the correct checksum.
+// Fuzzes `parse_print_map`, which must either return a valid map or throw Error. The fuzz target
+// appends the correct checksum to each input, because almost all random checksums would be
+// rejected.
 #include <cstdlib>
 #include <string>
 

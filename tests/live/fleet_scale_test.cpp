@@ -35,7 +35,7 @@ class FleetScale : public Mqtt {
     }
 
     /// Publishes `states` states of each of `robots` robots, at a rate of 20 states per second and
-    /// robot. Returns when the broker has received all of them.
+    /// robot. Returns when the broker has received all states.
     void publish(const Broker& broker, int robots, int states, int first = 0) {
         const ShellOutcome outcome = run_shell(fmt::format(
             "'{}' --port {} --robots {} --hz 20 --seconds {} --first {}",

@@ -1,6 +1,6 @@
-// Checks the messages of `dotpose watch --mqtt` against VDA 5050, version 2.0.0. The schemas
-// contain the required fields, types and ranges from the tables in sections 6.11 and 6.14 of VDA
-// 5050.
+// Checks the messages of `dotpose watch --mqtt` against VDA 5050, version 2.0.0. The JSON schemas
+// in this file contain the required fields, types and ranges from the tables in sections 6.11 and
+// 6.14 of VDA 5050.
 #include <algorithm>
 #include <sstream>
 #include <string>

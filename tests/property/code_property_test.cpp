@@ -74,9 +74,9 @@ Grid encode(const Draw& draw) {
     return grid;
 }
 
-/// Turns the window by the number of quarter turns in the draw. Checks that the turned window is
-/// either refused or decoded to a place that contains it. Returns a description of the failure, or
-/// "" if there is none.
+/// Turns the window by the number of quarter turns in the draw. Checks that `decode` either refuses
+/// the turned window, or returns a place at which the code contains it. Returns a description of
+/// the failure, or "" if there is none.
 std::string check_turned(const Draw& draw, const Grid& upright) {
     Grid seen = upright;
     for (int i = 0; i < draw.quarter_turns; ++i)
@@ -85,7 +85,8 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
         Place place;
         const Status status = decode(draw.code, seen.window(), place);
         // Turning reverses and inverts the bits along at least one axis. If a string of 7 bits
-        // occurs in the main sequence, its reversed and inverted form does not.
+        // occurs in the main sequence, its reversed and inverted form does not. A turned window
+        // with at least 7 columns and 7 rows must therefore be refused.
         if (draw.columns >= 7 && draw.rows >= 7 && status != Status::not_in_code) {
             return "a turned window was not refused";
         }

@@ -192,7 +192,7 @@ struct Repetition {
 };
 
 /// Returns all repetitions at a distance of at most kReach lines. Five lines are repeated if the
-/// four digits between them are repeated in all four sequences.
+/// digits at the four steps between them are repeated in all four sequences.
 std::vector<Repetition> repetitions(CodeVariant code) {
     const code::Basis& basis = code::basis(code);
     std::vector<Repetition> found;

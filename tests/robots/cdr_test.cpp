@@ -69,9 +69,9 @@ TEST(Cdr, HasTheBytesOfAnotherSerialiser) {
 }
 
 TEST(Cdr, CountsTheBytesOfATextAndItsEnd) {
-    // The expected bytes follow the standard, in which the length is 3: the two bytes of UTF-8 and
-    // the terminating 0. The other serialiser counts characters instead of bytes, so its output
-    // cannot be used here.
+    // The expected bytes follow the standard, in which the length of this text is 3: the two bytes
+    // of UTF-8 and the terminating 0. golden.txt cannot be used here, because the serialiser that
+    // wrote it counts characters instead of bytes.
     const std::string bytes = hex(to_cdr(CompressedImage{{{1, 2}, "\u00e4"}, "", {}}));
     EXPECT_EQ(bytes,
               "00010000"

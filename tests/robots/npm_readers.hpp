@@ -13,8 +13,8 @@
 
 namespace dotpose::test {
 
-/// Returns the folder that contains the readers. The first call installs them. Returns an empty
-/// string if npm or the network is not available.
+/// Returns the folder that contains the programs that read the messages. The first call installs
+/// these programs. Returns an empty string if npm or the network is not available.
 inline std::string npm_folder() {
     static const ShellOutcome installed =
         run_shell("'" + source_dir() + "/tests/robots/npm_packages' '" DOTPOSE_NPM_FOLDER "'");

@@ -163,8 +163,8 @@ TEST_F(Recording, KilledItIsStillReadable) {
     DOTPOSE_NEEDS_NPM();
     put_raw(400);
     ASSERT_EQ(stop_after(400, "KILL"), 128 + 9);
-    // The tool has processed the frames of 2 s. The last chunk, which contains at most one second,
-    // may be missing, but both readers must be able to read the file.
+    // The tool has processed 2 s of frames. The last chunk of the file, which contains at most one
+    // second, may be missing. The readers must accept the file nevertheless.
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_GE(poses.size(), 199U);
     EXPECT_LE(poses.size(), 400U);

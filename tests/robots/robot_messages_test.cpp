@@ -163,7 +163,8 @@ TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
     EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
     EXPECT_EQ(twist.twist.angular.z, -0.5);
     // The robot drives along the y axis of the world at 0.3 m/s. To first order, an angle error of
-    // 1 rad adds 0.3 m/s to the sideways velocity. The variance of the angle is 3 rad^2.
+    // 1 rad adds 0.3 m/s to the sideways velocity, so an angle variance of 3 rad^2 adds 0.3^2 * 3
+    // to the variance of the sideways velocity.
     EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
     EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
     EXPECT_NEAR(twist.covariance[35], 6, 1e-12);

@@ -1,6 +1,5 @@
-// Tests pages written by `dotpose overlay` as a camera sees them. A PDF renderer replaces the
-// printer, a simulated camera takes frames of the rendered pages, and `dotpose locate` locates the
-// frames.
+// Tests that `dotpose locate` locates frames of pages written by `dotpose overlay`. A PDF renderer
+// replaces the printer, and a simulated camera takes frames of the rendered pages.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -79,8 +79,9 @@ class Documents : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Returns the renderers that can draw the document. mutool in Debian 13 loses a resource when it
-/// converts certain documents, and then cannot draw its own result.
+/// Returns the renderers that can draw the document. mutool is omitted if it cannot draw the
+/// document: the version in Debian 13 loses a resource when it converts certain documents, and then
+/// cannot draw its own result.
 std::vector<const char*> renderers_of(const fs::path& pdf) {
     try {
         render("mutool", pdf, 72);
@@ -194,9 +195,9 @@ TEST_F(Documents, user_units_make_the_page_larger) {
     EXPECT_EQ(errors.wrong_symbols + errors.missing, 0);
 }
 
-/// Returns a document of two pages that share content and inherit resources. It has a link, a form
-/// field and an outline. Its content changes the graphics state and the coordinates without
-/// restoring them.
+/// Returns a document of two pages that share content and inherit resources. The document has a
+/// link, a form field and an outline. The content of the pages changes the graphics state and the
+/// coordinates without restoring them.
 std::vector<std::string> rich_document() {
     return {"<< /Type /Catalog /Pages 2 0 R /Outlines 8 0 R /AcroForm << /Fields [9 0 R] >> >>",
             "<< /Type /Pages /Kids [3 0 R 4 0 R] /Count 2 /MediaBox [0 0 200 100] "

@@ -1,6 +1,6 @@
-// Writes the states that many robots would send in a day to a database. Writes them as `dotpose
-// fleet --store` does, but faster than real time. Then reads all states, checks that none is
-// missing, and prints rates and times. docs/fleet.md contains the results.
+// Writes the states of many robots over a day to a database, as `dotpose fleet --store` does but
+// faster than real time. Then reads all states, checks that none is missing, and prints rates and
+// times. docs/fleet.md contains the results.
 #include <chrono>
 #include <cmath>
 #include <cstdint>

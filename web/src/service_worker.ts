@@ -3,8 +3,8 @@ declare const __FILES__: string[];
 declare const __BUILD__: string;
 
 /**
- * The parts of ServiceWorkerGlobalScope that are used in this file. The TypeScript types of
- * ServiceWorkerGlobalScope conflict with the types of a page.
+ * The parts of ServiceWorkerGlobalScope that are used in this file. They are declared here because the TypeScript types
+ * of ServiceWorkerGlobalScope conflict with the types of a page.
  */
 interface WorkEvent extends Event {
     waitUntil(work: Promise<unknown>): void;

@@ -136,7 +136,7 @@ test("the trail of a robot on a small circle is round up to the robot", async ()
         const radius = (Math.max(...xs) - Math.min(...xs)) / 2;
         return { fraction: Math.max(...segments) / radius, count: segments.length };
     });
-    // Between two states, the robot moves by 0.22 times the radius of its circle. The limit is higher because some
+    // Between two states, the robot moves by 0.22 times the radius of its circle. The limit is 1 radius, because some
     // states are not drawn.
     assert.ok(longest.count > 100 && longest.fraction < 1, JSON.stringify(longest));
     await page.close();

@@ -1,5 +1,5 @@
 // Makes frames that show the seam between two sheets. Each frame is composed of a simulated frame of the left sheet and
-// one of the right sheet.
+// a simulated frame of the right sheet.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { dotpose } from "./browser.mjs";

@@ -24,10 +24,10 @@ inline bool is_code(std::int32_t code) {
     return is_one_of(code, CodeVariant::microdots);
 }
 
-/// Reads options. `options` must contain the defaults. Copies from `given` the members that exist
-/// in the caller's version of the struct. Keeps all defaults if `given` is null. `first_bytes` is
-/// the size of the first version of the struct. Returns BAD_SIZE if the size of `given` matches no
-/// version.
+/// Copies the members of `given` to `options`, which must contain the defaults. Copies only the
+/// members that exist in the caller's version of the struct. If `given` is null, keeps all
+/// defaults. `first_bytes` is the size of the first version of the struct. Returns BAD_SIZE if the
+/// size of `given` matches no version.
 template <typename DeviceOptions>
 dotpose_status read_sized(const DeviceOptions* given, std::size_t first_bytes,
                           DeviceOptions& options) {

@@ -147,8 +147,8 @@ dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, in
 
 /* Writes the symbols (DOTPOSE_SYMBOL_) of columns x rows dots, row by row from `top_left`, for
  * example to print a sheet. `bytes` is the size of `symbols`. Returns TOO_LITTLE_MEMORY if `bytes`
- * is less than columns x rows. `columns` and `rows` must be from 1 to 65535. At the end of each
- * axis, the pattern wraps around, as it does in locators. */
+ * is less than columns x rows. `columns` and `rows` must be from 1 to 65535. Treats both axes as
+ * cyclic, as locators do. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
 
@@ -284,8 +284,8 @@ typedef struct dotpose_fix {
 } dotpose_fix;
 
 /* Sets up a fix before the first call that writes to it. `bytes` is the caller's
- * sizeof(dotpose_fix). If the size of a fix matches no version, functions return BAD_SIZE and leave
- * the fix unchanged. */
+ * sizeof(dotpose_fix). If the size of a fix matches no version of the struct, functions return
+ * BAD_SIZE and leave the fix unchanged. */
 dotpose_status dotpose_fix_init(dotpose_fix* fix, size_t bytes);
 
 /* Expected position of the pattern in the next frame (76 bytes). */
@@ -431,11 +431,11 @@ enum {
 };
 
 /* Sets the regions of the sheets that may be in view. About 30 dots in view, in images of at least
- * 24 x 24 px, are then enough for a fix. The locator reads `regions` in each frame, so the array
- * must remain valid and unchanged. If `count` is 0, all places are possible again. Discards an
- * unfinished frame. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not
- * inside the plane, or has a code or section that does not exist. Device locators search only the
- * regions in their code. */
+ * 24 x 24 px, are then enough for a fix. `others` is DOTPOSE_OTHERS_. The locator reads `regions`
+ * in each frame, so the array must remain valid and unchanged. If `count` is 0, all places are
+ * possible again. Device locators search only the regions in their code. Discards an unfinished
+ * frame. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside the
+ * plane, or has a code or section that does not exist. */
 dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
                                  size_t count, int32_t others);
 
@@ -454,10 +454,10 @@ typedef struct dotpose_measured_motion {
     float sigma_rad; /* 16: standard deviation of the rotation */
 } dotpose_measured_motion;
 
-/* Locates an image. `since_last` is the camera motion since the previous image. If the position
- * from this image alone is not certain, also uses the previous images in the series. The fix's
- * `frames` is the number of images used. Locating an image with any other function ends the series.
- * The options must contain the spacing. Returns WRONG_KIND for device locators. */
+/* Locates an image. `since_last` is the camera motion since the previous image. Consecutive images
+ * that are located with this function form a series. If the position from this image alone is not
+ * certain, also uses the previous images in the series. The fix's `frames` is the number of images
+ * used. The options must contain the spacing. Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pixels,
                                     int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                     const dotpose_measured_motion* since_last, dotpose_fix* fix);
@@ -636,7 +636,7 @@ dotpose_status dotpose_track_options_init(dotpose_track_options* options, size_t
 dotpose_status dotpose_tracker_init(dotpose_tracker* tracker, const dotpose_track_options* options);
 
 /* Converts a fix to a sighting in the pattern frame. Returns NO_FIX if the fix is not ok, and
- * BAD_VALUE if its spacing is not known or exceeds 20 mm. */
+ * BAD_VALUE if the spacing of the fix is not known or exceeds 20 mm. */
 dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
                                    dotpose_sighting* sighting);
 

@@ -177,10 +177,10 @@ double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
 /// Returns the point on the paper that an undistorted pixel shows, in mm relative to the point
 /// under the image centre. x is along the image x axis at the image centre. Throws
-/// std::bad_optional_access if `camera.paper` is none. Use this frame to compare two calibrations
-/// of the same camera: the coordinates of a point on the paper differ by only microns between the
-/// calibrations, even far outside the image. The undistorted pixel coordinates of the point differ
-/// by more.
+/// std::bad_optional_access if `camera.paper` is none. Use these coordinates to compare two
+/// calibrations of the same camera. The coordinates of a point on the paper differ by only microns
+/// between the calibrations, even far outside the image, whereas its undistorted pixel coordinates
+/// differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Inverse of `from_image_centre`: returns the undistorted pixel that shows `point`. Throws
 /// std::bad_optional_access if `camera.paper` is none.
@@ -197,10 +197,10 @@ double brightness_at(const Camera& camera, PixelPoint pixel);
 
 /// Returns a camera whose images are crops of the images from `camera`. A crop has `width_px` x
 /// `height_px` pixels, and its top left pixel is (`left_px`, `top_px`). The reference point remains
-/// the same point of the scene, even if `camera.reference_px` is none. If the view of the paper is
-/// known, the heading also remains the same. `flat_field` and `readout_ms` are adapted to the crop.
-/// Throws BadArgument if the crop extends beyond the image, or if the result is not a valid camera
-/// (see `validate`).
+/// the same point of the scene. If `camera.reference_px` is none, this is the point at the centre
+/// of the original image. If the view of the paper is known, the heading also remains the same.
+/// `flat_field` and `readout_ms` are adapted to the crop. Throws BadArgument if the crop extends
+/// beyond the image, or if the result is not a valid camera (see `validate`).
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
 /// Sets the lens in `options`, and the reference point if the camera has one. If the camera's view

@@ -39,9 +39,8 @@ struct DotOffset {
     double y() const { return y_q14 / 16384.0; }
 };
 
-/// Errors of a print map. They vary slowly over the page, so all dots in a view have nearly the
-/// same error. This struct contains the covariance of the error at the nodes of a grid that spans
-/// all dots on the page.
+/// Covariances of the errors of a print map, at the nodes of a grid that spans all dots on the
+/// page. The errors vary slowly over the page, so all dots in a view have nearly the same error.
 struct MapErrors {
     /// Covariance of the shift along x and y, in spacings, and of the rotation, in rad: the
     /// elements (x, x), (x, y), (y, y), (x, rotation), (y, rotation), (rotation, rotation).
@@ -118,21 +117,23 @@ enum class MapUse : std::uint8_t {
 inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
 
 /// Parses the contents of a map file. Throws Error if the contents are not a map, are truncated or
-/// damaged, or have a newer file version. Files of version 1 do not contain the errors of the map.
+/// damaged, or have a newer file version. Files of version 1 contain no map errors, so `errors` is
+/// empty in their pages.
 PrintMap parse_print_map(std::string_view bytes);
 
 /// Reads a map file. Throws Error, with the name of the file, if the file cannot be read or if its
 /// contents are not valid (see `parse_print_map`).
 PrintMap read_print_map(const std::filesystem::path& path);
 
-/// Returns the contents of a map file. Throws BadArgument if a page is not valid. A page is not
-/// valid if its region is not in the code plane, if a number is out of range, if the name is longer
-/// than 4096 bytes, if `offsets` or `views` does not contain exactly one element per dot, or if
-/// `errors` is not a grid of covariances.
+/// Returns the contents of a map file. Throws BadArgument in these cases:
+/// - The region of a page is not in the code plane, or a number is out of range.
+/// - The name of a page is longer than 4096 bytes.
+/// - `offsets` or `views` does not contain exactly one element per dot.
+/// - `errors` is not a grid of covariances.
 std::string print_map_bytes(const PrintMap& map);
 
-/// Throws Error if a page of the map is not one of `sheets`. A page matches a sheet if their code
-/// variant, section, region and spacing are equal. Their names may differ.
+/// Throws Error if a page of the map matches none of the sheets. A page matches a sheet if their
+/// code variant, section, region and spacing are equal. Their names may differ.
 void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets);
 
 }  // namespace dotpose

@@ -43,10 +43,10 @@ namespace dotpose {
 /// Version of the sheet file format. `read_sheets` accepts no other version.
 inline constexpr int kSheetFileVersion = 1;
 
-/// Width, in cells, of the free border around every allocated region. It exceeds the maximum
-/// diagonal of a frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). Even if a frame
-/// shows two sheets, the pose computed from the dots of one sheet is therefore never in the region
-/// of the other.
+/// Width, in cells, of the free border around every allocated region. The width exceeds the maximum
+/// diagonal of a frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). Therefore, even if
+/// a frame shows two sheets, the pose computed from the dots of one sheet is never in the region of
+/// the other sheet.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Pose of a page in the world.
@@ -125,8 +125,8 @@ class SheetFile {
   public:
     /// Waits for exclusive access, then reads the file. A missing file is treated as a file without
     /// sheets. Throws Error if the file exists but cannot be read or is not valid (see
-    /// `read_sheets`), or if the file cannot be locked, for example because another program holds
-    /// the lock for longer than `wait` allows.
+    /// `read_sheets`). Also throws Error if the file cannot be locked, for example because another
+    /// program holds the lock for longer than `wait` allows.
     explicit SheetFile(const std::filesystem::path& path, const SheetFileWait& wait = {});
     ~SheetFile();
     SheetFile(const SheetFile&) = delete;
@@ -204,9 +204,9 @@ class SheetReservation {
     SheetReservation& operator=(const SheetReservation&) = delete;
 
     /// Removes the marks of the reserved sheets. Must be called after the pages have been written.
-    /// Adds the sheets again if another program has removed them. Throws Error if the file cannot
-    /// be changed, or if another program has assigned their names or cells to other sheets. In this
-    /// case, the file is unchanged.
+    /// If another program has removed the sheets in the meantime, adds them again. Throws Error if
+    /// the file cannot be changed, or if another program has assigned the names or cells of the
+    /// reserved sheets to other sheets. After an Error, the file is unchanged.
     void confirm();
 
   private:

@@ -7,9 +7,10 @@
 ///         if (const auto world = world_place(*place)) use(world->x_m, world->y_m, world->yaw_rad);
 ///     }
 ///
-/// Coordinate frames: *sheet*, mm from the top left corner of the page, x right, y DOWN, angles
-/// clockwise; *world*, metres, right-handed, z out of the paper, y up, angles counter-clockwise
-/// (ROS REP-103).
+/// Coordinate frames:
+/// - *sheet*: mm from the top left corner of the page, x right, y DOWN, angles clockwise.
+/// - *world*: metres, right-handed, z out of the paper, y up, angles counter-clockwise (ROS
+///   REP-103).
 #pragma once
 
 #include <array>
@@ -42,10 +43,10 @@ struct SheetPlace {
     PoseCovariance covariance{};
 };
 
-/// Returns the place of `fix` on the sheet that contains it. `code` is the code variant in which
-/// the fix was read. Sheets in other code variants are ignored. A sheet whose region contains the
-/// fix takes precedence over a sheet whose margins contain it. Returns nullopt if the fix is not
-/// ok, or if no sheet contains it.
+/// Returns the place of `fix` on the sheet that contains the fix. `code` is the code variant in
+/// which the fix was read. Sheets in other code variants are ignored. A sheet whose region contains
+/// the fix takes precedence over a sheet that contains the fix only in its margins. Returns nullopt
+/// if the fix is not ok, or if no sheet contains the fix.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 
@@ -64,9 +65,9 @@ struct WorldPlace {
 /// is not known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
-/// Converts the covariance of a pose from the sheet frame to the world frame: rotates it, and
-/// negates y and the angle. `sheet_yaw_rad` is the direction of the upper edge of the page in the
-/// world. The unit of length does not change.
+/// Converts the covariance of a pose from the sheet frame to the world frame, by rotating it and
+/// negating y and the angle. `sheet_yaw_rad` is the direction of the upper edge of the page in the
+/// world. Lengths keep their unit.
 PoseCovariance world_covariance(const PoseCovariance& on_sheet, double sheet_yaw_rad);
 
 }  // namespace dotpose

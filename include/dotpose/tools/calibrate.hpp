@@ -49,8 +49,8 @@ struct CalibrateOptions {
     /// `pattern`. `stitch_sheets` ignores this option, because each sheet has its own code variant.
     bool any_code = false;
     /// Sheets that the frames may show, for example the sheets of a sheet file. If the list is not
-    /// empty, the spacing is the printed spacing of the sheet that appears in the largest number of
-    /// frames. `stitch_sheets` ignores this option.
+    /// empty, the spacing of `pattern` is ignored. The calibration then uses the printed spacing of
+    /// the sheet that appears in the largest number of frames. `stitch_sheets` ignores this option.
     std::vector<SheetEntry> sheets;
     /// Called after each step of the calibration. Returning false aborts the calibration with an
     /// Error.
@@ -116,9 +116,11 @@ struct LensCalibration {
 };
 
 /// Computes the lens and the scale. Also computes the tilt and the focal length if the frames
-/// determine them. Throws BadArgument if `frames` is less than 1. Throws Error if fewer than two
-/// distinct frames can be located, if the frames differ in size, if `options.sheets` is not empty
-/// and no frame shows one of these sheets, or if no plausible lens fits the frames.
+/// determine them. Throws BadArgument if `frames` is less than 1. Throws Error in these cases:
+/// - Fewer than two distinct frames can be located.
+/// - The frames differ in size.
+/// - `options.sheets` is not empty, but no frame shows one of these sheets.
+/// - No plausible lens fits the frames.
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 
@@ -156,8 +158,8 @@ struct SpinCalibration {
     /// Rms difference, per axis, between the measured and the fitted positions of the camera.
     double residual_mm = 0;
     double turn_rad = 0;  ///< angle of the smallest arc that contains the directions of all frames
-    /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. It
-    /// is included in `sigma_mm`. 0 if noise explains the drift.
+    /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned.
+    /// Included in `sigma_mm`. 0 if noise explains the drift.
     double drift_mm = 0;
     MountVerdict verdict = MountVerdict::good;
     std::vector<SpinStation> stations;
@@ -239,8 +241,9 @@ struct FlatFieldCalibration {
     Camera camera;  ///< the given camera with `flat_field` set
     int frames = 0;
     double min_brightness = 0;  ///< minimum brightness of the flat field, relative to its maximum
-    /// Rms deviation of the mean frame from the flat field, relative to the flat field. It is
-    /// caused by dots that did not average out completely, and by differences in pixel sensitivity.
+    /// Rms deviation of the mean frame from the flat field, relative to the flat field. The
+    /// deviation is caused by dots that did not average out completely, and by differences in pixel
+    /// sensitivity.
     double residual = 0;
 };
 

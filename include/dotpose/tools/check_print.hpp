@@ -48,17 +48,17 @@ struct CheckPrintOptions {
     /// differs from the given or detected code variant are ignored, except that anoto and libdots
     /// are treated as one variant (see `overlap` in sheet_file.hpp).
     std::vector<Sheet> sheets;
-    /// Resolution of the scan. An image is treated as a photo if no resolution is given, or if the
-    /// image shows the perspective or lens distortion of a camera. The check of a photo allows for
-    /// perspective and lens distortion, and does not judge the scale. If the resolution contradicts
-    /// the spacing, the check reports a fault.
+    /// Resolution of the scan. If no resolution is given, or if the image shows the perspective or
+    /// lens distortion of a camera, the image is treated as a photo. The check of a photo allows
+    /// for perspective and lens distortion, and does not judge the scale. If the resolution
+    /// contradicts the spacing, the check reports a fault.
     std::optional<Resolution> resolution;
     /// True if the metadata in the image file indicate that the image was taken with a camera. In
     /// this case, the resolution is ignored.
     bool is_photo = false;
-    /// Reflectance of solid ink relative to the paper, 0 to 0.9. The reflectance cannot be
-    /// measured, because dots are only a few pixels wide. The measured diameter of a dot is the
-    /// diameter of a disc of solid ink with the same total darkness.
+    /// Reflectance of solid ink relative to the paper, 0 to 0.9. The check uses this value to
+    /// compute the diameter of a dot, which is the diameter of a disc of solid ink with the same
+    /// total darkness. The reflectance cannot be measured, because dots are only a few pixels wide.
     double ink_reflectance = 0.15;
     /// Called after each step of the check with the number of completed steps and an estimate of
     /// the total number, which may grow during the check. Returning false aborts the check with an
@@ -219,8 +219,8 @@ struct PrintCheck {
     double code_p_wrong = 0;
     std::optional<Resolution> resolution;  ///< resolution that was used, or none for a photo
     bool is_photo = false;                 ///< copy of CheckPrintOptions::is_photo
-    /// Evidence that the image is a photo. None if there is no evidence, or if no resolution was
-    /// given. If there is evidence, the given resolution is ignored.
+    /// Evidence that the image is a photo although a resolution was given. The given resolution is
+    /// then ignored. Not set if there is no such evidence, or if no resolution was given.
     std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
     bool is_test_page = false;

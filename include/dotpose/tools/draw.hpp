@@ -59,9 +59,9 @@ struct DrawOptions {
 /// The left panel shows the image with a ring around each dot, the symmetric connections of the
 /// neighbour search, and the origin of the grid (paper, figures 2 and 3). Below the panel, the same
 /// connections are drawn from a common origin, with the grid vectors (figure 4). The right panel
-/// shows the decoding (figure 9): the grid, the symbol of each dot, coloured by its likelihood, the
-/// decoded window and its corner, the reference point and the angle theta. Below the panel is the
-/// pose, or the reason why there is none.
+/// shows the decoding (figure 9): the grid, the symbol of each dot (coloured by its likelihood),
+/// the decoded window and its corner, the reference point, and the angle theta. Below the panel is
+/// the pose, or the reason why there is none.
 ///
 /// Everything is drawn at its position in the image, so grid lines are curved if the lens has
 /// distortion. To keep the file size below 1 MB, large images are embedded at a lower resolution.
@@ -92,9 +92,9 @@ void draw_path(const std::filesystem::path& file, const Sheet& sheet,
 /// of the dot density.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
-/// Residuals of a lens calibration, summed separately for each of the square parts that
-/// `draw_calibration` divides the image into. Programs can use this struct to draw the residuals
-/// themselves.
+/// Sums of the residuals of a lens calibration. `draw_calibration` divides the image into square
+/// parts, and this struct contains the sums for each part. Programs can use the sums to draw the
+/// residuals themselves.
 struct ResidualField {
     struct Part {
         PixelPoint before;  ///< sum of the residuals before the calibration, in px

@@ -70,10 +70,10 @@ struct Located {
     /// The pose of the reference point, corrected with the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix, or none if the fix is not on any sheet
-    /// Code variant of the fix and, if there is one, a place in another code variant that also
-    /// explains the image. In results of `locate`, `reading.fix` is the fix before the correction
-    /// with the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong`
-    /// does not include the prior (see Followed).
+    /// Code variant of the fix. Also contains a place in another code variant if such a place
+    /// explains the image too. In results of `locate`, `reading.fix` is the fix before the
+    /// correction with the camera file. In results of `follow`, `reading.fix` equals `fix`, except
+    /// that its `p_wrong` does not include the prior (see Followed).
     CodeReading reading;
     /// Nominal spacing, in mm, of the sheet that contains the fix. If the fix is not on any sheet,
     /// this is the common spacing of all sheets, or NaN if the sheets differ in spacing. If there
@@ -135,9 +135,10 @@ class Follower {
     /// variant is carried over from image to image.
     Located locate(const GreyImage& image);
 
-    /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
-    /// place of the pattern. A fix that is not certain without the prediction is accepted only if
-    /// the predicted place makes it certain enough for the tracker.
+    /// Locates the next image of a sequence, taken at `time_us`. Uses the previous images to
+    /// predict the place of the pattern. A fix that is not certain from this image alone is
+    /// accepted only if the tracker accepts it with the prior probability of the predicted place
+    /// (Verdict::with_prior).
     Followed follow(ImageView image, std::int64_t time_us);
 
     /// Returns true if the robot is tracked in the world frame of the sheet file (m, y up) instead
@@ -162,9 +163,8 @@ class Follower {
     /// camera is invalid, or if it has no focal length and poses in space are required.
     void set_camera(const Camera& camera);
 
-    /// Return results for the latest image: the image that was located (possibly flipped,
-    /// downscaled, or corrected with the flat field), the options that were used, and the trace of
-    /// the stages.
+    /// Results for the latest image: the image as it was located (possibly flipped, downscaled, or
+    /// corrected with the flat field), the options that were used, and the trace of the stages.
     ImageView image() const { return image_; }
     const DeviceOptions& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }

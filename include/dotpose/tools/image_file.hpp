@@ -47,12 +47,14 @@ struct ImageTooLarge : Error {
     int height_px;
 };
 
-/// Reads one image. Reading needs up to 15 bytes of memory per pixel, in addition to the contents
-/// of the file. Files larger than 8 * max_pixels bytes + 1 MiB are refused. `page` is the page
-/// number in a TIFF file, from 1. Throws Error with the name of the file and the reason: no such
-/// page, no such file, a directory, no permission, empty, unknown image format, truncated, damaged,
-/// too large, not enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or
-/// kMaxImagePixels pixels. Thread-safe.
+/// Reads one image. `page` is the number of the page in a TIFF file, from 1. Reading needs up to 15
+/// bytes of memory per pixel, in addition to the contents of the file. Throws ImageTooLarge if the
+/// image has more than `max_pixels` or kMaxImagePixels pixels. Thread-safe.
+///
+/// Throws Error in these cases. The message contains the name of the file and the reason.
+/// - The file or the page does not exist, or the file is a directory or cannot be accessed.
+/// - The file is empty, truncated or damaged, or its image format is unknown.
+/// - The file is larger than 8 * max_pixels bytes + 1 MiB, or there is not enough memory.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 

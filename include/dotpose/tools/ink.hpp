@@ -63,9 +63,9 @@ inline constexpr double kMaxInkGap_s = 0.1;
 ///
 /// The path is estimated by a fixed-interval smoother (Rauch, Tung and Striebel 1965). The motion
 /// model is an acceleration driven by white noise, with the noise power that maximises the
-/// likelihood of the samples. PenContact detects when the pen is lifted from the paper. It reports
-/// the start of a lift late and the end early, so each lift is extended to the adjacent samples
-/// whose smoothed heights are clearly above the paper.
+/// likelihood of the samples. PenContact detects when the pen is lifted from the paper. PenContact
+/// reports the start of a lift late and the end early, so each lift is extended to the adjacent
+/// samples whose smoothed heights are clearly above the paper.
 std::vector<InkPage> ink_of(std::span<const InkSample> samples);
 
 /// Returns the page as SVG, in mm, with the size of the page.

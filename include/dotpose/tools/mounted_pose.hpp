@@ -22,7 +22,7 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Refines a fix, given the camera file and the trace of the frame. The perspective and the nominal
-/// scale of a mounted camera are constant and known from the camera file. Only the following
+/// scale of a mounted camera are constant and known from the camera file, so only the following
 /// parameters are fitted:
 /// - the place and the angle,
 /// - the ratio of the actual to the nominal scale, because prints differ in scale,
@@ -30,11 +30,11 @@ namespace dotpose {
 /// - the velocity and the turn rate, if the camera file contains the readout time of a rolling
 ///   shutter.
 ///
-/// The result is more accurate than `fix`, especially far from the image centre. Its theta is the
-/// heading of the robot. `print` is the print scale of the sheet, if it is known. The position in
-/// the result is in nominal units of the pattern, like the position in `fix`. If the camera file
-/// has no view of the paper, or if the trace has fewer than 12 dots, only theta is changed. A fix
-/// that is not ok is returned unchanged.
+/// The result is more accurate than `fix`, especially far from the image centre. The theta of the
+/// result is the heading of the robot. `print` is the print scale of the sheet, if it is known. The
+/// position in the result is in nominal units of the pattern, like the position in `fix`. If the
+/// camera file has no view of the paper, or if the trace has fewer than 12 dots, only theta is
+/// changed. A fix that is not ok is returned unchanged.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 
@@ -66,7 +66,7 @@ struct MappedMovingFix {
     std::optional<ReadoutVelocity> velocity;
     MapUse map_use = MapUse::no_map;
 };
-/// Variant of `with_camera_and_velocity` that uses the dot positions measured in a map of the print
+/// Variant of `with_camera_and_velocity` that uses measured dot positions from a map of the print
 /// instead of the nominal positions. If the map cannot be used, falls back to the nominal
 /// positions, and sets `map_use` to the reason. If the camera file has no view of the paper, the
 /// fix is corrected as in `with_print_map`.

@@ -11,8 +11,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Maximum deviation of a correct fix from the truth, in spacings and in degrees. Wrong fixes are
-/// not counted as located, and are excluded from the error statistics.
+/// Maximum deviation of a correct fix from the truth, in spacings and in degrees. A fix with a
+/// larger deviation is wrong. Wrong fixes are not counted as located, and are excluded from the
+/// error statistics.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 
@@ -36,8 +37,9 @@ struct Outcome {
 
     /// Returns true if the frame was read and has a fix, correct or wrong.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }
-    /// Returns true if the frame has a wrong fix: its deviation is above kWrongFrom_grid or
-    /// kWrongFrom_deg, its section is not the true section, or the frame has no true pose.
+    /// Returns true if the frame has a wrong fix. A fix is wrong if its deviation is above
+    /// kWrongFrom_grid or kWrongFrom_deg, if its section is not the true section, or if the frame
+    /// has no true pose.
     bool is_wrong() const;
 };
 

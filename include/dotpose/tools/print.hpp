@@ -92,8 +92,9 @@ enum class PrintFormat {
 /// lower case. Throws BadArgument for other extensions.
 PrintFormat print_format(const std::filesystem::path& path);
 
-/// Called after each step, usually a row of the pattern. `rows` is the total number of steps.
-/// Returning false aborts the operation with an Error.
+/// Callback that reports the progress of an operation. It is called after each step, which is
+/// usually a row of the pattern. `rows` is the total number of steps. If the callback returns
+/// false, the operation is aborted with an Error.
 using Progress = std::function<bool(int rows_done, int rows)>;
 
 /// Methods of drawing dots in a PDF.
@@ -109,8 +110,8 @@ enum class DotDrawing {
 /// Options for `write_sheet`.
 struct PrintOptions {
     /// Resolution of PNG and TIFF files, in dpi. It should be the resolution of the printer. A PDF
-    /// has no pixels. For a PDF, the resolution is checked with `validate_resolution`, and it
-    /// defines the pixel size for DotDrawing::glyphs. Not used for text and SVG.
+    /// has no pixels, but its resolution is checked with `validate_resolution`, and defines the
+    /// pixel size for DotDrawing::glyphs. Not used for text and SVG.
     double dpi = 600;
     DotDrawing drawing = DotDrawing::automatic;  ///< PDF only: method of drawing dots
     /// PDF only: true to add labels (name, page, region and spacing) and rulers in the margins

@@ -33,8 +33,8 @@ namespace dotpose {
 
 struct PrintMappingOptions {
     std::vector<SheetEntry> sheets;  ///< the pages that may be in view
-    /// Lens and view of the camera. Without a camera file, the lens is assumed to have no
-    /// distortion, and the view is computed from the fixes.
+    /// Lens and view of the camera. If not given, the lens is assumed to have no distortion, and
+    /// the view is computed from the fixes.
     std::optional<Camera> camera;
     /// Earlier map of some of the sheets. The frames update this map. Pages seen in fewer than
     /// `PrintMapping::kMinFrames` frames are copied from it unchanged.
@@ -52,8 +52,8 @@ struct MappedPage {
     double noise_mm = 0;           ///< standard deviation of a measured dot centre, per axis
     /// Standard deviation of the print jitter, per axis (see MapPage::jitter).
     double jitter_mm = 0;
-    /// Rms value of the slowly varying part of the dot offsets, per axis: the square root of the
-    /// mean squared offset minus the jitter variance.
+    /// Rms value of the slowly varying part of the dot offsets, per axis: sqrt(m - jitter_mm^2),
+    /// where m is the mean square of the offsets.
     double slow_mm = 0;
     /// True if all frames had the same scale, as with a camera mounted at a constant height.
     bool is_rigid = true;
@@ -83,15 +83,15 @@ class PrintMapping {
 
     /// Locates a frame and stores its dots for `solve`. Ignores the frame and returns false if the
     /// frame shows none of the sheets, or fewer than 20 dots of a sheet. Throws BadArgument if the
-    /// image size differs from the size given in the camera file.
+    /// image size differs from that of `PrintMappingOptions::camera`.
     bool add(const ImageView& image);
 
     /// Minimum number of frames required to map a page.
     static constexpr std::size_t kMinFrames = 10;
 
-    /// Computes the map. `progress` is called with the completed fraction of the current page.
-    /// Returning false aborts the computation with an Error. Throws Error if no page was seen in
-    /// kMinFrames frames, or if the frames contradict the earlier map.
+    /// Computes the map. Calls `progress` with the completed fraction of the current page. Throws
+    /// Error if `progress` returns false, if no page was seen in kMinFrames frames, or if the
+    /// frames contradict the earlier map.
     PrintMapResult solve(const std::function<bool(double fraction)>& progress = {});
 
   private:

@@ -8,8 +8,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Model of the printing errors over a page: a smooth, low-frequency shift of the ink. The
-/// shape of the shift is invented, not measured. By default, the maximum errors in an area of
+/// Model of the printing errors over a page: a smooth, low-frequency shift of the ink. The shape of
+/// the shift is an assumption and was not measured. By default, the maximum errors in an area of
 /// kSide_mm x kSide_mm are those of Table III of the paper, rounded down to 0.01 mm: 0.15 mm along
 /// x, and 0.27 mm along y, which is the direction of paper feed.
 class PrintModel {

@@ -21,9 +21,9 @@
 /// parent is `map`, and each image gives a new pose. In that case, do not publish the mount,
 /// because a coordinate frame can have only one parent.
 ///
-/// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
-/// robot is found again after being lost or moved by hand, and when the robot enters another plane.
-/// The transform from `odom` to `base_link` is always continuous.
+/// While the robot is tracked, the transform from `map` to `odom` is constant. This transform jumps
+/// when the robot is found again after being lost or moved by hand, and when the robot enters
+/// another plane. The transform from `odom` to `base_link` is always continuous.
 #pragma once
 
 #include <array>
@@ -104,10 +104,10 @@ struct RobotFrames {
     std::string camera = "camera_optical";
 };
 
-/// Returns the frame names with `prefix`, for example "anna/", prepended to the frames of the
-/// robot: `odom`, `base` and `camera`. Robots with different prefixes share one transform tree with
-/// a common `map`. Throws BadArgument if the prefix is not allowed in ROS: it must not begin with a
-/// slash, or contain spaces or control characters.
+/// Returns `frames` with `prefix`, for example "anna/", prepended to `odom`, `base` and `camera`.
+/// `map` does not change, so robots with different prefixes can share one transform tree. Throws
+/// BadArgument if the prefix is not allowed in ROS, that is, if it begins with a slash or contains
+/// spaces or control characters.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
 /// Messages for one image. `pose` is none if there is no fix. `odometry` is none while the robot is
@@ -148,8 +148,8 @@ class RobotMessenger {
 };
 
 /// Returns the mount of the camera: the pose of the optical frame in `base_link`. The origin of the
-/// optical frame is above the point under the image centre. z points to the paper, and x and y are
-/// along the axes of the image. The height is 0 if the camera file has no focal length. Returns
+/// optical frame is above the point under the image centre. z points towards the paper, and x and y
+/// are along the axes of the image. The height is 0 if the camera file has no focal length. Returns
 /// none if the camera file has no view of the paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 

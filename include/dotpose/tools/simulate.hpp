@@ -207,8 +207,8 @@ class Projection {
 
   private:
     /// Returns the position, at `time`, of a scene point that is at `undistorted` when the middle
-    /// row is read. Points are in px from the centre of the undistorted image. `time` is in units
-    /// of the readout time, from the middle row.
+    /// row is read. Points are in px from the centre of the undistorted image. `time` is 0 when the
+    /// middle row is read, and is in units of the readout time.
     Vec2 moved(Vec2 undistorted, double time) const;
     /// Returns the displacement of the pose point in the undistorted image between the time of the
     /// middle row and `time`. The pose point moves along an arc.
@@ -302,8 +302,9 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Kinds of frames without a unique valid position. A locator must reject these frames. In the two
-/// seam scenes, however, a fix with the position and section of either side is also correct.
+/// Kinds of frames without a unique valid position. A locator must reject these frames, with one
+/// exception: in the two seam scenes, a fix with the position and section of either side is
+/// correct.
 enum class Scene : std::uint8_t {
     black,
     white,

@@ -108,16 +108,18 @@ void require_focal_length(const Camera& camera);
 /// of all dots in view, including dots at the image border and far from a tilted camera. These dots
 /// are measured again for the final pose.
 ///
-/// The errors of the dots are printing errors, which are foreshortened in a tilted view, and errors
-/// in the dot centres measured in the image. Both variances are estimated from the residuals. Dots
-/// with residuals above four standard deviations are not used.
+/// The error of a dot has two parts: the printing error, which is foreshortened in a tilted view,
+/// and the measurement error of the dot centre in the image. The variances of both parts are
+/// estimated from the residuals. Dots with residuals above four standard deviations are not used.
 ///
 /// `print` is the print scale of the sheet. `map` is the map of the page, or null. With a map, the
 /// mapped positions of the dots replace their nominal positions, and dots that were not measured
 /// for the map are ignored. Check the map with `with_print_map` first, because this function does
-/// not detect a map of a different print. Returns nullopt if there is no fix, if the spacing is
-/// unknown (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument if
-/// `camera` has neither a focal length nor a pinhole model.
+/// not detect a map of a different print.
+///
+/// Returns nullopt if there is no fix, if the spacing is unknown (`Fix::spacing_nm` is 0), or if
+/// there are fewer than 12 dots. Throws BadArgument if `camera` has neither a focal length nor a
+/// pinhole model.
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
                                     const Trace& trace, const AxisScale& print = {},
                                     const MapPage* map = nullptr);

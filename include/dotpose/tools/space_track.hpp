@@ -74,8 +74,10 @@ enum class SpaceVerdict : std::uint8_t {
     none,             ///< there was no sighting
     accepted,         ///< the first pose was used
     second_accepted,  ///< the second pose was used, because it agrees better with the track
-    /// The sighting was rejected. Either the track contradicts it, or it is ambiguous and the track
-    /// does not resolve the ambiguity. An ambiguous sighting is also rejected if there is no track.
+    /// The sighting was rejected for one of these reasons:
+    /// - The track contradicts the sighting.
+    /// - The sighting is ambiguous, and the track does not resolve the ambiguity, or there is no
+    ///   track.
     rejected,
 };
 /// Returns the identifier, such as "second_accepted".
@@ -124,8 +126,8 @@ struct Motion {
     std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
     std::array<double, kStates * kStates> covariance{};
     /// Process noise along each axis: the variance of the acceleration noise, divided by the
-    /// variance in the options. The first three axes are the position, minus the part that is
-    /// correlated with the rotation according to `noise`. The last three axes are the rotation.
+    /// variance in the options. The last three axes are the rotation. The first three axes are the
+    /// position minus its linear regression on the rotation, which is computed from `noise`.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
     /// Innovation of the latest accepted sighting, along the axes of `agility`.
     std::array<double, 6> innovation{};
@@ -145,9 +147,10 @@ class SpaceTracker {
   public:
     explicit SpaceTracker(const SpaceTrackOptions& options = {}) : options_(options) {}
 
-    /// Processes the sighting of a frame. A sighting starts a new track if the camera is lost, if
-    /// the sighting is in another plane, or if it is not later than the previous frame. An
-    /// ambiguous sighting cannot start a track, so the camera is then lost.
+    /// Processes the sighting of a frame. A sighting starts a new track in these cases:
+    /// - The camera is lost, or no sighting was accepted for more than `lost_after_us`.
+    /// - The sighting is in another plane than the track, or is not later than the previous frame.
+    /// If the sighting is ambiguous in these cases, it starts no track, and the camera is lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
     /// Processes a frame without a sighting. The camera is lost if the frame is earlier than the
     /// previous frame, or too late (see `lost_after_us`).

@@ -44,9 +44,9 @@ struct SweepOptions {
     /// Options for `locate`. Both decoders are run, so `decoder` is ignored.
     DeviceOptions locate;
     int threads = 0;
-    /// Called with the number of frames done and the total number of frames. Returning false ends
-    /// the sweep. If at least two values are complete, the result contains only the complete
-    /// values. Otherwise, `run_sweep` throws Error.
+    /// Called with the number of frames done and the total number of frames. If it returns false,
+    /// `run_sweep` stops and returns the values for which all frames are done. If there are fewer
+    /// than two such values, `run_sweep` throws Error.
     Progress progress;
 };
 
@@ -65,8 +65,8 @@ struct Sweep {
     std::vector<SweepPoint> points;
 };
 
-/// Simulates and locates the frames of all values. Throws Error if `progress` returned false before
-/// two values were complete, and BadArgument if there are no frames per value.
+/// Simulates and locates the frames of all values. Throws BadArgument if there are no frames per
+/// value, and Error if `progress` returns false before all frames of two values are done.
 Sweep run_sweep(SweepKind kind, const SweepOptions& options);
 /// Writes one line for each combination of value and decoder.
 void write_sweep_csv(std::ostream& out, const Sweep& sweep);

@@ -62,8 +62,8 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
 }
 
 /// Computes the signed sum of a group of weights for each string of kGroup bits. A 0 bit negates
-/// the corresponding weight. Unrolling the loop halves the time, but the unrolled code is too long
-/// to inline.
+/// the corresponding weight. The loop over the weights is unrolled, which halves the time. The
+/// function is not inlined, because the unrolled code is too long.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);

@@ -24,8 +24,10 @@ int below_sections(int roll) {
 }
 
 /// Decodes the position of the first line in a range, and the roll of this line at cell
-/// `first_cell`. Returns false if there are too few adjacent exact lines, if the code does not
-/// contain their rolls, or if too many bits are wrong.
+/// `first_cell`. Returns false in these cases:
+/// - There are too few adjacent exact lines (see `exact_roll`).
+/// - The code does not contain the rolls of these lines.
+/// - The number of wrong bits in the range exceeds half the number of lines.
 bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange& range,
                        int first_cell, AxisReading& reading) {
     const auto count = static_cast<std::size_t>(range.count);

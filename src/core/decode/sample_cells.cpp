@@ -175,8 +175,8 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
     // Maximum distance along an image axis from the intersection to a pixel of any square. The
     // offsets of a square's centre along the two grid axes add up to at most a third of a spacing.
-    // The centre is therefore no farther away than a third of the largest component of `u_q8` and
-    // `v_q8`.
+    // Along an image axis, the offset of the centre is therefore at most a third of the largest
+    // component of `u_q8` and `v_q8`.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -299,7 +299,7 @@ class Ink {
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
         // The weight is clamped, because errors in bits with high contrast are mostly not caused by
-        // noise. More contrast would not make such bits more reliable.
+        // noise. Even more contrast does not make such bits more reliable.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);

@@ -95,8 +95,9 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     }
 }
 
-/// Decodes the position from the rolls of adjacent lines, starting at line `first`. Replaces `best`
-/// if the total score is higher. Returns true if the new `best` is clear.
+/// Decodes the position from the rolls of adjacent lines, starting at line `first`. If the reading
+/// at this position has a higher total score than `best`, replaces `best` with it. Returns true if
+/// the new `best` is clear.
 bool improve(CodeVariant code, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;

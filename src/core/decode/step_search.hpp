@@ -7,11 +7,11 @@
 
 namespace dotpose::core {
 
-/// Searches by steps, and replaces `best` if a position has a higher score. For each secondary
-/// sequence, finds the starting indices at which its digits agree best with all steps. Then
-/// evaluates all combinations of these indices. Unlike a search by runs of lines (decode/search),
-/// this search also finds positions in frames where every sixth line is hidden, or where no line
-/// has a clear roll.
+/// For each secondary sequence, finds the starting indices at which its digits agree best with all
+/// steps. Each combination of these indices is a position. Replaces `best` with the position that
+/// has the highest score, if this score exceeds that of `best`. Unlike a search by runs of lines
+/// (decode/search), this search also finds positions in frames where every sixth line is hidden, or
+/// where no line has a clear roll.
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

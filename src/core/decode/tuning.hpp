@@ -18,8 +18,8 @@ namespace dotpose::core::tuning {
 /// Bit weights, computed from the darkness at the four dot positions of a cell
 /// (decode/sample_cells).
 namespace sample_cells {
-/// Maximum number of cells that are sampled to find the median darkness and shade of a dot. The
-/// medians hardly change even if graphics cover a quarter of the cells.
+/// Maximum number of cells that are sampled to find the median darkness and the median shade (see
+/// kShadePart) of a dot. The medians hardly change even if graphics cover a quarter of the cells.
 inline constexpr std::size_t kMedianSample = 256;
 /// The *shade* of a dot position is the mean darkness of a square around it. The half-width of this
 /// square is 1/kShadePart of the spacing. The square is wider than a dot, but does not reach the
@@ -27,7 +27,7 @@ inline constexpr std::size_t kMedianSample = 256;
 inline constexpr int kShadePart = 5;
 /// Offsets from a dot position to the eight squares that are tested for graphics, in units of 1/60
 /// of the spacing. Four squares are offset along one axis, and four squares are offset diagonally.
-/// Together, they detect any stroke that touches the dot.
+/// Together, the eight squares detect any stroke that touches the dot.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
 /// Darkness of solid ink relative to the paper level, in units of 1/256. A dot position is
@@ -47,13 +47,13 @@ inline constexpr int kNearGraphics_5ths = 3;
 /// Reliability of a cell near graphics, in units of 1/16. The number of located frames is 1,993
 /// with a value of 3, and 1,994 with a value of 14.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
-/// If the darkest dot position of a cell is darker than this limit, it may contain dirt instead of
-/// a dot. The unit is a tenth of the darkness of a typical dot.
+/// Limit for the darkness of the darkest dot position in a cell, in units of 1/10 of the darkness
+/// of a typical dot. Above this limit, the dot position may contain dirt instead of a dot.
 inline constexpr int kDark_10ths = 13;
 /// Reliability of a cell whose darkest dot position may contain dirt, in units of 1/16.
 inline constexpr int kReliabilityDark_q4 = 12;
-/// If the darkest dot position of a cell is darker than this limit, it probably contains dirt. The
-/// unit is a tenth of the darkness of a typical dot.
+/// Higher limit for the darkness of the darkest dot position in a cell, in units of 1/10 of the
+/// darkness of a typical dot. Above this limit, the dot position probably contains dirt.
 inline constexpr int kTooDark_10ths = 16;
 /// Reliability of a cell whose darkest dot position probably contains dirt, in units of 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;

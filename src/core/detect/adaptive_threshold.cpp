@@ -106,7 +106,7 @@ using Histogram = std::array<std::uint16_t, kContrastBins>;
 
 /// Adds each tile whose contrast is at least `min_contrast` grey levels to the histogram, and
 /// returns the number of these tiles. All other tiles are blank, and their means are set to 0.
-/// Updates `max_contrast`.
+/// Raises `max_contrast` to the largest contrast of a tile, if that is larger.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, int& max_contrast, Histogram& histogram) {
     int blank = 0;

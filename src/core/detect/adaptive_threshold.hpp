@@ -1,7 +1,6 @@
 // Adaptive threshold: divides the image into tiles, and computes two thresholds for each tile from
 // the paper level and the dot contrast. This is the first half of thresholding (paper, section
-// II-B.1).
-// Unlike the paper, this stage does not use one global threshold, because LEDs next to a wide-angle
+// II-B.1). The paper uses one global threshold. dotpose does not, because LEDs next to a wide-angle
 // lens light the sheet unevenly.
 #pragma once
 
@@ -68,8 +67,8 @@ void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold
 
 /// Returns the minimum contrast of tiles in the next band, in grey levels. Tiles with less contrast
 /// are considered blank. The minimum increases with the largest contrast so far, from
-/// `options.min_contrast` to twice this value. Once tiles with dots have been measured, it
-/// therefore rejects noise in blank tiles.
+/// `options.min_contrast` to twice this value. After the first tiles with dots, the higher minimum
+/// rejects the noise in blank tiles.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 inline int band_count(const AdaptiveThreshold& threshold) {

@@ -26,8 +26,8 @@ class Inverse {
     }
     /// Returns sum / mass in units of 2^-8. Requires |sum| <= 8 mass.
     std::int32_t quotient_q8(std::int32_t sum) const {
-        // The product fits in 32 bits: n has at most 12 bits, because the shifted mass is at most
-        // 2^8, and `inverse_q22_` is at most 2^15.
+        // The product fits in 32 bits. The shifted mass is at most 2^8, so n is at most 8 * 2^8 in
+        // magnitude. `inverse_q22_` is at most 2^15.
         const std::int32_t n = shift_ > 0 ? sum >> shift_ : sum * (1 << -shift_);
         return (n * inverse_q22_) >> 14;
     }

@@ -109,8 +109,9 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
 /// Minimum level of the normalised image. Darker pixels are set to this level.
 constexpr std::uint32_t kMinLevel = kNormalLevel * tuned::kMinLevel_5ths / 5;
 
-/// Divides by multiplication and rounds down. The result is exact for n / d < 256 and d < 2^20,
-/// because `factor_` exceeds 2^kBits / d by at most 1. This adds at most n / 2^48 < 1 / d to n / d.
+/// Divides by multiplication and rounds down. `factor_` exceeds 2^kBits / d by at most 1, which
+/// increases the quotient by at most n / 2^48 before rounding. If n / d < 256 and d < 2^20, this
+/// increase is less than 1 / d, so the result is exact.
 class Divider {
   public:
     std::uint32_t quotient(std::uint32_t n, std::uint32_t d) {

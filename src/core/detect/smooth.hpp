@@ -30,11 +30,13 @@ inline constexpr int kNormalLevel = 192;
 
 void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
-/// Returns the next row of the filtered image. The first call returns the top row. The filter
-/// clamps each pixel to the range of its eight neighbours, except at the image border. It then
-/// applies a 5 x 5 binomial filter (sigma 1 px), and scales the result so that the mean level of a
-/// rectangle around the pixel becomes kNormalLevel. This mean is computed from the unfiltered
-/// image. The row is valid until the next call.
+/// Returns the next row of the filtered image. The first call returns the top row. The row is valid
+/// until the next call.
+///
+/// The filter clamps each pixel to the range of its eight neighbours, except at the image border.
+/// It then applies a 5 x 5 binomial filter (sigma 1 px), and scales the result so that the mean
+/// level of a rectangle around the pixel becomes kNormalLevel. This mean is computed from the
+/// unfiltered image, with dark graphics replaced by the paper level.
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing);
 
 }  // namespace dotpose::core

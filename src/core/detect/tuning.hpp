@@ -17,8 +17,8 @@ namespace paper {
 inline constexpr int kBlockPart = 10;
 /// Number of pixels sampled along each block side.
 inline constexpr int kSamplesPerSide = 12;
-/// Maximum fraction of a block's pixels that are darker than its paper level, in thirds. Dots cover
-/// a much smaller fraction.
+/// The paper level of a block is the highest level at which at most this fraction of the block's
+/// pixels, in thirds, is darker. Dots cover a much smaller fraction.
 inline constexpr int kDarker_3rds = 2;
 /// Minimum level of a block, in quarters of the level of its brightest neighbour. A darker block is
 /// assumed to be under graphics, and its level is replaced with the level of the neighbour. Light
@@ -51,8 +51,9 @@ inline constexpr int kSmall_px = 48;
 /// minimum is half of its tiles.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
-/// Parameters of `DotTiles::pale`. The dot contrast is the 1/kPaleParts quantile of darkness over
-/// the tiles with contrast. It must be at most kMaxPale times the median darkness.
+/// Parameters of `DotTiles::pale`. The dot contrast is the 1/kPaleParts quantile of the darkness of
+/// the tiles with contrast. If it exceeds kMaxPale times the median darkness, the patch contains no
+/// pale tiles, and `measure_contrast` returns false.
 inline constexpr int kPaleParts = 6;
 inline constexpr float kMaxPale = 0.75F;
 /// Minimum darkness of a dot, in units of 1/256 of the darkness of a typical dot. Lighter minima

@@ -29,8 +29,8 @@ FixedVec distorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec poi
     if (lens.k_q40 == 0) return point_q8;
     const FixedVec centre_q8 = centre_of(lens, image_centre_q8);
     const FixedVec r_u = point_q8 - centre_q8;
-    // A negative radicand means that there is no distorted point. The upper limit prevents an
-    // overflow in the next shift.
+    // A negative radicand means that there is no distorted point, and is replaced with 0. The upper
+    // limit prevents an overflow in the next shift.
     const std::int64_t radicand_q30 = std::clamp<std::int64_t>(
         kOne_q30 - (bend_q48(lens.k_q40, r_u) >> 16), 0, 16 * kOne_q30 - 1);
     const std::int64_t root_q30 = square_root(static_cast<std::uint64_t>(radicand_q30) << 30);

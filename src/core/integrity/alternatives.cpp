@@ -59,8 +59,8 @@ struct Expectation {
 /// that would take too long to compute. Stops when the sum reaches `limit`.
 float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
                         Expectation expected, float limit) {
-    // A sum is negligible if it is small relative to this value: the caller's limit, but at most
-    // the default limit.
+    // The smaller of the caller's limit and the default limit. A sum is negligible if it is small
+    // relative to this value.
     const float usual = std::min(limit, kUsualLimit);
     float sum = kMargin * expected.of_more;
     if (sum > usual / 16) {
@@ -72,8 +72,8 @@ float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float 
     sum += known;
     if (sum >= limit) return sum;
     // Limit on the expected odds of the double alternatives that are not counted one by one. It is
-    // at most an eighth of the difference between `limit` and the sum so far, so that expected odds
-    // alone do not cause a refusal.
+    // at most an eighth of the difference between `limit` and the sum so far, so the expected odds
+    // alone normally do not raise the sum to `limit`.
     const float negligible = std::min(sum < usual / 8 ? usual / 16 : sum / 8, (limit - sum) / 8);
     return sum +
            sum_of_double_alternatives(kernels, lines, expected.of_two, negligible, limit - sum);

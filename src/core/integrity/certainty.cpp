@@ -107,8 +107,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     return count;
 }
 
-/// Returns the loss of a single alternative at the shift where it shares the line `shared`. If the
-/// odds cannot exceed kSkippedOdds, stops early and returns the loss so far.
+/// Returns the loss of a single alternative at the shift at which it shares the line `shared`. If
+/// the odds cannot exceed kSkippedOdds, stops early and returns the loss so far.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -124,10 +124,11 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns an upper bound on the odds of the single alternatives that share a line. If the table
-/// bound of a sequence is at most `limit` / 12, uses this bound. Otherwise, lists the places in the
-/// sequence whose odds may exceed kSkippedOdds, and adds their odds. Every other place contributes
-/// kSkippedOdds once per line. Returns 1 if `Kernels::list_similar_places` returns false.
+/// Returns an upper bound on the odds of the single alternatives that share a line. Adds the bound
+/// from `tabled_alternatives` for each sequence in which this bound is at most `limit` / 12. In the
+/// other sequences, lists the places whose odds may exceed kSkippedOdds, and adds their odds. Also
+/// adds kSkippedOdds for each place and line, to cover the places that are not listed. Returns 1 if
+/// `Kernels::list_similar_places` returns false.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -149,8 +150,8 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 }
 
 /// Returns an upper bound on the summed odds of all alternatives except seam alternatives. If the
-/// bound exceeds `limit` even without the single alternatives that share a line, omits them,
-/// because the caller rejects such a bound anyway.
+/// bound exceeds `limit` even without the single alternatives that share a line, omits these single
+/// alternatives, because the caller rejects such a bound anyway.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     const float sum = far_alternatives(kernels, ratios) + sharing_none(ratios);
@@ -176,8 +177,8 @@ bool is_code_in_question(const Query& query) {
     return query.others != nullptr && query.others->log2_in_question_q8 >= 0;
 }
 
-/// Returns an upper bound on the probability that random bits agree with at least one place in the
-/// code at least as well as the bits of one axis do.
+/// Returns an upper bound on the probability that random bits agree with any place in the code at
+/// least as well as the bits of one axis agree with the reading.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
@@ -206,8 +207,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     if (chance > limit) return 1;
     const float codes = codes_in_question(query);
     const auto with = [&](float alternatives) { return chance + codes * alternatives; };
-    // Each axis may use half of the limit. Computes a tighter bound only if the previous bound
-    // exceeds this value.
+    // Each axis may use half of the limit. A tighter bound is computed only if the previous bound
+    // exceeds this half.
     const float enough = limit / 2;
     float sum = with(alternatives(kernels, ratios, unshared, limit));
     if (sum > enough && !ratios.is_of_bits())
@@ -287,7 +288,7 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
     for (const Confidence* bits : {&x, &y}) {
-        // Refuses a position with too many wrong bits, because the view probably contains two
+        // Rejects a position with too many wrong bits, because the view probably contains two
         // patterns.
         if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
     }

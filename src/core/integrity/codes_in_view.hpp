@@ -7,11 +7,11 @@
 
 namespace dotpose::core {
 
-/// Recomputes the odds of the other codes from all bits in the block, if this may change them.
-/// `read` is the code of the reading. Cell (0, 0) of `block` is at `place`, and `bits` is the
-/// agreement of all bits in the block with the code. `has_more_lines` is true if the block has
-/// lines that the certainty test did not use. `storage` is working memory for the scores of the
-/// lines.
+/// Recomputes the odds of the other codes from all bits in the block, if this may change the odds.
+/// `read` is the code of the reading. Cell (0, 0) of `block` is at `place`. `bits` contains, for
+/// each axis, the agreement of all bits in the block with the code. `has_more_lines` is true if the
+/// block has lines that the certainty test did not use. `storage` is working memory for the scores
+/// of the lines.
 void weigh_codes_in_view(const Kernels& kernels, CodeVariant read, const Place& place,
                          const BitBlock& block, const std::array<Confidence, 2>& bits,
                          bool has_more_lines, std::span<ScoredLine> storage, OtherCodes& others);

@@ -36,8 +36,8 @@ AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
 }
 
-/// The anchors, divided into `shared - 1` groups. An alternative that shares `shared` anchors
-/// therefore shares at least two anchors in one group.
+/// The anchors, divided into `shared - 1` groups. If an alternative shares `shared` anchors, at
+/// least two of these anchors are in the same group.
 class Groups {
   public:
     Groups(int anchors, int shared) : count_(shared - 1) {
@@ -350,10 +350,10 @@ float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& line
     const auto expected_odds = [&](int shared) {
         return kMargin * by_shared[static_cast<std::size_t>(shared)];
     };
-    // The search takes longer if fewer shared anchors are required. With 12 anchors, it visits 6
-    // pairs of anchors if seven shared anchors are required, 18 pairs if four are required, and 66
-    // pairs if two are required. Fewer than four are required only if the expected odds of the
-    // alternatives that share fewer than four would exceed an eighth of `max_odds`.
+    // The search takes longer if it requires fewer shared anchors. With 12 anchors, it visits 6
+    // pairs of anchors if it requires seven shared anchors, 18 pairs if it requires four, and 66
+    // pairs if it requires two. It requires fewer than four only if the alternatives that share
+    // fewer than four anchors have expected odds of more than an eighth of `max_odds`.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

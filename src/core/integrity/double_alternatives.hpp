@@ -9,10 +9,10 @@ namespace dotpose::core {
 /// Returns the summed odds of all double alternatives: 187,810 pairs of places, at all shifts. The
 /// result is at least 2^-41. Requires at least 6 lines.
 ///
-/// Anchors are the lines with the most information. There are at most 12 anchors. The sum contains
-/// the individual odds of the pairs that share at least k anchors, where the function chooses k.
-/// For all other pairs, the sum contains their expected odds times kMargin, called the expected
-/// part. `expected` is the total of the expected odds of all pairs.
+/// Anchors are the lines with the most information. There are at most 12 anchors. The function
+/// chooses a number k, and adds the individual odds of the pairs that share at least k anchors. For
+/// all other pairs, it adds their expected odds times kMargin, called the expected part. `expected`
+/// is the total of the expected odds of all pairs.
 ///
 /// A smaller k reduces the expected part, but the search for the pairs takes longer. Normally, the
 /// expected part is at most 4 * `negligible`. If this would require k < 4, an expected part of up

@@ -98,9 +98,10 @@ struct ScoredTurn {
     }
 };
 
-/// Caches the table of one axis. If the next region has the same code and the same positions on
-/// this axis, `of` returns the same table. Sheets in one file often have the same positions on one
-/// axis. Every call to `of` must pass the same `axis` and `rest`.
+/// Caches the table of one axis, because sheets in one file often have the same positions on one
+/// axis. If the code and the range of positions are the same as in the previous call, `of` returns
+/// the same table. Otherwise, it computes a new table. Every call to `of` must pass the same `axis`
+/// and `rest`.
 template <typename Table>
 class KeptTable {
   public:
@@ -120,9 +121,9 @@ class KeptTable {
 };
 
 /// Calls `use(column, column_roll, row, row_roll)` for each pair of a column class and a row class.
-/// The roll of a column is its roll in section 0 plus `column_roll`, which depends on the section
-/// and the row class. The roll of a row is its roll in section 0 plus `row_roll`, which depends on
-/// the section and the column class.
+/// The class of a column or row is its position modulo 63. The roll of a column is its roll in
+/// section 0 plus `column_roll`, which depends on the section and the row class. The roll of a row
+/// is its roll in section 0 plus `row_roll`, which depends on the section and the column class.
 template <typename Use>
 void visit_classes(const Section& section, Use use) {
     for (std::size_t column = 0; column < kSections; ++column) {

@@ -20,8 +20,9 @@ class OddsOfBits {
     /// `agreeing` is the number of bits that agree with the code at the tested position.
     OddsOfBits(int odds_per_bit_q8, int agreeing)
         : agreeing_(agreeing),
-          // Clamps the odds to [2^-52, 2^60]. Odds above 2^60 on one axis always cause a refusal,
-          // because the product with the minimum odds on the other axis exceeds 1.
+          // Clamps the odds to [2^-52, 2^60]. If the odds of a position on one axis exceed 2^60,
+          // the tested place is always rejected, because the product of these odds and the minimum
+          // odds on the other axis exceeds 1.
           min_(-52 * 256 / odds_per_bit_q8 - 1),
           max_(60 * 256 / odds_per_bit_q8),
           per_bit_(odds_per_bit_q8 << 15) {}
@@ -41,8 +42,8 @@ class OddsOfBits {
     int per_bit_;  ///< log2 of the odds per bit, in units of 2^-23
 };
 
-/// Position of the first line, and the difference between the roll of each line and its roll in
-/// section 0.
+/// Position of the first line of a block. The roll of each line is its roll in section 0 plus
+/// `roll`, modulo 63.
 struct PositionAndRoll {
     std::uint32_t position;
     std::size_t roll;
@@ -90,10 +91,11 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability that a view without a known sheet agrees with at least
-/// one known place at least as well as the bits that were read. The bits of such a view are assumed
-/// to be random. `bits` is the number of bits per axis, and `wrong` is the number of wrong bits on
-/// each axis. `lines` is the number of columns or rows, whichever is larger.
+/// Returns an upper bound on the probability of a match by chance: a view that shows no known sheet
+/// agrees with at least one known place at least as well as the bits that were read. The bits of
+/// such a view are assumed to be random. `bits` is the number of bits per axis, and `wrong` is the
+/// number of wrong bits on each axis. `lines` is the number of columns or rows, whichever is
+/// larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -152,8 +154,9 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
                               best.column());
     const OddsByClass rows(turn.rows, region.code, turn.rows_of(region), y_odds, best.row());
     // `columns` and `rows` exclude the column and the row of `best`, whose odds are 1. The second
-    // term adds the places with the row of `best` and another column of the same class. The third
-    // term adds the places with the column of `best` and another row of the same class.
+    // term is the odds of the places in the row of `best` and in another column of the same class.
+    // The third term is the odds of the places in the column of `best` and in another row of the
+    // same class.
     return sum_of_odds(region, columns, rows) + columns(class_of(x), column_roll) +
            rows(class_of(y), row_roll);
 }

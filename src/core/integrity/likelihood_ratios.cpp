@@ -127,8 +127,8 @@ void LikelihoodRatios::set_min_losses_of_bits() {
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
-    // Besides the roll of the reading and the nearest rolls, fewer than 62 rolls remain. Each of
-    // them loses at least one more bit than the nearest rolls.
+    // Fewer than 62 rolls are neither the roll of the reading nor one of the nearest rolls. Each of
+    // these other rolls loses at least one more bit than the nearest rolls.
     const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
                                  kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);

@@ -111,8 +111,9 @@ class LikelihoodRatios {
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
     /// Returns log2 of the odds of an alternative whose total loss is `lost`, in units of 2^-8.
     int log2_odds_q8(int lost) const {
-        // Each wrong bit causes a loss of twice its weight. 129 / 2^15 is about 1 / (2 * 127).
-        // Losses are clamped to keep the product within 32 bits.
+        // `odds_per_bit_q8_` refers to a bit with the full weight 127, which causes a loss of 2 *
+        // 127 if it is wrong. The result is therefore -lost * odds_per_bit_q8_ / (2 * 127). The
+        // factor 129 / 2^15 replaces the division, and clamping keeps the product within 32 bits.
         constexpr int kMaxLost = 1 << 18;
         return -(((std::min(lost, kMaxLost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
     }
@@ -122,8 +123,8 @@ class LikelihoodRatios {
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
-        // Builds the float from its exponent, which begins at bit 23 and has a bias of 127.
-        // Emscripten's standard library has no `std::bit_cast`.
+        // Builds the float from its exponent, which begins at bit 23 and has a bias of 127. Uses
+        // the builtin, because Emscripten's standard library has no `std::bit_cast`.
         const auto power =
             __builtin_bit_cast(float, static_cast<std::uint32_t>(whole - 16 + 127) << 23);
         // The cast to 32 bits lets compilers vectorise loops over odds.

@@ -42,8 +42,8 @@ class PlaceList {
     std::uint8_t place(std::size_t n) const { return places_[n]; }
     /// Returns the roll offsets of a place relative to the first shared line.
     const RollOffsets& offsets(std::size_t n) const { return offsets_[n]; }
-    /// Returns the changes in the roll offset across the first two gaps, combined as 64 * first +
-    /// second.
+    /// Returns the key of a place: the changes in its roll offset across the first two gaps between
+    /// shared lines (see `Gaps`), combined as 64 * first + second.
     unsigned key(std::size_t n) const { return keys_[n]; }
 
   private:
@@ -136,9 +136,9 @@ class Finder {
         return equal_places_.count_different(fewer) < 2 || visit(line + 1, lost, fewer, with_line);
     }
 
-    /// Adds the odds of the alternatives that share exactly the lines `shared`. Each alternative is
-    /// a combination of the given places. They may also share lines without a positive minimum
-    /// loss. Returns false if the search ends early.
+    /// Adds the odds of the alternatives that share the lines `shared` and no other lines with a
+    /// positive minimum loss. Each alternative is a combination of the given places. Returns false
+    /// if the search ends early.
     bool add_all(const PlaceSets& places, LineSet shared) {
         std::size_t combinations = 1;
         for (std::size_t k = 0; k < lists_.size(); ++k) {
@@ -170,8 +170,8 @@ class Finder {
     }
 
     /// Combines pairs of places in the first two sequences with pairs of places in the last two
-    /// sequences. Uses only combinations whose total roll offset is the same on both sides of the
-    /// first gap, and the same on both sides of the second gap.
+    /// sequences. Uses only combinations whose total roll offset changes neither across the first
+    /// gap nor across the second gap.
     void add_matches() {
         const auto& [a, b, c, d] = lists_;
         // The captures have new names because clang 14 cannot capture structured bindings.
@@ -197,9 +197,10 @@ class Finder {
     }
 
     /// Adds the odds of one alternative. `indices` selects its place in each list of places. The
-    /// shift is the one at which the alternative shares the first of the lines passed to
-    /// `set_pattern`. Adds nothing if the alternative does not share exactly those lines, or if it
-    /// differs from the reading in fewer than two sequences.
+    /// shift is chosen so that the alternative shares the first of the lines passed to
+    /// `set_pattern`. Adds nothing if the alternative differs from the reading in fewer than two
+    /// sequences, or if the compared lines that it shares are not exactly the lines passed to
+    /// `set_pattern`.
     void add(const std::array<std::size_t, 4>& indices) {
         const auto& [a, b, c, d] = indices;
         RollOffsets shifts;

@@ -34,8 +34,8 @@ inline Bytes modulo_sections(Bytes offsets) {
     return offsets - (static_cast<Bytes>(offsets >= kSections) & kSections);
 }
 
-/// Sets the roll offsets of the single alternative at `place` in `sequence`, at the shift where it
-/// shares the line `shared`.
+/// Sets the roll offsets of the single alternative at `place` in `sequence`. The shift is the one
+/// at which the alternative shares the line `shared`.
 inline void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t sequence,
                                  std::uint32_t place, int shared, RollOffsets& offsets) {
     const std::uint8_t* const own = ratios.basis[sequence].rolls + ratios.places[sequence];
@@ -65,8 +65,8 @@ class EqualPlaces {
 
     /// All places.
     const PlaceSets& all() const { return all_; }
-    /// Considers the step from line `step` to the next line. Removes the places whose digit at this
-    /// step differs from the reading's digit.
+    /// Removes the places whose digit at the step from line `step` to the next line differs from
+    /// the reading's digit.
     void keep_equal(std::size_t step, PlaceSets& places) const;
     /// Returns the number of sequences in which `places` contains a place other than that of the
     /// reading.
@@ -81,7 +81,8 @@ class EqualPlaces {
 
 /// The first two gaps between shared lines. A gap consists of adjacent lines that are not shared.
 /// `before` is the first line of the run of shared lines before each gap, and `after` is the first
-/// shared line after the gap. Unused elements are the first shared line of the set.
+/// shared line after the gap. If there are fewer than two gaps, the remaining elements are the
+/// first shared line of the set.
 struct Gaps {
     explicit Gaps(LineSet shared) {
         before = after = {std::countr_zero(shared), std::countr_zero(shared)};

@@ -10,13 +10,16 @@
 
 namespace dotpose::core {
 
-/// Returns an upper estimate of the summed odds of all far alternatives. The sets of the plan are
-/// searched in order. The first term of the estimate is the summed odds of the alternatives found.
-/// The second term is 4 times the expected odds of all other far alternatives, and decreases with
-/// each set. The search ends as soon as the second term is at most 2^-31 and at most `fraction`
-/// times the difference between `max_odds` and the first term. Returns nullopt if the first term
-/// exceeds `max_odds`, if the second term remains too large after all sets, if the plan is
-/// incomplete, or if the search would exceed its work limit `work`.
+/// Returns an upper estimate of the summed odds of all far alternatives. The estimate has two
+/// terms: the summed odds of the alternatives found so far, and 4 times the expected odds of all
+/// other far alternatives. The function searches the sets of the plan in order, and the second term
+/// decreases with each set. After all required sets, the search ends as soon as the second term is
+/// at most 2^-31 and at most `fraction` times the difference between `max_odds` and the first term.
+/// Returns nullopt if:
+/// - the first term exceeds `max_odds`,
+/// - the second term remains too large after all sets,
+/// - the plan is incomplete, or
+/// - the search would exceed its work limit `work`.
 std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, const SetPlan& plan,
                                                  float fraction, float max_odds, WorkLimit& work);
 

@@ -57,12 +57,13 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
 }
 
 /// Returns an upper bound on the expected odds of the alternatives in one set, as log2 in units of
-/// 2^-8. The bound treats all nonzero roll offsets as one state. At each step, at most one
-/// combination of digits changes the roll offset from one given value to another. The probability
-/// of this combination is at most the probability p that all digits equal those of the reading. A
-/// line that is not shared therefore multiplies the odds by at most p times the summed odds of the
-/// other rolls (`LineOdds::sum_q8`). Because the probabilities add up to at most 1, the line also
-/// multiplies the odds by at most the odds of the best other roll (`LineOdds::best_q8`).
+/// 2^-8. The bound distinguishes only between the roll offset 0 and all other roll offsets. At each
+/// step, at most one combination of digits changes the roll offset from one given value to another.
+/// The probability of this combination is at most the probability p that all digits equal those of
+/// the reading. A line that is not shared therefore multiplies the odds by at most p times the
+/// summed odds of the other rolls (`LineOdds::sum_q8`). Because the probabilities add up to at most
+/// 1, the line also multiplies the odds by at most the odds of the best other roll
+/// (`LineOdds::best_q8`).
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
@@ -194,8 +195,8 @@ class ByShift {
     std::array<Loss, kMaxLines> losses_;  ///< losses of these lines, in decreasing order
     std::uint32_t in_all_ = 0;            ///< total of all losses
     /// Number of elements of `losses_` that `may_matter` adds before its first check, and the sum
-    /// of these losses. An earlier check would be useless: an alternative that shares the first of
-    /// these lines loses less than `loss_limit_` in the other lines.
+    /// of these losses. An earlier check could not reject any alternative that shares the first of
+    /// these lines, because such an alternative loses less than `loss_limit_` in the other lines.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// For each shift, `none_` plus the losses that the current alternative avoids by sharing
@@ -296,8 +297,9 @@ int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshar
 using Sequences = unsigned;
 constexpr Sequences kAllSequences = 15;
 
-/// Adds a table bound to `sum` for each of the given sequences whose bound is below `little_q8`.
-/// Tries the table with the most lines first. Returns the sequences without such a bound.
+/// For each of the given sequences, computes bounds from the tables (see `by_table_log2_q8`), and
+/// adds the first bound below `little_q8` to `sum`. Tries the table for the most lines first.
+/// Returns the sequences for which no table gives such a bound.
 Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences sequences,
                         int& sum) {
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -357,8 +359,8 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // Tries table bounds first. They are larger than a sum over all places, but are much faster
-        // to compute.
+        // Tries the bounds from the tables first. They are looser than a sum over all places, but
+        // much faster to compute.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);

@@ -14,8 +14,8 @@ namespace {
 
 /// Prior probability that a given border between two lines is a seam with a given roll difference,
 /// as log2 in units of 2^-8. With this prior and the default limit, a position is accepted if the
-/// view is equally likely with and without a seam, but refused if the view is at least four times
-/// as likely with a seam.
+/// view is equally likely with and without a seam. It is rejected if the view is at least four
+/// times as likely with a seam.
 constexpr int kSeam_q8 = -32 * 256;
 /// Minimum odds of the alternatives that are included in the sum, as log2 in units of 2^-8. These
 /// odds exclude the prior.
@@ -105,10 +105,11 @@ class QuickTest {
     }
 
   private:
-    /// Returns true if the alternative can share all required lines: its shift changes at most once
-    /// from one required line to the next. The required lines are those whose minimum loss is at
-    /// least the limit. The odds of an alternative are negligible unless it shares every required
-    /// line, either at the shift before the border or at the shift after it.
+    /// Returns true if the alternative can share all required lines. The required lines are those
+    /// whose minimum loss is at least the limit, so the odds of an alternative are negligible if it
+    /// does not share one of them. The alternative has one shift before its border and another
+    /// shift after it. The roll offset may therefore change at most once from one required line to
+    /// the next.
     bool shares_required(const RollOffsets& offsets) const {
         int changes = 0;
         for (std::size_t n = 1; n < required_count_ && changes < 2; ++n)
@@ -116,9 +117,9 @@ class QuickTest {
         return changes < 2;
     }
 
-    /// Returns true if the alternative may lose less than the limit for at least one border. Uses
-    /// the best shift on each side of the border, and the minimum losses of the lines that the
-    /// alternative does not share.
+    /// Returns true if the alternative may lose less than the limit for at least one border.
+    /// Assumes the best shift on each side of the border, and the minimum loss for each line that
+    /// the alternative does not share.
     bool may_lose_less(const RollOffsets& offsets) const {
         // For each line, the minimum loss in all lines before it, at the best shift.
         std::array<int, kMaxLines> before;

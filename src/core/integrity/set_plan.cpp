@@ -20,13 +20,13 @@ constexpr float kChanges = 54;
 /// Correction factors for the expected odds of alternatives that differ in two and in three
 /// sequences. The model assumes that the roll offsets in unshared lines are uniformly distributed.
 /// However, if few sequences differ, few changes of the roll are possible. On 700 axes of nominal
-/// frames, `sum_of_expected_alternatives` exceeded the model by a mean factor of 10 to 17 for
-/// alternatives that differ in two sequences, and of 2 for three sequences. For four sequences, the
-/// mean factor was 0.6.
+/// frames, the results of `sum_of_expected_alternatives` were on average 10 to 17 times the model's
+/// odds if two sequences differ, and 2 times if three differ. If all four differ, they were only
+/// 0.6 times the model's odds, so no factor is applied.
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
-/// Probabilities that the roll offset is 0 again after a gap, for alternatives that differ in two,
-/// three, and four sequences.
+/// Probabilities that the roll offset is 0 again after a gap, that is, after one or more unshared
+/// lines. The three values are for alternatives that differ in two, three, and four sequences.
 constexpr float kReturnOfTwo = 1.0F / 20;
 constexpr float kReturnOfThree = 1.0F / 35;
 constexpr float kReturnOfFour = 1 / kChanges;

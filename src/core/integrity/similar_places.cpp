@@ -19,8 +19,8 @@ class Losses {
         add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         excluded_ |= carry;
     }
-    /// Returns the bit mask of the excluded alternatives: those excluded initially, and those whose
-    /// loss is at least kLimitParts.
+    /// Returns the bit mask of the excluded alternatives. These are the alternatives that were
+    /// excluded initially, and the alternatives that lose at least kLimitParts parts.
     std::uint32_t excluded() const { return excluded_; }
 
   private:
@@ -57,16 +57,16 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     };
     int needed = loss_limit;
     if (excused == Excused::any_one) {
-        // One different digit causes no loss. A place is therefore excluded only if its losses add
-        // up to at least `loss_limit` even without the largest of them.
+        // One differing digit is excused and causes no loss. A place is therefore excluded only if
+        // its losses add up to at least `loss_limit` even without the largest of them.
         for (int step = 0; step < count; ++step)
             needed = std::max(needed, loss_limit + lost_at(step));
     }
     constexpr int kParts = kLimitParts;
     const int part = (needed + kParts - 1) / kParts;
-    // Maximum total loss of nonadjacent steps, in parts. `max_loss` is over all steps so far, and
-    // `max_loss_before` excludes the latest step. Two adjacent steps have a line in common, and its
-    // loss must not be counted twice.
+    // Maximum total loss of nonadjacent steps, in units of `part`. `max_loss` includes all steps so
+    // far, and `max_loss_before` excludes the latest step. Adjacent steps are not combined, because
+    // the loss of the line that they have in common must not be counted twice.
     int max_loss = 0;
     int max_loss_before = 0;
     for (int step = 0; step < count; ++step) {
@@ -108,8 +108,8 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     for (const Step& step : std::span(steps_).first(count_)) {
         const std::uint32_t* here = step.places + word;
         const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-        // Two adjacent steps have one line in common, whose loss must not be counted twice. A step
-        // is therefore counted only if the preceding step is not.
+        // Two adjacent steps have a line in common. The loss of this line must not be counted
+        // twice, so a step is counted only if the preceding step is not counted.
         if (step.ahead != before + 1) counted = 0;
         before = step.ahead;
         counted = ~(equal | counted);

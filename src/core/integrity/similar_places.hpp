@@ -12,8 +12,9 @@ namespace dotpose::core {
 /// Maximum number of steps at which digits are compared. A step leads from one line to the next.
 inline constexpr int kMaxSteps = 18;
 
-/// Number of parts into which the loss limit is divided. Losses are counted in these parts. A place
-/// that loses at least kLimitParts parts is excluded.
+/// Number of parts into which the loss that excludes a place is divided. Losses are stored as
+/// numbers of parts. The loss that excludes a place is the loss limit or, for `Excused::any_one`,
+/// the loss limit plus the largest loss at one step.
 inline constexpr unsigned kLimitParts = 15;
 
 /// Steps at which the digit of an alternative may differ from the digit of the reading without a
@@ -23,21 +24,21 @@ enum class Excused : std::uint8_t { none, any_one };
 
 /// The steps at which digits are compared and, for each step, the loss of an alternative whose
 /// digit differs from the digit of the reading. Such an alternative shares at most one of the two
-/// lines of the step, so it loses at least the smaller of their minimum losses.
+/// lines of the step, so its loss is at least the smaller of the minimum losses of the two lines.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
     int count;       ///< number of compared steps, in the middle of the view
     int first_line;  ///< first line of the first step
-    /// Lower bound on the loss at each step, rounded down. The unit is 1/kLimitParts of the loss
-    /// that excludes a place. Losses of one unit are replaced with 0.
+    /// Lower bound on the loss at each step, in parts (see `kLimitParts`), rounded down. Losses of
+    /// one part are replaced with 0, because they would exclude only a few additional places.
     std::array<std::uint8_t, kMaxSteps> losses;
     /// True if the total loss at nonadjacent steps can be large enough to exclude a place.
     bool can_exclude = false;
 };
 
-/// The places in a sequence that may lose less than the loss limit of `Steps`. Here, the place of
-/// an alternative is the index, in the sequence, of its digit at the first step.
+/// The places in a sequence whose loss may be too small to exclude them. In this class, the place
+/// of an alternative is the index of its digit at the first step of `Steps`.
 class SimilarPlaces {
   public:
     /// `own` is the place of the reading at the first step.

@@ -11,9 +11,9 @@ namespace {
 
 /// Returns the loss limit for skipping alternatives, in bits. An alternative whose loss reaches
 /// this limit is not evaluated line by line. Instead, it contributes the odds at this limit once
-/// for each line. The limit is lower for views with at most 16 lines, because many places in such
-/// views lose 52 to 56 bits and would otherwise be evaluated. For 16 lines, the skipped
-/// alternatives contribute at most 2^-38 in total.
+/// for each line. The limit is lower for views with at most 16 lines. In such views, many
+/// alternatives lose 52 to 56 bits, and would be evaluated with the higher limit. For 16 lines, the
+/// skipped alternatives contribute at most 2^-38 in total.
 int bits_of_skipped(int lines) {
     return lines <= 16 ? 52 : 56;
 }
@@ -77,8 +77,9 @@ void sort_losses(const CoarseLosses& losses, std::span<LineLoss> sorted) {
     }
 }
 
-/// Lists the places that may lose less than `losses.limit`. Sets `sorted` to the lines, sorted by
-/// decreasing loss. Returns false if `Kernels::list_similar_places` returns false.
+/// Lists the places of the alternatives that may lose less than `losses.limit`. Sets `sorted` to
+/// the lines, sorted by decreasing loss. Returns false if `Kernels::list_similar_places` returns
+/// false.
 bool list_similar(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses,
                   std::span<LineLoss> sorted, SimilarPlaceList& list) {
     sort_losses(losses, sorted);
@@ -86,8 +87,8 @@ bool list_similar(const Kernels& kernels, const RankedLines& lines, const Coarse
     return kernels.list_similar_places(ratios.basis, ratios.places, 15, sorted, losses.limit, list);
 }
 
-/// Returns an upper bound on the summed odds of the places that are not listed. Each place
-/// contributes the odds at a loss of `skipped_bits` once for each line.
+/// Returns an upper bound on the summed odds of the alternatives at places that are not listed. For
+/// each of these places and each line, the bound contains the odds at a loss of `skipped_bits`.
 float sum_of_skipped(const RankedLines& lines, int skipped_bits) {
     constexpr float kPlaces =
         code::kA1.size() + code::kA2.size() + code::kA3.size() + code::kA4Restored.size();
@@ -115,10 +116,10 @@ float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& line
 
 std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines,
                                                 WorkLimit& work) {
-    // In small views, many places lose 44 to 52 bits. Evaluating all of them would take too long,
-    // so each listed place with a minimum loss of at least kEvaluatedBits contributes
-    // 2^-kEvaluatedBits. In views with at most 16 lines, the places that are not listed contribute
-    // at most 2^-37 in total.
+    // In small views, many alternatives lose 44 to 52 bits. Evaluating all of them would take too
+    // long. Each listed place with a minimum loss of at least kEvaluatedBits therefore contributes
+    // odds of 2^-kEvaluatedBits. In views with at most 16 lines, the places that are not listed
+    // contribute at most 2^-37 in total.
     constexpr int kSkippedBits = 51;
     constexpr int kEvaluatedBits = 43;
     // Estimated cost per listed place, in processor instructions. Includes the cost of the seam
@@ -135,8 +136,8 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
         return {};
     float sum = sum_of_skipped(lines, kSkippedBits);
     const int evaluated_limit = losses.limit * kEvaluatedBits / kSkippedBits + 1;
-    // An alternative that loses more than this in some lines has odds below 2^-kSkippedBits,
-    // regardless of its gains in the other lines.
+    // An alternative whose losses in some of the lines add up to more than this limit has odds
+    // below 2^-kSkippedBits, regardless of its gains in the other lines.
     const int max_loss = ratios.loss_for(-256 * kSkippedBits) + ratios.max_gain();
     std::array<const std::uint8_t*, 4> own;
     for (std::size_t k = 0; k < own.size(); ++k)

@@ -10,7 +10,7 @@
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of all single alternatives that share a line with the
-/// reading. The sum includes each alternative at every shift where it shares a line.
+/// reading. The sum contains one term for each shift at which an alternative shares a line.
 float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines);
 
 /// Variant with a bounded amount of computation, for small views. Returns nullopt if the

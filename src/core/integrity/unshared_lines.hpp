@@ -20,9 +20,9 @@ enum class Sharing : std::uint8_t {
     on_two_sides,
 };
 
-/// Lower bounds on the losses of single alternatives, by sequence. A table covers 10, 13 or 16
-/// adjacent lines in the middle of the view, called the table lines. Losses in other lines are
-/// ignored. Gains are treated as 0.
+/// Lower bounds on the losses of single alternatives, by sequence. The bounds are derived from
+/// precomputed tables. Each table covers 10, 13 or 16 adjacent lines in the middle of the view,
+/// called the table lines. Losses in other lines are ignored. Gains are treated as 0.
 class UnsharedLines {
   public:
     static constexpr int kMaxTableLines = 16;
@@ -33,8 +33,8 @@ class UnsharedLines {
                   int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables that cover at most `max_lines` lines and fit into the view.
-    /// This object uses the last of these tables.
+    /// Returns the number of tables that cover at most `max_lines` lines (see the constructor) and
+    /// fit into the view. This object uses the largest of these tables.
     std::size_t tables() const { return row_ + 1; }
     /// Returns true if every alternative that differs from the reading only in `sequence` loses at
     /// least `loss_limit`.

@@ -58,9 +58,9 @@ struct Doubt {
     /// Odds that a bit with weight 127 is correct, as log2 in units of 2^-8. The value is 0 if the
     /// bits contain no information, or if too many bits are wrong.
     int odds_per_bit_q8 = 0;
-    /// Upper bound on the probability of a chance match on each axis, as log2 in units of 2^-8. A
-    /// chance match is a place in the code that random bits agree with at least as well as the bits
-    /// that were read.
+    /// Upper bound on the probability of a chance match on each axis, as log2 in units of 2^-8. In
+    /// a chance match, random bits agree with any place in the code at least as well as the bits
+    /// that were read agree with the position.
     std::array<int, 2> by_chance_q8{};
 };
 
@@ -71,7 +71,7 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
-        // Refuses a position with too many wrong bits, because the view probably contains two
+        // Rejects a position with too many wrong bits, because the view probably contains two
         // patterns.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
@@ -135,9 +135,10 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Returns true if the position must be refused regardless of the alternatives. This is the case if
-/// the bits contain no information, if too many bits are wrong, or if the summed bounds on the
-/// probability of a chance match (both axes) exceed `limit_q8`.
+/// Returns true if the position must be rejected regardless of the alternatives:
+/// - if the bits contain no information,
+/// - if too many bits are wrong, or
+/// - if the bounds on the probability of a chance match, summed over both axes, exceed `limit_q8`.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }

@@ -1,5 +1,5 @@
 // Verify: compares all dots in view with the decoded position. The decoder may have used only some
-// of the dots. Unlike the paper, dotpose refuses decoded positions that may be wrong. See
+// of the dots. Unlike the paper, dotpose rejects decoded positions that may be wrong. See
 // docs/differs-from-paper.md.
 #pragma once
 
@@ -15,17 +15,20 @@
 namespace dotpose::core {
 
 /// Verifies a decoded position. Sets `fix.bit_errors`, `fix.p_wrong_log2`, `decoding.bits` and
-/// `decoding.p_wrong_log2_q8`. The probability covers chance matches, alternatives and seams
-/// between sections. `others` contains log2 of the number of possible codes
-/// (`log2_in_question_q8`), and may be null if the code is given. If `decoding.lines_are_scored` is
-/// true, `storage` must contain the line scores computed by the decoder. Error: not_certain, if the
-/// probability exceeds the limit in `options`, or if the fraction of wrong bits on an axis exceeds
-/// its limit.
+/// `decoding.p_wrong_log2_q8`. The probability includes chance matches, alternatives and seams
+/// between sections.
+/// - `others` contains log2 of the number of possible codes (`log2_in_question_q8`). May be null if
+///   the code is given.
+/// - If `decoding.lines_are_scored` is true, `storage` must contain the line scores computed by the
+///   decoder.
+///
+/// Error: not_certain, if the probability exceeds the limit in `options`, or if the fraction of
+/// wrong bits on an axis exceeds its limit.
 Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const OtherCodes* others,
               Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
               Fix& fix);
 
-/// Verifies a decoded position in integer arithmetic and in bounded time. Refuses more positions
+/// Verifies a decoded position in integer arithmetic and in bounded time. Rejects more positions
 /// than `verify`, because it uses only the bound on the alternatives from quick_alternatives.hpp.
 /// Error: not_certain, for the same reasons as in `verify`.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,

@@ -35,8 +35,8 @@ struct Losses {
         }
     }
 
-    /// Returns the step losses, rounded down. They are counted in parts of the loss limit: a place
-    /// whose step losses add up to at least `StepLosses::kLimitParts` parts loses at least the
+    /// Returns the step losses in units of 1/`StepLosses::kLimitParts` of the loss limit, rounded
+    /// down. A place whose step losses add up to at least kLimitParts units loses at least the
     /// limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
@@ -69,9 +69,9 @@ struct Losses {
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
 
-/// Sums the odds of the places in one other code, along one axis. The *same place* has the same
-/// index in a4 as the place of the reading, but in the other code, at the shift `shift_here_`. All
-/// other places and shifts are *other places*.
+/// Sums the odds of the places in one other code, along one axis. The *same place* is the place in
+/// a4 of the other code with the same index as the place of the reading, at the shift
+/// `shift_here_`. Every other combination of a place and a shift is an *other place*.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
@@ -95,8 +95,8 @@ class OtherPlaces {
 
     /// Returns the odds of the same place in the other code.
     float here() const { return result_.here; }
-    /// Returns the summed odds of all other places, or an upper bound on this sum if only the table
-    /// bound is set.
+    /// Returns the summed odds of all other places. After `bound`, returns an upper bound on this
+    /// sum until `begin_count` is called.
     float elsewhere() const { return result_.elsewhere; }
 
     /// Sets the summed odds of all other places to an upper bound from a table.
@@ -126,8 +126,9 @@ class OtherPlaces {
 
     /// Adds the odds of another place in a4, at all shifts with a shared line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
-    /// Adds kSkippedOdds once per line for each of `places` skipped places. A place cannot share
-    /// lines at more shifts than there are lines.
+    /// Adds an upper bound on the odds of `places` skipped places. The bound for each place is
+    /// kSkippedOdds times the number of lines, because a place shares lines at no more shifts than
+    /// there are lines.
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
@@ -259,8 +260,8 @@ class AxisWeigher {
           read_(read),
           losses_(ratios_) {}
 
-    /// Returns the odds in the code `other`: exact odds for the place of the reading, and a table
-    /// bound for all other places.
+    /// Returns the odds of the places in the code `other`: the exact odds of the same place, and an
+    /// upper bound on the odds of all other places (see `OtherPlaces::bound`).
     OtherPlaces bounded(CodeVariant other) const {
         OtherPlaces others(ratios_, losses_, read_, other);
         others.bound(unshared_, read_, other);

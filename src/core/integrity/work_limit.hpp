@@ -9,8 +9,9 @@ namespace dotpose::core {
 class WorkLimit {
   public:
     /// Budget for summing the odds of alternatives in one frame with a small view. All places
-    /// tested in the frame share this budget. docs/speed.md, "Small frames", compares several
-    /// budgets. All other steps of a first attempt take about 200,000 instructions.
+    /// tested in the frame share this budget. For comparison, all other steps of a first attempt
+    /// together take about 200,000 instructions. docs/speed.md, "Small frames", compares several
+    /// budgets.
     static constexpr std::size_t kOfFrame = 510'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}

@@ -159,8 +159,8 @@ struct DotOffsets {
     /// cross products.
     float along = 0;
     float across = 0;
-    /// Sums of d_x times the offset along u, and of d_x times the offset along v. d is the
-    /// direction of the dot's coded displacement. `of_y` contains the corresponding sums for d_y.
+    /// Sums of d_x times the offset, along u and along v, where d is the direction of the dot's
+    /// coded displacement. `of_y` contains the corresponding sums for d_y.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
 };
@@ -276,20 +276,20 @@ struct Kernels {
     void (*fill_patch)(const ImageView& image, Patch& patch);
     /// Smooths the patch with a 1-2-1 filter along both axes. Stores the brightest and the darkest
     /// level of each tile. The brightest level excludes the pixels at the patch border, because the
-    /// white margin brightens them.
+    /// filter mixes these pixels with the white margin.
     void (*smooth_patch)(Patch& patch);
     /// Lists the dots. A dot is a minimum of the smoothed patch that is no brighter than the
     /// threshold of its tile. Minima in the two outermost rows and columns are ignored. The
-    /// coordinates are in image px relative to the patch centre. Parabolas through the minimum and
-    /// its neighbours give sub-pixel accuracy.
+    /// coordinates are in image px relative to the patch centre. They are refined to sub-pixel
+    /// accuracy with parabolas through the minimum and its neighbours.
     void (*find_minima)(Patch& patch);
     /// Returns the strongest pair of perpendicular waves with frequency `per_px`, in cycles per px.
     /// Tries 12 directions in steps of 7.5 degrees.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
-    /// Returns the strongest wave, together with the strongest second wave that forms plausible
-    /// cells with it. Plausible cells have an area near 1 / per_px^2. Tries 40 directions in steps
-    /// of 4.5 degrees, and frequencies from 0.6 to 1.63 times `per_px`. If there is no such pair,
-    /// the power is 0.
+    /// Returns the strongest wave, together with the strongest other wave that forms plausible
+    /// cells with the first one. Plausible cells have an area near 1 / per_px^2. Tries 40
+    /// directions in steps of 4.5 degrees, and frequencies from 0.6 to 1.63 times `per_px`. If no
+    /// other wave forms plausible cells, the power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
     /// Assigns each dot to a cell. Returns the sums of `CellSums` over the dots that are near a dot
     /// position of their cell.
@@ -339,10 +339,10 @@ struct Kernels {
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int dot_contrast_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
-    /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot is `weight_px` times the
-    /// ratio of the moment to the weight in its window. If `weight_px` is 0, the factor is
-    /// estimated from dots in the middle of the list. Returns the sums of `DotOffsets` over the
-    /// remaining dots.
+    /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot along an axis is
+    /// `weight_px` times the first moment of its window along this axis, divided by the weight of
+    /// the window. If `weight_px` is 0, this factor is estimated from dots in the middle of the
+    /// list. Returns the sums of `DotOffsets` over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`

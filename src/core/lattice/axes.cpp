@@ -186,9 +186,9 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
                          shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, FixedVec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
-    // Correction factor for the axis lengths, in units of 1/256. Symmetric edges are on average 4 %
-    // shorter than the spacing, because dots displaced towards each other are more often nearest
-    // neighbours.
+    // Correction factor for the axis lengths, in units of 1/256. Symmetric edges (see
+    // `connect_symmetric`) are on average 4 % shorter than the spacing, because dots that are
+    // displaced towards each other are more likely to be nearest neighbours.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // Unlike the paper, which uses both medians as axes, this function rotates v by -90 degrees and

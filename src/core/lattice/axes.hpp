@@ -8,9 +8,11 @@
 namespace dotpose::core {
 
 /// Sets the axes u and v of the lattice, but not its origin. v is u rotated by 90 degrees, in the
-/// direction from +x to +y. `memory` must contain two elements per edge. Returns no_grid if there
-/// are fewer than 12 edges, if every edge extends 128 px or more along an axis, or if the median
-/// edges fail `is_nearly_square`.
+/// direction from +x to +y. `memory` must contain two elements per edge. Divides the edges into two
+/// clusters, one for each axis. Returns no_grid if:
+/// - there are fewer than 12 edges,
+/// - every edge extends 128 px or more along x or y, or
+/// - the medians of the two clusters fail `is_nearly_square`.
 Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> memory,
                      Lattice& lattice);
 

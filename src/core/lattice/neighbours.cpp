@@ -30,8 +30,8 @@ class Buckets {
     }
 
   private:
-    /// The element after the last bucket, at index columns * rows, is a sentinel. Its `begin` is
-    /// the end of the last bucket.
+    /// The seeds and the buckets (see BucketedSeed). A sentinel bucket at index columns * rows
+    /// follows the last bucket. Its `begin` is the end of the last bucket.
     const std::span<BucketedSeed> memory_;
     const std::size_t count_;
     int shift_ = 0;

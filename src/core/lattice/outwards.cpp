@@ -170,8 +170,9 @@ float growth(float fraction) {
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Rank of the neighbour whose distance from a dot measures the local density of the dots. The
-/// first estimate of the grid spacing is computed from the smallest of these distances.
+/// The local density of the dots around a dot is measured by the distance from this dot to its
+/// kNearest-th nearest neighbour. The first estimate of the grid spacing is computed from the
+/// smallest of these distances.
 constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
@@ -205,8 +206,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     if (count < tuned::kMinDots) return false;
     // Limits on the number of dots that are tested as origins. Testing one dot takes time
     // proportional to the number of dots, so fewer dots are tested in noisy patches, which contain
-    // many dots. About kMaxDistances distances are computed, but at least kMinCandidates dots are
-    // tested.
+    // many dots. The number of computed distances is limited to about kMaxDistances, but at least
+    // kMinCandidates dots are tested.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;

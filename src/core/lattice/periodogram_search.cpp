@@ -125,7 +125,7 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};
     lattice.v_q16 = {entry(-a.y), entry(a.x)};
-    // At an intersection, the phase of each wave equals the phase of its sum over all dots, modulo
+    // At an intersection, the phase of each wave equals the angle of its `Periodogram::sum`, modulo
     // one cycle.
     const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
     const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;

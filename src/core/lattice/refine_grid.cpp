@@ -18,10 +18,10 @@ namespace tuned = tuning::refine_grid;
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Moves the origin by the median offset of the dots near the origin (paper, equation 6). The paper
-/// subtracts the median from the origin, which is a sign error: the offsets are measured from the
-/// estimated origin. This function adds the median to the origin, which subtracts it from all plane
-/// points.
+/// Moves the origin by the median offset of the dots near the origin (paper, equation 6). The
+/// offsets are measured from the estimated origin, so the median must be added to the origin. This
+/// is the same as subtracting it from all plane points. The paper subtracts the median from the
+/// origin, which is a sign error.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -36,8 +36,8 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
                           FixedVec{median(std::span(x).first(n)), median(std::span(y).first(n))};
 }
 
-/// Agreement of the dots with the grid. Except for `farthest_cell`, includes only dots whose cells
-/// are at most `reach_cells` from the origin.
+/// Agreement of the dots with the grid. All members except `farthest_cell` include only dots whose
+/// cells are at most `reach_cells` from the origin.
 struct Judged : Regularity {
     std::int64_t squared_offsets_q20 = 0;
 };

@@ -25,8 +25,8 @@ struct Regularity {
     int dots = 0;
     int near_intersections = 0;
     /// Largest distance from the origin to the cell of a dot, in cells. Unlike the other members,
-    /// it also includes dots beyond the reach, but not dots farther than kFarthest_cells, which
-    /// callers skip.
+    /// this includes dots beyond the reach. It excludes dots farther than kFarthest_cells, because
+    /// callers skip them.
     int farthest_cell = 0;
 
     /// Returns true if at least kSettled_20th / 20 of the dots are near an intersection. Repeating

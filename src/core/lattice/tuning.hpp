@@ -50,8 +50,8 @@ inline constexpr int kTurn_deg = 2;
 inline constexpr int kStretchPart = 40;
 inline constexpr int kStretches = 4;
 /// Raster of the separate search for each direction, for tilted cameras. Three steps to each side
-/// cover 9 degrees and 12 % of the spacing. At a tilt of 30 degrees, the spacings in the two
-/// directions differ by 13 %.
+/// cover 9 degrees and 12 % of the spacing. This is enough for a tilt of 30 degrees, at which the
+/// spacings in the two directions differ by 13 %.
 inline constexpr int kTiltTurn_deg = 3;
 inline constexpr int kTiltStretchPart = 25;
 inline constexpr int kTiltSteps = 3;

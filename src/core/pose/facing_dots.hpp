@@ -1,7 +1,7 @@
 // Facing dots: corrects the bias of adjacent dots that are displaced towards each other. If facing
 // dots are large or blurred, each dot shifts the centroid of the other dot towards itself. The two
 // shifts cancel in the pose, but they increase the residuals and therefore the estimated
-// covariance. The paper does not estimate a covariance, so it does not need this correction.
+// covariance. The paper does not need this correction, because it does not estimate a covariance.
 #pragma once
 
 #include "core/math/float_plane.hpp"

@@ -154,9 +154,9 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread at which the dots determine a step. The spread is the sum of the squared
-    /// residuals after an affine function is fitted to f, where f is 1 for dots beyond the line and
-    /// 0 for all other dots. If the spread is small, an affine map can imitate the step.
+    /// Minimum spread at which the dots determine a step. To compute the spread, let f be 1 for
+    /// dots beyond the line and 0 for all other dots. The spread is the sum of the squared
+    /// residuals of an affine fit to f. If the spread is small, an affine map can imitate the step.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -189,9 +189,9 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // The log odds of an outlier depend on the number of outliers. If outliers are frequent,
-        // for example because of printed text, a single outlier is only weak evidence that the
-        // paper is displaced.
+        // Log odds of an outlier, from the fraction of outliers among the dots. If outliers are
+        // frequent, for example because of printed text, a single outlier is only weak evidence
+        // that the paper is displaced.
         off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
@@ -299,9 +299,11 @@ class Search {
 
     /// Returns the log likelihood ratio of two models: separate planes for the two parts, and one
     /// plane for the whole sheet. Each part has its own plane, because the plane of the whole sheet
-    /// may fit neither part. The log odds of the dots beyond the line are clamped to at least 0,
-    /// the value for random positions. The contribution of the dots on this side is also clamped to
-    /// at least 0, the value if these dots keep the plane of the whole sheet.
+    /// may fit neither part.
+    /// - For the dots beyond the line, the log odds on their own plane are clamped to at least 0,
+    ///   the value for dots at random positions.
+    /// - For the dots on this side, the gain is clamped to at least 0, the value if these dots keep
+    ///   the plane of the whole sheet.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -337,8 +339,9 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // Does not refine the direction of a line with a gain of less than kPossible / 2, because a
-    // small rotation of the line rarely doubles the gain.
+    // Refines the direction of the line only if its gain is at least kPossible / 2. To reach
+    // kPossible, a smaller gain would have to more than double, which a small rotation of the line
+    // rarely achieves.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

@@ -6,8 +6,8 @@
 namespace dotpose::core {
 
 /// Restricts fits to one side of a line during the lifetime of the object. The constructor moves
-/// the cells of all other dots far away, so that these dots are outliers, and the destructor moves
-/// them back. Dots near the line belong to neither side.
+/// the cells of all other dots far away, which makes these dots outliers. The destructor moves the
+/// cells back. Dots near the line belong to neither side.
 class HalfPlane {
   public:
     /// The side to fit: the side of the reference point, or the side beyond the line.

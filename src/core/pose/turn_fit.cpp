@@ -125,7 +125,7 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
         }
     }
     // The drift computed from the plane is an additional observation. Its standard deviation is
-    // kDrift, because a tilt of the camera makes it inaccurate.
+    // kDrift, because the computed drift is inaccurate if the camera is tilted.
     const FloatVec expected = drift_of(plane);
     const float weight =
         fit.variance * tuned::kDriftStep * tuned::kDriftStep / (tuned::kDrift * tuned::kDrift);

@@ -15,15 +15,16 @@ struct TurnFit {
     ReadoutTurn turn;    ///< fitted rotation
     float variance = 0;  ///< variance of `turn.rad_per_row`
     /// Additional covariance of x, y (in spacings) and theta at the reference point, due to the
-    /// uncertainty of rotation and drift.
+    /// uncertainty of the fitted rotation and drift.
     std::array<std::array<float, 3>, 3> pose_covariance{};
 };
 
 /// Fits rotation and drift by least squares, corrects the dots for the fitted rotation, and fits
 /// the plane to the corrected dots. `turn` is the rotation that was removed from the image in which
-/// the dots were measured. The drift is estimated from the plane (`drift_of`) and from the
-/// curvature that drift and rotation cause together. Returns false if the dots do not determine the
-/// rotation. In this case, `dots`, `plane` and `fit` may have changed and must not be used.
+/// the dots were measured. The drift (see ReadoutTurn) is determined by the curvature that drift
+/// and rotation cause together, and by the plane, from which `drift_of` computes an approximate
+/// drift. Returns false if the dots do not determine the rotation. In this case, `dots`, `plane`
+/// and `fit` may have changed and must not be used.
 bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec reference_px,
               MeasuredDots& dots, FloatPlane& plane, PoseFit& fit, TurnFit& result);
 

@@ -77,8 +77,8 @@ bool has_outliers(const Blocks& blocks) {
 }
 
 /// Increases the covariance by `weight` times the squared difference between the poses of two
-/// planes at the reference point. The pose is uncertain by this difference, because either plane
-/// may be correct.
+/// planes at the reference point. Either plane may be correct, so the difference is treated as a
+/// possible error of the pose.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);

@@ -14,10 +14,9 @@ namespace dotpose::core {
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 
-/// Overload for a plane that was fitted to observations. It is slower than the overload above,
-/// because a much weaker correlation is sufficient for it to search for a line. `dots` provides
-/// memory for the observations. If this memory is too small, skips the test and sets the surface to
-/// even.
+/// Overload for a plane that was fitted to observations. It searches for a line even if the
+/// correlation is much weaker, so it is slower than the overload above. `dots` provides memory for
+/// the observations. If this memory is too small, skips the test and sets the surface to even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit);
 

@@ -80,7 +80,7 @@ bool Server::Service::obey(Client& client, const Command& command) {
 }
 
 /// Returns the next topic that has a value for the client. The search starts after the topic of the
-/// last message to the client.
+/// last message to the client, so that all topics take turns.
 std::optional<std::size_t> Server::Service::due_topic(const Client& client) const {
     for (std::size_t step = 1; step <= topics_.size(); ++step) {
         const std::size_t i = (client.newest_topic + step) % topics_.size();

@@ -15,9 +15,9 @@ class Reports {
 
     explicit Reports(std::function<void(const std::string&)> notify) : notify_(std::move(notify)) {}
 
-    /// Reports a refusal. The first refusal for each reason is reported immediately. Later refusals
-    /// for the same reason are only counted, and their number is reported together with one of
-    /// them, at most once every 10 s. `reason` must be one of a small set of constants.
+    /// Reports a refusal. The first refusal for each reason is reported immediately. For 10 s after
+    /// each report, further refusals for the same reason are only counted. The next report for this
+    /// reason includes their number. `reason` must be one of a small set of constants.
     void refuse(const std::string& peer, const std::string& reason, Clock::time_point now);
 
   private:

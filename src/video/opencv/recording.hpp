@@ -20,13 +20,13 @@ class Recording : public GreyVideo {
     /// user.
     Recording(std::string path, double fps, Tell notify);
 
-    /// Append a BGR or a grey picture. Throw Error if that fails, for example because the disk is
-    /// full or the pictures differ in size.
+    /// Appends a BGR or a grey picture. Throws Error on failure, for example if the disk is full or
+    /// the size differs from that of the previous pictures.
     void write(const cv::Mat& picture);
     void write(ImageView image) override;
 
-    /// Closes the file. Throws Error if frames are missing. The frames are counted, because OpenCV
-    /// reports neither a full disk nor an incomplete file.
+    /// Closes the file, and counts the frames in it, because OpenCV reports neither a full disk nor
+    /// an incomplete file. Throws Error if frames are missing.
     void finish() override;
 
   private:

@@ -215,8 +215,9 @@ class VideoFile : public capture::FrameSource {
     }
 
     /// Corrects the timestamp of a packet in an AVI file. AVI files contain no timestamps. FFmpeg
-    /// computes them by counting packets, so they are wrong after damaged data. If the index of the
-    /// file is complete, the timestamp is taken from the index entry at the packet's position.
+    /// computes timestamps by counting packets, so all timestamps after damaged data are wrong. If
+    /// the index of the file is complete, this function takes the timestamp from the index entry at
+    /// the packet's position.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;
         int first = 0;

@@ -34,8 +34,8 @@ std::vector<Kind> kinds(const std::vector<CalibrationNeed>& needs) {
     return all;
 }
 
-/// Returns a frame at the grid position (`x_grid`, `y_grid`), with a spacing of 10 px. It has one
-/// dot in the middle of each part of the image, except in the parts listed in `empty`.
+/// Returns a frame at the grid position (`x_grid`, `y_grid`), with a spacing of 10 px. The frame
+/// has one dot in the middle of each part of the image, except in the parts listed in `empty`.
 CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
                         const std::vector<std::pair<int, int>>& empty = {}) {
     CalibrationView view;

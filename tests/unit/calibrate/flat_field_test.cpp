@@ -64,9 +64,9 @@ TEST(CalibrateFlatField, FindsTheLight) {
             EXPECT_NEAR(field[j][i], light_at(u, v) / brightest, 0.03) << i << ", " << j;
         }
     }
-    // A tenth of the pixels are dots, whose level is 23 % of the paper level. The standard
-    // deviation of a pixel is therefore 25 % of its mean in one frame. In the mean of 400 frames,
-    // it is one twentieth of that, 1.26 %.
+    // A tenth of the pixels are dots, whose level is 23 % of the paper level. In one frame, the
+    // standard deviation of a pixel is therefore 25 % of its mean. The standard deviation of the
+    // mean of 400 frames is one twentieth of this value, 1.25 %.
     EXPECT_NEAR(found.residual, 0.0127, 0.004);
     validate(found.camera);
 }

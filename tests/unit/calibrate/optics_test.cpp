@@ -27,9 +27,9 @@ TEST(Optics, GivesThePapersNumbers) {
         EXPECT_FALSE(advice.is_fault) << advice.text;
 }
 
-/// Returns the side length of the smallest square field of view that contains a block of dots whose
-/// diagonal is `diagonal_mm`. The grid is rotated by 45 degrees. (`x_mm`, `y_mm`) is the offset of
-/// the image centre from a block centre, along the grid axes.
+/// Returns the side length of the smallest square field of view that contains a block of dots with
+/// the diagonal `diagonal_mm`. The grid is rotated by 45 degrees. (`x_mm`, `y_mm`) is the offset of
+/// the image centre from the centre of a block, along the grid axes.
 double field_for_block(double diagonal_mm, double spacing_mm, double x_mm, double y_mm) {
     double smallest_mm = HUGE_VAL;
     for (int i = -1; i <= 1; ++i) {

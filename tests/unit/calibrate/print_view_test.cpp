@@ -16,8 +16,8 @@ const Eigen::Vector2d kMiddle_px(1999.5, 1499.5);
 
 /// Returns the dots in a photo of a 240 x 180 mm page, which has 3 dots per cm. The camera has a
 /// focal length of 3000 px and is 260 mm from the page. It is tilted by `tilt` about an axis in the
-/// plane of the page, whose direction is `azimuth`. The print is (1 + `wide`) times as wide as
-/// nominal.
+/// plane of the page. `azimuth` is the direction of this axis. The print is (1 + `wide`) times as
+/// wide as nominal.
 std::vector<Match> photo(double tilt, double azimuth, double wide) {
     std::vector<Match> matches;
     for (double x_mm = -120; x_mm <= 120; x_mm += 10.0 / 3) {
@@ -40,8 +40,8 @@ TEST(PrintView, tells_cameras_from_scanners) {
     for (const double tilt : {0.5, 1.0, 10.0, 25.0}) {
         const auto signs = signs_of_camera(photo(tilt * kDegree, 0, 0), kMiddle_px);
         ASSERT_TRUE(signs) << tilt;
-        // The far end of the page is farther from the camera than the near end. The difference
-        // between their distances, relative to 260 mm, is 180 mm * sin(tilt) / 260 mm.
+        // The far end of the page is 180 mm * sin(tilt) farther from the camera than the near end.
+        // The perspective is this difference, relative to the distance of 260 mm.
         EXPECT_NEAR(signs->perspective, 180 * std::sin(tilt * kDegree) / 260, 1e-6);
         EXPECT_NEAR(signs->lens, 0, 1e-6);
     }

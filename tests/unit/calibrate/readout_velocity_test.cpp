@@ -73,8 +73,8 @@ TEST(ReadoutVelocity, IsWithinItsStandardDeviation) {
     }
 }
 
-/// Adds a rotation of the camera during the readout. The velocity is that of the point under the
-/// image centre, so it does not change.
+/// Adds a rotation of the camera during the readout, about the point under the image centre.
+/// `velocity_mm_s` is the velocity of this point, so it does not change.
 RollingFrame draw_turning(const CameraModel& camera, double motion, double turn_deg, int index) {
     RollingFrame frame = draw_rolling(camera, motion, index);
     // If theta increases, the scene turns anticlockwise in the image.

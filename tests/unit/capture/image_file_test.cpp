@@ -345,7 +345,7 @@ TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
 
 TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {
     // Moves the directory to the end of the file, as many writers do. The last word of the
-    // directory refers to the next page.
+    // directory, which refers to the next page, is then at the end of the file and is cut first.
     Bytes tiff = encode_tiff(kGrey, false);
     const std::size_t directory_bytes = 2 + 10 * 12 + 4;
     tiff.insert(tiff.end(), tiff.begin() + 8, tiff.begin() + 8 + directory_bytes);

@@ -213,8 +213,8 @@ TEST(JpegKinds, AreProgressive) {
     EXPECT_EQ(pixels_of(file).size(), 64U * 64U);
 }
 
-// A truncated file must be refused, wherever it is truncated. If it is truncated between two scans,
-// nothing in the file refers to the missing scans.
+// A truncated file must be rejected wherever it is truncated. This includes files that are
+// truncated between two scans, which contain no reference to the missing scans.
 TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     const Bytes file = progressive_jpeg();
     int refused = 0;

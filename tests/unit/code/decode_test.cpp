@@ -157,7 +157,7 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     }
 }
 
-/// Returns the indices in the sequence a4 of libdots at which a window is refused as ambiguous.
+/// Returns the indices in the sequence a4 of libdots at which a window is rejected as ambiguous.
 /// Expects that the windows at all other indices are decoded.
 std::set<std::uint32_t> ambiguous_places(int columns, int rows, bool along_x) {
     std::set<std::uint32_t> result;
@@ -213,8 +213,8 @@ TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
 
 TEST(Decode, NeverGuessesFromAChanged6x6) {
     // 6 x 6 windows have no redundancy, so most windows with a changed bit occur elsewhere in the
-    // code. The decoder must return the place at which such a window occurs, and refuse all other
-    // windows.
+    // code. For such a window, the decoder must return the place at which it occurs. All other
+    // windows must be rejected.
     std::mt19937 rng(kSeed);
     int elsewhere = 0;
     constexpr int kDraws = 20'000;
@@ -259,9 +259,9 @@ TEST(Decode, NeverGuessesFromRandomSymbols) {
             ASSERT_EQ(place, kUntouched);
         }
     }
-    // L * 63 of the 2^36 patterns of an axis are in the code, and the axes are independent, so the
-    // probability is (410815348 * 63 / 2^36)^2 = 0.14184. The standard deviation for these draws is
-    // 0.0011.
+    // kPositionsPerAxis * 63 of the 2^36 patterns of an axis are in the code, and the axes are
+    // independent. The probability that a random window is in the code is therefore (410815348 * 63
+    // / 2^36)^2 = 0.14184. The standard deviation for these draws is 0.0011.
     EXPECT_NEAR(static_cast<double>(found) / kDraws, 0.14184, 5 * 0.0011);
 }
 
@@ -306,7 +306,7 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
     // Eleven columns have ten differences between adjacent rolls. The difference across the border
     // between the sections is wrong. At least five of the correct differences are on one side of
-    // the border. They determine a position, which the wrong difference contradicts.
+    // the border, and determine a position. The wrong difference contradicts this position.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;

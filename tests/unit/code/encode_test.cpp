@@ -144,9 +144,9 @@ TEST(Encode, RollStepsByDeltaAcrossTheWrap) {
 
 // Over one period of L positions, the roll increases by 5 L plus one term for each sequence a_i:
 // its weight w_i, times L / length_i, times its digit sum. Modulo 63, the increase is 52 for the
-// sequences of the patent, and 25 for `microdots`, which has a different a4. It is also 52 for
-// `libdots`: the misprint removes a 1 from a4, but a4 has an additional 1 at its end, so the digit
-// sum is the same.
+// sequences of the patent, and 25 for `microdots`, which has a different a4. The increase is also
+// 52 for `libdots`: the misprint removes a 1 from a4, but a4 has an additional 1 at its end, so the
+// digit sum is the same.
 TEST(Encode, ThePatternContinuesPastTheLastPosition) {
     EXPECT_EQ(kPositionsPerAxis, kL);
     EXPECT_EQ(kL, 410'815'348U);

@@ -1,6 +1,6 @@
-// Tests the tables that contain the minimum number of lines that two places in a sequence do not
-// share. Two places share a line at shift s if their rolls in this line differ by s. The tests
-// obtain the expected numbers by counting lines.
+// Tests the tables of unshared lines, which contain the minimum number of lines that two places in
+// a sequence do not share. Two places share a line at shift s if their rolls in this line differ by
+// s. The tests compute the expected numbers by comparing the places line by line.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>

@@ -16,8 +16,8 @@ namespace {
 using core::Axis;
 
 constexpr std::uint64_t kSeed = 4219;
-/// A sheet with more than 63 columns and rows. Two places that are 63 cells apart along one axis
-/// have equal bits on the other axis.
+/// A sheet with more than 63 columns and rows. It therefore contains places that are 63 cells apart
+/// along one axis. Such places have equal bits on the other axis.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {3, 5}, {1000, 2000}, 140, 130};
 
 const core::KnownSheets kOnly{{&kSheet, 1}, OtherSheets::impossible};
@@ -101,8 +101,9 @@ TEST(SheetOdds, MoreDotsAreNeededIfOtherSheetsArePossible) {
     const int only_log2 = fix.p_wrong_log2;
     const core::KnownSheets possible{{&kSheet, 1}, OtherSheets::possible};
     is_certain(block, corner, possible, fix);
-    // An unknown sheet may have the same columns. The rows of the view can then be at 3 positions.
-    // At each position, the bits agree by chance with a probability of 2^-36.
+    // An unknown sheet may have the same columns as the known sheet. The rows that were read can
+    // then match by chance at 3 positions on the unknown sheet, with a probability of 2^-36 at
+    // each.
     EXPECT_GE(fix.p_wrong_log2, -36);
     EXPECT_GT(fix.p_wrong_log2, only_log2);
 }

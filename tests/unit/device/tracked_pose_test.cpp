@@ -15,8 +15,8 @@ namespace {
 
 using namespace core;
 
-/// Dots in cells that are 11 px apart. The grid is rotated about the centre of an image of 188 x
-/// 120 px. `add` defines the offset of a dot from its cell.
+/// The sums over the tracked dots of a frame of 188 x 120 px. The grid has a spacing of 11 px, and
+/// is rotated about the image centre. `add` adds a dot with a given offset from its cell.
 struct Frame {
     explicit Frame(double angle_rad) {
         const double along = 11 * 65536 * std::cos(angle_rad);
@@ -71,8 +71,8 @@ TEST(TrackedPose, GoesThroughTheDots) {
         const double y0 = rng.uniform(-0.5, 0.5);
         const double yi = rng.uniform(-0.03, 0.03);
         const double yj = rng.uniform(-0.03, 0.03);
-        // Uneven light makes the dots on one side up to twice as dark as those on the other side.
-        // The fit must not change.
+        // As in uneven light, the mass of the dots increases from left to right, by a factor
+        // of 1.45. The fit must not change.
         const std::int32_t mass = round % 2 == 0 ? 1000 : 60;
         for (int j = 10; j <= 21; ++j) {
             for (int i = 9; i <= 24; ++i) {

@@ -274,8 +274,9 @@ TEST_F(DeviceTracked, TakesPredictionsOfAnyBits) {
         Prediction prediction = Prediction::like(before);
         std::array<std::uint32_t, sizeof prediction / 4> words;
         std::memcpy(words.data(), &prediction, sizeof words);
-        // In every fourth trial, nearly all words of the prediction are replaced by random words.
-        // In the other trials, two to four words are replaced.
+        // Each change replaces a word of the prediction with a random word, or inverts one bit of
+        // the word. Every fourth trial makes four changes per word on average, so nearly all words
+        // change. The other trials make two to four changes in total.
         const int changes = i % 4 == 0 ? static_cast<int>(4 * words.size()) : 1 + i % 4;
         for (int n = 0; n < changes; ++n) {
             const auto word = static_cast<std::size_t>(rng_.below(words.size()));

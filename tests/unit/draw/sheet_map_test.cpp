@@ -82,8 +82,8 @@ TEST(sheet_map, shows_every_sheet_where_it_lies_with_y_up) {
     EXPECT_THAT(svg, HasSubstr(">straight</text>"));
     EXPECT_THAT(svg, HasSubstr(">turned</text>"));
     EXPECT_THAT(svg, Not(HasSubstr("Without a pose")));
-    // The length of the scale bar is the largest round number below two fifths of the box width.
-    // The box is 0.25 m wide, so the bar is 0.1 m long.
+    // The length of the scale bar is two fifths of the box width, rounded down to 1, 2 or 5 times a
+    // power of ten. The box is 0.25 m wide, so the bar is 0.1 m long.
     EXPECT_THAT(svg, HasSubstr(">100 mm</text>"));
     EXPECT_THAT(svg, HasSubstr(R"(class="axis")"));
 }

@@ -22,9 +22,9 @@ constexpr double kTurn_rad = 0.3;
 constexpr double kScale = 1.002;
 constexpr double kOffset_rad = 1.1;
 
-/// Returns frames at the points of a grid. The located positions are those points, with errors of
-/// up to 1 µm per axis. The true positions are the points after a rotation, a scaling, and a shift
-/// by (5, -7) mm.
+/// Returns frames at the points of a grid. The located positions are the grid points, with errors
+/// of up to 1 µm per axis. The true positions are the grid points after a rotation, a scaling, and
+/// a shift by (5, -7) mm.
 std::vector<MeasuredFrame> frames() {
     std::vector<MeasuredFrame> result;
     for (int i = 0; i < 25; ++i) {

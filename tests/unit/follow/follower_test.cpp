@@ -140,7 +140,8 @@ TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
     const Fix fix = Follower(options).locate(image).fix;
     ASSERT_EQ(fix.status, Status::ok);
     // The option reference_px, here the image centre, takes precedence over the camera file. The
-    // image centre is as far from the robot's centre as the camera.
+    // fix is therefore the position of the image centre, which is as far from the robot's centre as
+    // the camera.
     EXPECT_NEAR(std::hypot(fix.x_mm() - kPivot_x_mm, fix.y_mm() - kPivot_y_mm),
                 std::hypot(kCameraOnRobot_mm.x, kCameraOnRobot_mm.y), 0.01);
 }

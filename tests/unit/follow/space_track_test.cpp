@@ -197,7 +197,7 @@ TEST_P(SpaceTrackRates, FollowsSightingsWithCommonErrors) {
 }
 
 /// While the camera rests, all views contain the same dots, and the tracker cannot reduce the
-/// printing errors. The covariance of the track must include them.
+/// printing errors. The covariance of the track must therefore include these errors.
 TEST(SpaceTrack, HasTheTrueCovarianceWhileTheCameraRests) {
     Tally tracked;
     const CameraInSpace truth = hand_at(0.7);

@@ -69,8 +69,9 @@ std::vector<PosePacket> received(const Bytes& stream) {
     return packets;
 }
 
-/// Encodes with COBS as its authors define it: appends a zero, splits the bytes after every zero,
-/// and writes each piece as its length and its bytes without the zero.
+/// Encodes `plain` with COBS as defined by its authors: appends a zero, splits the bytes after
+/// every zero, and writes each piece without its zero, preceded by the length of the piece
+/// including the zero.
 Bytes cobs(Bytes plain) {
     plain.push_back(0);
     Bytes coded;

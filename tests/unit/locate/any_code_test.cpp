@@ -1,5 +1,5 @@
-// Tests locating frames whose code variant is not given. The fixes must equal those of the same
-// frames when the code variant is given.
+// Tests locating frames without giving the code variant. The fixes must be the same as with the
+// given code variant.
 #include <memory>
 
 #include <gtest/gtest.h>

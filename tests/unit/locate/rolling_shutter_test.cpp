@@ -110,8 +110,9 @@ TEST(RollingShutter, SmallFramesAreLocatedAtTheFirstAttemptIfTheirDotsCarryThePo
     for (int i = 0; i < kFrames; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i);
         Shot shot = shot_of(size, kSeed, static_cast<std::uint64_t>(i));
-        // The direction of the motion is within 45 degrees of straight down. The image then
-        // contains at most half the usual number of cells.
+        // The direction of the motion is within 45 degrees of straight down. Such a motion
+        // stretches the image of the scene, so the frame contains only 40 to 58 % of the usual
+        // number of cells.
         const double angle_rad = std::numbers::pi / 4 * (1 + 2 * (i + 0.5) / kFrames);
         shot.camera.readout_px = {0.6 * size.height_px * std::cos(angle_rad),
                                   0.6 * size.height_px * std::sin(angle_rad)};

@@ -89,8 +89,8 @@ std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6
 }
 
 /// A robot whose motion matches the model of the filter for an agility of 1. The accelerations are
-/// constant within a frame and have the standard deviations in TrackOptions. From one frame to the
-/// next, each acceleration is multiplied by 0.5 / 0.505, and random noise is added.
+/// constant between two frames. Their standard deviations are those in TrackOptions. At each frame,
+/// each acceleration is multiplied by 0.5 / 0.505, and random noise is added.
 struct ModelRobot {
     explicit ModelRobot(Rng& rng) {
         pose[2] = rng.uniform(-kPi, kPi);

@@ -159,8 +159,9 @@ TEST(Tracker, IsKidnappedIfFoundBeyondReach) {
     Tracker tracker({.max_speed_mm_s = 300});
     drive(tracker, 0, 100'000);
     tracker.update(200'000, nullptr);  // lost
-    // At 300 mm/s, the robot can move by at most 90 mm in the 0.3 s from its last sighting to the
-    // first of these sightings.
+    // The robot cannot have driven to these sightings, which are 120 mm from its last position. At
+    // 300 mm/s, it moves by at most 90 mm in the 0.3 s from its last sighting to the first of these
+    // sightings.
     EXPECT_EQ(events_of(see(tracker, at(395'000, 130))), "");
     EXPECT_TRUE(tracker.track().is_lost);
     EXPECT_EQ(events_of(see(tracker, at(400'000, 130))), "");

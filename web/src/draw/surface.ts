@@ -31,8 +31,8 @@ export interface Surface {
 }
 
 /**
- * Sets the resolution of the canvas to the resolution of the screen. If `aspect` is given, also
- * sets the height of the canvas, and `--aspect` for the style sheet.
+ * Sets the resolution of the canvas to the resolution of the screen, and clears the canvas. If `aspect` (width divided
+ * by height) is given, also sets the aspect ratio of the canvas, and passes it to the style sheet as `--aspect`.
  */
 export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     if (aspect !== undefined) {
@@ -51,8 +51,8 @@ export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
 }
 
 /**
- * Cache of the colours in the style sheet, by name, for the light and the dark scheme. Reading a colour from the style
- * sheet takes as long as drawing a shape.
+ * Cache of the colours in the style sheet, by name, for the light and the dark scheme. Without the cache, drawing would
+ * be slow, because reading a colour from the style sheet takes as long as drawing a shape.
  */
 const colours = [new Map<string, string>(), new Map<string, string>()] as const;
 let dark: MediaQueryList | undefined;

@@ -1,5 +1,5 @@
-// Reads the grey levels of a frame. They are copied from the camera frame if the browser supports it. Otherwise the
-// frame is drawn on a canvas and read back.
+// Reads the grey levels of a frame. Copies them directly from the camera frame if its format allows this. Otherwise,
+// draws the frame on a canvas and reads it back.
 import type { Image } from "dotpose";
 import type { LumaPath } from "./messages.js";
 

@@ -26,7 +26,7 @@ const table = new RobotTable(connection, (id) => panel.choose(id, true));
 const fleet_map = new FleetMap(connection, (id) => panel.choose(id));
 const history = new HistoryPanel(connection, (tracks) => fleet_map.takeTracks(tracks));
 /**
- * True while the page waits for the only robot of `dotpose listen`. The page chooses this robot as soon as it appears.
+ * True on the page of `dotpose listen` until its only robot appears. The page then chooses this robot.
  */
 let awaits_device = false;
 const summary = new SummaryView(announce, (state) => {

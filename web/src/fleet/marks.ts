@@ -145,8 +145,10 @@ export function drawPath(context: CanvasRenderingContext2D, path_mm: ArrayLike<n
     context.stroke();
 }
 
-/** Draws the stored track of the chosen robot. Its line is wider than that of the robot's recent path, which is
- * drawn on top of it. */
+/**
+ * Draws the stored track of the chosen robot. The line of the track is wider than the line of the robot's recent path,
+ * which is drawn on top of the track.
+ */
 export function drawTrack(context: CanvasRenderingContext2D, { strokes_mm }: Track, view: Viewport): void {
     context.strokeStyle = themed("--warn");
     context.lineWidth = 5;

@@ -206,8 +206,8 @@ export interface Trails {
     trails_mm: Map<number, Float64Array>;
 }
 
-/** Parses the head of a message: its size, followed by JSON. Returns the head, a view of the message, and the offset
- * at which the head ends. */
+/** Parses the head of a message: the size of the JSON (4 bytes), followed by the JSON. Returns the head, a view of the
+ * message, and the offset at which the head ends. */
 function headOf(bytes: Uint8Array<ArrayBuffer>): { head: Head; view: DataView; end: number } {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const end = 4 + view.getUint32(0, true);

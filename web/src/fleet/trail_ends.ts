@@ -1,5 +1,5 @@
-// Extends the trails of the robots to their newest positions. Trails arrive once per second. The end of a trail
-// contains the positions that arrived after the trail itself.
+// Extends the trails of the robots to their newest positions. Trails arrive only once per second, so each trail is
+// followed by an end, which contains the positions that arrived after the trail.
 import type { Positions, Trails } from "./messages.js";
 
 /**
@@ -7,7 +7,7 @@ import type { Positions, Trails } from "./messages.js";
  * screen to appear as curves, so only the newest position is kept.
  */
 const kMaxRobots = 500;
-/** Maximum number of positions in the end section of a trail. The limit bounds the memory used by a page that
+/** Maximum number of positions in the end of a trail. The limit bounds the memory used by a page that
  * receives no trails for some time. */
 const kMaxPoints = 100;
 

@@ -23,8 +23,8 @@ export function drawMissing(canvas: HTMLCanvasElement, { columns, covered }: Len
 }
 
 /**
- * Draws the sectors of a full turn, with those already seen in a different colour, and an arrow in the direction of the
- * newest frame. The first sector begins `begin` sectors after direction 0.
+ * Draws the sectors of a full turn, and an arrow in the direction of the newest frame. Sectors that have been seen have
+ * a different colour. The first sector begins `begin` sectors after direction 0.
  */
 export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], theta_rad: number | null, begin = 0): void {
     const { context, width, height } = surfaceOf(canvas);

@@ -1,5 +1,6 @@
-// The WebSocket to the program. Each topic delivers its newest value. It delivers the next value only after the page
-// has shown the previous value. A slow page or connection therefore receives fewer values rather than outdated values.
+// The WebSocket to the program. The program sends the newest value of each topic, and sends the next value only after
+// the page has shown the previous one. A slow page or connection therefore receives fewer values rather than outdated
+// values.
 
 export type Value = string | Uint8Array<ArrayBuffer>;
 export type Show = (value: Value) => Promise<void> | void;

@@ -50,8 +50,8 @@ export class PathMap {
     }
 
     /**
-     * Returns the visited sheets if the plane is the world. In the pattern, sheets are far apart, so only the current
-     * sheet is returned.
+     * Returns the sheets to draw. In the world plane, these are all visited sheets. In the pattern plane, sheets are
+     * far apart, so only the current sheet is drawn.
      */
     #papers(): Paper[] {
         const sheets = this.#setup?.sheets ?? [];

@@ -14,8 +14,8 @@ interface Place {
 }
 
 /**
- * Returns the pose on the sheet. In a world, or if the sheet is not known, returns the tracked pose instead. Returns
- * null if there is no pose.
+ * Returns the pose on the sheet. Returns the tracked pose instead if poses are reported in the world, or if the sheet
+ * is not known. Returns null if there is no pose.
  */
 export function placeOf(line: Line, setup: Setup | null): Place | null {
     if (setup?.plane !== "world" && typeof line.x_sheet_mm === "number") {

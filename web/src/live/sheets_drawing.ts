@@ -52,8 +52,8 @@ export function handleOf(frame: Frame, { sheet, pose }: Placed): Pixel {
 }
 
 /**
- * Returns the grid step: the smallest number of the form 1, 2 or 5 times a power of ten that is at least 48 px on the
- * canvas.
+ * Returns the grid step in mm: the smallest number of the form 1, 2 or 5 times a power of ten that corresponds to at
+ * least 48 px on the canvas.
  */
 function gridStep(scale: number): number {
     const kMin_px = 48;
@@ -62,8 +62,8 @@ function gridStep(scale: number): number {
 }
 
 /**
- * Returns the multiples of a step in a range, but at most 200. The limit matters if the step is below the rounding
- * error.
+ * Returns the multiples of a step in a range, but at most 200. The limit matters only if the coordinates are so large
+ * that their rounding errors exceed the step.
  */
 function multiples(from: number, to: number, step: number): number[] {
     const kMax = 200;

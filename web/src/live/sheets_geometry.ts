@@ -85,7 +85,9 @@ export function boxOf(points: readonly Point_mm[]): Box {
 export interface Placed {
     sheet: Sheet;
     pose: Pose;
-    /** False if the pose of the sheet in the world is not known. The map then draws it below the other sheets. */
+    /**
+     * False if the pose of the sheet in the world is not known. The map then draws the sheet below the other sheets.
+     */
     is_known: boolean;
 }
 

@@ -48,8 +48,9 @@ function hintOfLight(quality: ImageQuality): string | null {
 }
 
 /**
- * Returns advice on light and focus, or null if there is nothing to improve. `dots` is the number of dots that were found
- * in the picture. A picture without dots may be smooth rather than blurred.
+ * Returns advice on light and focus, or null if there is nothing to improve. `dots` is the number of dots that were
+ * found in the picture. It selects the advice for pictures of low sharpness: without dots, the picture may show a smooth
+ * surface rather than a blurred sheet.
  */
 export function hintOfPicture(quality: ImageQuality, dots: number): string | null {
     return hintOfLight(quality) ?? (quality.sharpness < kBlurred ? hintOfBlur(dots) : null);

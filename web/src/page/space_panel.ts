@@ -104,9 +104,9 @@ export class SpacePanel {
     }
 
     /**
-     * Draws the camera. SVG angles are clockwise on the screen, like the azimuth and the turn on the paper. The view
-     * from above shows the axes of the paper or of the world. The view from the side shows the vertical plane
-     * in which the camera is tilted.
+     * Draws the camera. The view from above shows the axes of the paper or of the world. The view from the side shows
+     * the vertical plane in which the camera is tilted. The azimuth and the turn need no conversion, because they are
+     * clockwise on the paper, and SVG angles are clockwise on the screen.
      */
     #draw(tilt_deg: number, azimuth_deg: number, turn_deg: number, is_in_world: boolean): void {
         const part = (name: string) => element(`${this.#id}-space-${name}`, SVGElement);

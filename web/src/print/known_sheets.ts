@@ -58,8 +58,8 @@ export function remember(sheet: KnownSheet): void {
 }
 
 /**
- * Stores the sheets from a file. They replace known sheets that use the same part of the code. If another known sheet
- * has the same name, a number is appended to the name of the sheet from the file.
+ * Stores the sheets from a file, replacing known sheets that use the same parts of the code. If a sheet from the file
+ * has the name of a remaining known sheet, or of an earlier sheet from the file, a number is appended to its name.
  */
 export function rememberAll(sheets: readonly KnownSheet[]): void {
     const partOf = ({ layout }: KnownSheet) => JSON.stringify(regionOf(layout));

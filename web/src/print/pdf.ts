@@ -3,7 +3,7 @@
 //
 // Dots are drawn with a font of four glyphs. At the default spacing, dots consist of whole printer
 // pixels at 300, 600 and 1200 dpi, and renderers place glyphs on whole pixels.
-// src/print/pdf_dots.cpp explains each number.
+// src/print/pdf_dots.cpp explains the constants.
 import { PDFDocument, PDFName, type PDFContext, type PDFRef } from "@cantoo/pdf-lib";
 import { kSymbolStep } from "../draw/surface.js";
 import type { SheetLayout } from "../engine/messages.js";
@@ -66,8 +66,9 @@ function dotFont(context: PDFContext): PDFRef {
 }
 
 /**
- * Returns the smallest shift for which all renderers round the origin of a glyph to the same pixel.
- * Renderers either truncate or round, and count pixels from either edge of the page.
+ * Returns the smallest shift for which all renderers round the origin of a glyph to the same pixel. Renderers truncate
+ * or round, and count pixels from either edge of the page. If no shift of up to 0.3 px is sufficient, returns the shift
+ * that is farthest from all rounding thresholds.
  */
 function clearShift_px(near_px: number, far_px: number): number {
     const kClear_px = 0.05;

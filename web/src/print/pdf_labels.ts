@@ -1,5 +1,5 @@
-// Labels in the margins of a printed sheet, identical to those that the command-line tool prints: a
-// description, and rulers in millimetres from the corner of the page.
+// Labels in the margins of a printed sheet: a description, and rulers in millimetres from the corner of the page. The
+// labels are identical to the labels that the command-line tool prints.
 import type { SheetLayout } from "../engine/messages.js";
 import { kSpacing_mm } from "../page/sheet_frame.js";
 import { kPointsPerMm, shown } from "./pdf_text.js";

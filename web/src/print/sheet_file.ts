@@ -66,7 +66,7 @@ function sheetOf(entry: unknown, i: number): KnownSheet {
 
 /**
  * Returns the sheets in a sheet file. If a key is not valid, throws an Error that names the key. Ignores the print
- * scale of each page and its pose in the world.
+ * scale and the world pose of each page.
  */
 export function sheetsOfFile(text: string): KnownSheet[] {
     let document: unknown;

@@ -1,7 +1,7 @@
-/* Locates frames as a microcontroller does: it uses a fixed amount of memory, and pushes each row
- * as soon as it has been read. The input is a file of golden frames (wrappers/golden/README.md).
- * Locates the first frame of each pair, and prints its golden line for `device`, which must equal
- * the line written by the C++ library. */
+/* Locates frames as a microcontroller does: with a fixed amount of memory, and row by row. The
+ * input is a file of golden frames (wrappers/golden/README.md). Locates the first frame of each
+ * pair and prints its golden line for `device`. This line must equal the line that the C++ library
+ * writes. */
 #include <dotpose.h>
 #include <stdint.h>
 #include <string.h>

@@ -49,9 +49,11 @@ enum {
 /* Corrects the fix of the image that the locator located most recently, and writes the result to
  * `fix`, which must have been set up by dotpose_fix_init. If `use` is DOTPOSE_MAP_USED, the
  * covariance refers to the absolute position on the page and includes the error of the map.
- * Otherwise, the result is the uncorrected fix. Returns OK, NO_FIX if the image was not located,
- * WRONG_KIND for device locators and for locators without `show_stages`, OUT_OF_MEMORY, or another
- * misuse status. */
+ * Otherwise, the result is the uncorrected fix. Returns
+ * - OK,
+ * - NO_FIX if the image was not located,
+ * - WRONG_KIND for device locators, and for locators without `show_stages`,
+ * - OUT_OF_MEMORY, or another misuse status. */
 dotpose_status dotpose_print_map_correct(const dotpose_print_map* map,
                                          const dotpose_locator* locator, dotpose_fix* fix,
                                          dotpose_map_use* use);

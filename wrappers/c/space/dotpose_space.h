@@ -15,12 +15,13 @@
  *         !pose.is_ambiguous)
  *         printf("height %.3f mm, tilt %.3f rad\n", -pose.z_mm, pose.tilt_rad);
  *
- * Link with the CMake target dotpose::c_space. Unlike libdotpose_c, the library needs a C++ library
- * and allocates memory. No function throws or prints.
+ * Link with the CMake target dotpose::c_space. Unlike libdotpose_c, this library depends on the C++
+ * standard library and allocates memory. Its functions neither throw nor print.
  *
- * Coordinate frames, all right-handed. Camera: the origin is the projection centre, x is along the
- * image x axis, y is down in the image, z is forward along the optical axis. Pattern: x right, y
- * DOWN, z INTO the paper, in mm; a camera above the paper has z < 0. */
+ * Coordinate frames, all right-handed:
+ * - Camera: the origin is the projection centre, x is along the image x axis, y is down in the
+ *   image, and z is forward along the optical axis.
+ * - Pattern: x right, y DOWN, z INTO the paper, in mm. A camera above the paper has z < 0. */
 #ifndef DOTPOSE_SPACE_H
 #define DOTPOSE_SPACE_H
 
@@ -93,14 +94,15 @@ typedef struct dotpose_space_pose {
 dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes);
 
 /* Fits the pose of the camera to all dots of the image that the locator located most recently. The
- * arguments must be that image and the camera that was passed to dotpose_space_use_camera. Returns
+ * arguments must be that image and the camera that was passed to dotpose_space_use_camera. The pose
+ * is written only if the status is OK. Returns
  * - OK,
  * - NO_FIX if the last image was not located or if the spacing of the sheet is not known,
  * - TOO_FEW_DOTS if the dots do not determine a pose,
  * - BAD_VALUE if a member of the camera is out of its range, or if the size of the image differs
  *   from that of the camera,
  * - WRONG_KIND for device locators, and for locators without `show_stages`,
- * - OUT_OF_MEMORY, or another misuse status. The pose is written only if the status is OK. */
+ * - OUT_OF_MEMORY, or another misuse status. */
 dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_space_camera* camera,
                                  const uint8_t* pixels, int32_t width_px, int32_t height_px,
                                  ptrdiff_t stride_bytes, dotpose_space_pose* pose);

@@ -56,8 +56,9 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
     }
 }
 
-/// Expects that the message contains all fields of the line with the same values. Apart from times
-/// and the frame number, the message must not contain other fields.
+/// Expects that the message `told` contains all fields of `line` with the same values, except the
+/// fields for which `is_only_in_lines` returns true. The message must not contain any other fields,
+/// except times and the frame number.
 inline void expect_told(const nlohmann::json& line, nlohmann::json told) {
     for (const auto& [key, value] : line.items()) {
         if (is_only_in_lines(key)) continue;

@@ -20,7 +20,7 @@ std::string described(const py::array& array) {
 }
 
 /// Converts a length to int. Lengths beyond the range of int are clamped to its maximum. Locators
-/// accept only much smaller images, so an image with a clamped length is refused as too large.
+/// accept only much smaller images, so an image with a clamped length is rejected as too large.
 int side_px(py::ssize_t length) {
     return static_cast<int>(std::min<py::ssize_t>(length, std::numeric_limits<int>::max()));
 }

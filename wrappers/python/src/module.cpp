@@ -6,8 +6,8 @@
 PYBIND11_MODULE(_dotpose, module) {
     using namespace dotpose::python;
     module.doc() = "The compiled part of dotpose; use the package dotpose.";
-    // Renames the module while the classes are defined, so that the classes report `dotpose` as
-    // their module. Users import the classes from this package.
+    // Users import the classes from the package `dotpose`, so the classes must report `dotpose` as
+    // their module. The module is therefore renamed while the classes are defined.
     const py::object own_name = module.attr("__name__");
     module.attr("__name__") = "dotpose";
     module.attr("__version__") = DOTPOSE_VERSION;

@@ -11,8 +11,8 @@ from cost import cost_us
 
 @pytest.mark.skipif("DOTPOSE_TIMES" not in os.environ, reason="times only with DOTPOSE_TIMES=1")
 def test_python_adds_at_most_2_us():
-    # A blank frame takes almost no time to locate, so the overhead of Python is easiest to measure.
-    # The overhead does not depend on the frame.
+    # The overhead of Python does not depend on the frame. It is easiest to measure with a blank
+    # frame, which takes almost no time to locate.
     blank = np.full((64, 64), 200, np.uint8)
     for code in ("anoto", "auto"):
         cpp, python, _ = cost_us(blank, dotpose.Locator(code))

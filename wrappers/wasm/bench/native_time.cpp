@@ -1,6 +1,6 @@
-// Prints the times of the C++ library without AVX2 for the golden frames
-// (wrappers/golden/README.md). Each line contains two times in µs: for a frame without a
-// prediction, and for the next frame with a prediction.
+// Measures how long the C++ library takes to locate the golden frames (wrappers/golden/README.md)
+// without AVX2. Prints a line with two times in µs for each frame: without a prediction, and for
+// the next frame with a prediction.
 //
 //   dotpose_wasm_time FILE.frames...
 #include <chrono>

@@ -1,6 +1,6 @@
 // Requests from JavaScript to the tools. All members are doubles, in the order in which
-// src/requests.ts writes them. C++ and JavaScript therefore agree on every offset. Integers up to
-// 2^53 are exact.
+// src/requests.ts writes them, so C++ and JavaScript agree on every offset. A double represents all
+// integers up to 2^53 exactly.
 #pragma once
 
 namespace dotpose::wasm {

@@ -153,8 +153,8 @@ export function imageFromPattern(
     const y = y_mm / fix.spacing_mm - plane.place.y - plane.at_centre[1];
     let u = 0;
     let v = 0;
-    // Without lens distortion, the first step is exact: x (1 + g u + h v) = a u + b v is linear in
-    // u and v. With distortion, each step uses the radius from the previous step.
+    // Without lens distortion, the first step is exact, because x (1 + g u + h v) = a u + b v is linear in u and v.
+    // With distortion, each step uses the radius from the previous step.
     const kSteps = plane.lens === 0 ? 1 : 12;
     for (let step = 0; step < kSteps; ++step) {
         const depth = 1 + plane.lens * (u * u + v * v);

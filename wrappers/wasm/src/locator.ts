@@ -155,9 +155,10 @@ export class Locator {
     }
 
     /**
-     * Returns the fix of an image. Throws RangeError if the image has less data than its size
-     * requires, or if the motion is not usable. Also throws RangeError if both a prediction and a
-     * motion are given.
+     * Returns the fix of an image. Throws RangeError if:
+     * - the image has less data than its size requires,
+     * - the motion is not usable, or
+     * - both a prediction and a motion are given.
      */
     locate(image: Image, options: FrameOptions = {}): Fix {
         const { prediction, motion } = options;

@@ -2,8 +2,8 @@
 
 /**
  * Motion of the camera since the previous frame, as measured by wheel odometry or an inertial unit,
- * with its uncertainty. The displacement is along the axes of the previous image. All values are
- * finite and below 1e6.
+ * with its uncertainty. The displacement is along the axes of the previous image. All values must
+ * be between -1e6 and 1e6.
  */
 export interface MeasuredMotion {
     /** Displacement along the image x axis. Default: 0. */

@@ -30,9 +30,11 @@ export type Prior = (typeof kPriors)[number];
 /** All values of `MapUse`, indexed by their numbers in C. */
 export const kMapUses = ["no_map", "used", "not_covered", "contradicted"] as const;
 /**
- * Use of a print map: `no_map` if there is no map of the page in view, `used` if the fix is
- * corrected, `not_covered` if the map contains too few of the dots in view, and `contradicted` if
- * the map belongs to another print.
+ * Use of a print map:
+ * - `no_map`: there is no map of the page in view.
+ * - `used`: the fix is corrected.
+ * - `not_covered`: the map contains too few of the dots in view.
+ * - `contradicted`: the map belongs to another print.
  */
 export type MapUse = (typeof kMapUses)[number];
 

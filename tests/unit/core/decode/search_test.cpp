@@ -159,8 +159,9 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
         // Each line has 12 random bits. The best of the 63 rolls of a line agrees with 9 or 10 of
-        // them. The search selects a run of 6 lines that all have such rolls, but the other 14
-        // lines score 0 on average. The total score is therefore far below the maximum.
+        // these bits. The search selects a run of 6 lines that agree this well with one position,
+        // but the other 14 lines score 0 on average. The total score is therefore far below the
+        // maximum.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }

@@ -59,10 +59,10 @@ TEST(Alternatives, AreNotMoreWithMoreColumns) {
             ASSERT_LE(log2, before) << columns << " columns, window " << i << ", seed " << kSeed;
             before = log2;
         }
-        // A position that shares only five of 17 lines with the reading differs in twelve lines, by
-        // at least two bits each. With odds of 2^-5 per bit, its odds are at most 2^-120, and there
-        // are 2^29 such positions. The limit is much larger than the sum of these odds because
-        // small odds are counted as 2^-56.
+        // The limit of 2^-40 is much larger than the true sum, because small odds are counted as
+        // 2^-56. A position that shares only five of 17 lines with the reading differs in twelve
+        // lines, by at least two bits each. With odds of 2^-5 per bit, the odds of such a position
+        // are at most 2^-120, and there are 2^29 such positions.
         EXPECT_LE(before, -40);
         // Increasing the reliability of the bits must not make the alternatives more probable.
         EXPECT_LE(alternatives_of_window(code, place, 8, 2 * kOdds_q8),

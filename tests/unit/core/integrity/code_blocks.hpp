@@ -100,10 +100,10 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     return rolls;
 }
 
-/// Returns log2 of a sum over both axes. The terms of an axis are the probability of a match by
-/// chance and the odds of the alternatives. There are two kinds of alternatives: other sections,
-/// and positions that differ in one sequence but share at least one line with the true position.
-/// The odds per bit are computed as in the verdict.
+/// Returns log2 of the sum that the verdict bounds, computed exactly. For each axis, the sum
+/// contains the probability of a match by chance and the odds of the alternatives. There are two
+/// kinds of alternatives: other sections, and positions that differ in one sequence but share at
+/// least one line with the true position. The odds per bit are computed as in the verdict.
 inline double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;

@@ -56,8 +56,9 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
             // The fraction of wrong bits is 1 / (1 + odds). As a margin for small samples, the
             // estimate counts two more wrong bits than were observed.
             const double expected = std::log2(bits / (wrong + 2.0) - 1);
-            // Weights are quantised in steps of 8, which changes the largest weights by up to 3 %.
-            // The exponential is accurate to 2 %, which the 0.1 in the tolerance allows for.
+            // The tolerance allows for two errors. Weights are quantised in steps of 8, which
+            // changes the largest weights by up to 3 %. The exponential is accurate to 2 %, which
+            // changes the result by less than 0.1.
             EXPECT_NEAR(odds_per_bit_q8(confidence(bits, 127, wrong)) / 256.0, expected,
                         0.1 + 0.03 * expected);
         }
@@ -142,9 +143,9 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
 }
 
 TEST(Chance, EachBitThatAgreesHasItsFactor) {
-    // The result for 2^20 equal bits is divided by 2^20. This gives log2 of the factor of one bit,
-    // with an accuracy of 2^-20. The factor is (1 + 2^-y) / 2, where y is log2 of the odds of the
-    // bit.
+    // A bit that agrees multiplies the bound by the factor (1 + 2^-y) / 2, where y is log2 of the
+    // odds of the bit. The result for 2^20 equal bits, divided by 2^20, is log2 of this factor with
+    // an accuracy of 2^-20.
     constexpr int kDoublings = 20;
     for (const int weight : {4, 12, 60, 124}) {
         Confidence bits = confidence(1, weight, 0);
@@ -155,8 +156,9 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
             const double exact = std::log2(1 + std::exp2(-y)) - 1;
             const double found = std::ldexp(chance_log2(bits, odds_q8) - 37, -kDoublings);
             ASSERT_GE(found, exact - 1e-6) << weight << " at " << odds_q8;
-            // y is rounded down to a multiple of 2^-8, which changes log2 of the factor by at most
-            // 2^-9. Chords approximate the curve, and are at most 0.173 / 2^5 above it.
+            // `chance_log2` rounds y down to a multiple of 2^-8, which changes log2 of the factor
+            // by at most 2^-9. It approximates the curve of this logarithm by chords, which are at
+            // most 0.173 / 2^5 above the curve.
             ASSERT_LE(found, exact + 0.002 + 0.0055) << weight << " at " << odds_q8;
         }
     }
@@ -183,7 +185,8 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
 
 TEST(Chance, WeakBitsThatContradictSayLittle) {
     // 200 bits of full weight agree with the position. Half of the 50 weak bits disagree with it,
-    // so the weak bits contain no information.
+    // so the weak bits contain no information. The smaller their weight, the less they may increase
+    // the chance.
     const auto chance_with_weak = [](int weight) {
         Confidence bits;
         for (int i = 0; i < 200; ++i)
@@ -208,9 +211,9 @@ TEST(Chance, ChanceHoldsForRandomBits) {
         Confidence bits;
         for (int i = 0; i < 20; ++i)
             bits.add(static_cast<int>(rng.below(128)), rng.below(2) == 0);
-        // The result is log2 of the bound for one hypothesis times 2^37, the number of hypotheses.
-        // A result of 37 - 8 therefore corresponds to a bound of 2^-8. On average, at most 200,000
-        // / 2^8 = 781 trials may have such a bound.
+        // The result is 37 plus log2 of the bound for one hypothesis, because there are 2^37
+        // hypotheses. A result of 37 - 8 therefore corresponds to a bound of 2^-8. On average, at
+        // most 200,000 / 2^8 = 781 trials may have such a bound.
         beyond += chance_log2(bits, odds_per_bit_q8(bits)) <= 37 - 8;
     }
     EXPECT_LE(beyond, kTrials / 256 + 100);

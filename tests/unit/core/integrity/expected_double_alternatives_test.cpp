@@ -16,9 +16,10 @@ constexpr std::array<int, 4> kBases{3, 3, 2, 3};
 
 using ByAnchors = std::array<double, kMinFound>;
 
-/// For each of the 63 shifts, adds the odds of the alternative with these roll offsets to sums[n],
-/// where n is the number of anchors that the alternative shares with the reading. The anchors are
-/// the lines with a rank below `anchors`.
+/// For each of the 63 shifts, adds the odds of one alternative, multiplied by `weight`, to sums[n].
+/// The roll offsets of the alternative are `offsets` plus the shift, and n is the number of anchors
+/// that the alternative shares with the reading. The anchors are the lines with a rank below
+/// `anchors`.
 void add_alternative(const RatiosCase& c, const RankedLines& lines, int anchors,
                      const std::array<int, kLines>& offsets, double weight, ByAnchors& sums) {
     for (int first = 0; first < 63; ++first) {

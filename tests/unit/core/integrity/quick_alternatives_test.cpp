@@ -87,7 +87,7 @@ TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
 TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
     // An alternative may share five consecutive lines with the reading, or seven lines in
     // `libdots`. Here, only four to nine consecutive lines have clear bits. An alternative that
-    // shares nearly all of them loses little, and must be counted.
+    // shares nearly all of these lines loses little, and must be counted.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 400; ++i) {
@@ -135,8 +135,9 @@ TEST(QuickAlternatives, AreNoFewerThanACloseLookShows) {
         ++told;
         const int counted = alternatives_log2(kernels(), c.ratios());
         // The exact sum may be up to four times too large because it counts some alternatives twice
-        // and is rounded up to a power of two. Small sums are not compared. They may consist
-        // largely of expected odds multiplied by 32, which contribute up to 2^-32.
+        // and is rounded up to a power of two. Sums up to 2^-31 are not compared, because they may
+        // consist largely of expected odds. These odds are multiplied by 32 and contribute up to
+        // 2^-32.
         if (counted <= -31) continue;
         EXPECT_GE(quick, counted - 2) << "case " << i << ", seed " << kSeed;
         ++compared;

@@ -50,8 +50,8 @@ std::vector<Alternative> all_alternatives(const RatiosCase& c) {
 }
 
 /// Returns the minimum loss of an alternative in the lines [first, end), over the shifts at which
-/// the alternative shares a line with the reading. The loss is the score of the reading minus that
-/// of the alternative.
+/// the alternative shares a line with the reading. The loss is the score of the reading minus the
+/// score of the alternative.
 double min_loss(const RatiosCase& c, const Alternative& alternative, std::size_t first,
                 std::size_t end) {
     double least = std::numeric_limits<double>::infinity();
@@ -137,7 +137,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
 TEST(SeamAlternatives, ASeamExplainsTenLinesAsWell) {
     // The alternatives that are counted here have the rolls of the reading on one side of the
     // border, and these rolls plus a constant shift on the other side. If there is a seam at the
-    // border, they explain all ten lines as well as the reading does.
+    // border, such an alternative explains all ten lines as well as the reading does.
     constexpr std::size_t kLines = 10;
     constexpr std::size_t kBorder = 5;
     Rng rng(kSeed);

@@ -199,8 +199,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns log2 of a sum over both axes. Each axis contributes the probability of a match by chance
-/// and the exact sum of the odds of all alternatives.
+/// Returns the exact p_wrong of a reading, as log2. It is the sum over both axes of the probability
+/// of a match by chance and the odds of all alternatives.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;

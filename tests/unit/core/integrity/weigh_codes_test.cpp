@@ -1,5 +1,5 @@
-// Tests the odds of places in other code variants. Compares them with sums over all places that
-// differ from the reading only in a4, and tests that the decoder finds the same places.
+// Tests the odds of places in other code variants. Compares these odds with sums over all places
+// that differ from the reading only in a4. Also tests that the decoder finds the same places.
 #include "core/integrity/weigh_codes.hpp"
 
 #include <gtest/gtest.h>

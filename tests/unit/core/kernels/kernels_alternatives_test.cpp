@@ -252,7 +252,7 @@ double expected_in_double(const OwnPlaces& places, unsigned different,
 
 /// In a view of two patterns, 12 adjacent lines make the alternatives less probable, and the other
 /// 9 lines make them more probable. The product of the odds of the 12 lines is far below the
-/// smallest float.
+/// smallest float, so the kernel must rescale its sums to avoid underflow.
 TEST(KernelsAlternatives, ExpectationsOfTwoPatternsAreThoseInDoublePrecision) {
     repeat_with_each_form(3, [&](const Kernels& kernels, Rng& rng) {
         const OwnPlaces places(rng);

@@ -108,8 +108,8 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
         // The plane must be accurate enough for the windows around the intersections to contain the
-        // dots. At most one grid may be less accurate because its growth ended early. Such a grid
-        // is refused later, when its dots are measured.
+        // dots. One of the grids found may be less accurate, because its growth ended early. Such a
+        // grid is rejected later, when its dots are measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
                  difference(grid.grid_from_image, truth, {112, 80}) < 0.45;
     }

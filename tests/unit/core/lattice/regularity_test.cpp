@@ -1,6 +1,6 @@
-// Tests the behaviour common to `grow_grid` and `refine_grid`. Both start from a rough estimate in
-// the middle of the image, extend the grid over the whole image, and refuse dots that do not form a
-// grid.
+// Tests the behaviour common to `grow_grid` and `refine_grid`. Both functions start from a rough
+// estimate in the middle of the image, extend the grid over the whole image, and reject dots that
+// do not form a grid.
 #include "core/lattice/regularity.hpp"
 
 #include <ostream>

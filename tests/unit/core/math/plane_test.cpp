@@ -66,8 +66,8 @@ TEST(Plane, OfALatticeGivesItsCoordinates) {
             const Vec2 expected = mesh.inverse(p);
             const Vec2 found = real(plane_point_q16(plane, fixed(p, 8)), 16);
             // The slopes of the inverse map are rounded to multiples of 2^-24 per px. For both axes
-            // together, the error is 5e-4 spacings over 4096 px. Points and the origin are rounded
-            // to 1/256 px, which is 7e-4 spacings at 6 px per spacing.
+            // together, the error is up to 5e-4 spacings over 4096 px. Points and the origin are
+            // rounded to 1/256 px, which is 7e-4 spacings at 6 px per spacing.
             ASSERT_NEAR(found.x, expected.x, 1.2e-3) << "lattice " << i << ", seed " << kSeed;
             ASSERT_NEAR(found.y, expected.y, 1.2e-3) << "lattice " << i << ", seed " << kSeed;
         }

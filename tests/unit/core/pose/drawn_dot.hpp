@@ -35,8 +35,8 @@ struct DrawnDot {
     std::vector<double> darkness;
 };
 
-/// Returns the fraction of the light from a point that reaches one pixel after a Gaussian blur. The
-/// point is `offset_px` from the middle of the pixel.
+/// Returns the fraction of the light from a point that reaches one pixel after a Gaussian blur,
+/// along one axis. The point is `offset_px` from the middle of the pixel along this axis.
 inline double collected(double offset_px, double blur_px) {
     const double scale = blur_px * std::numbers::sqrt2;
     return 0.5 * (std::erf((offset_px + 0.5) / scale) - std::erf((offset_px - 0.5) / scale));

@@ -61,8 +61,9 @@ TEST(Pose, FittedToExactDotsIsExact) {
         const Reading reading = reading_off_grid(i, rng);
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
-        // Dot centres are rounded to 1/256 px. The rounding error varies across the image. The fit
-        // interprets this variation as a slight lens distortion.
+        // The fitted pose is not exact, because dot centres are rounded to 1/256 px. The rounding
+        // error varies across the image, and the fit interprets this variation as a slight lens
+        // distortion.
         expect_pose(reading, fit.pose, reading.view.centre_px(), 2e-4);
         EXPECT_GE(fit.fix.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
     }

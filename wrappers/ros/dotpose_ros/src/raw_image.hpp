@@ -27,8 +27,9 @@ struct RawImage {
 ///   pixel to 8 bits, because cameras with 10 or 12 bits use 16-bit encodings.
 /// - Each pixel of a Bayer mosaic is replaced with a weighted mean of 3 x 3 pixels, in which each
 ///   colour has the same total weight at every pixel.
-/// Throws dotpose::Error, whose message suggests a remedy, if the encoding is not supported, or if
-/// the image has less data than its size requires.
+///
+/// Throws dotpose::Error if the encoding is not supported, or if the image has less data than its
+/// size requires. The error message suggests a remedy.
 dotpose::ImageView grey_view(const RawImage& image, dotpose::GreyImage& buffer);
 
 }  // namespace dotpose_ros
