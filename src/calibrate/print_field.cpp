@@ -13,11 +13,11 @@ namespace {
 using Eigen::Vector2d;
 
 /// Two tiles belong to the same field if their maps predict nearly the same position, in cells, for
-/// the same pixel. The positions may differ by kAgree_cells plus kMinAgreeing times the distance
+/// the same pixel. The positions may differ by kAgree_cells plus kAgreeFraction times the distance
 /// between the centres of the tiles in cells, because paper stretches and a camera adds
 /// perspective.
 constexpr double kAgree_cells = 1.5;
-constexpr double kMinAgreeing = 0.05;
+constexpr double kAgreeFraction = 0.05;
 
 using Group = std::vector<LocatedTile>;
 
@@ -30,7 +30,7 @@ bool continues(const Group& group, const LocatedTile& tile) {
     const TileMap& map = std::ranges::min_element(group, {}, distance_px2)->map;
     const Vector2d expected = map.cell(tile.map.centre_px);
     const double distance = (expected - map.centre_cell).norm();
-    return (expected - tile.map.centre_cell).norm() <= kAgree_cells + kMinAgreeing * distance;
+    return (expected - tile.map.centre_cell).norm() <= kAgree_cells + kAgreeFraction * distance;
 }
 
 Field field_of(const Group& group, const Tiling& tiling) {
