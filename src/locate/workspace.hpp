@@ -117,6 +117,10 @@ class WorkspaceOf : public DesktopWorkspace {
         MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
     static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
+    // Maximum number of blocks in a PaperMap. The side of a block is a tenth of the shorter image
+    // side, rounded down. The shorter side is at least kMinFrameSide_px, so there are at most 12
+    // blocks along it, and a block along the longer side is at least a tenth of kMinFrameSide_px.
+    static constexpr std::size_t kPaperBlocks = 12 * (MaxWidth / (kMinFrameSide_px / 10) + 1);
     // Maximum number of runs in a row. A run may begin at every second pixel, and each run may
     // start a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
@@ -134,11 +138,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // The PaperMap divides the image into square blocks. The side of a block is a tenth of the
-    // shorter image side, rounded down. Images are at least 60 px high and wide, so a block is at
-    // least 6 px wide, and there are at most 11 x 683 blocks.
-    std::array<std::uint8_t, 11 * 683> papers_{};
-    std::array<std::uint8_t, 11 * 683> brightest_papers_{};
+    std::array<std::uint8_t, kPaperBlocks> papers_{};
+    std::array<std::uint8_t, kPaperBlocks> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
     alignas(
         8) std::array<std::uint8_t, 2 * kBand_px * kTiles * kTileWidth_px + kReadAhead_px> rows_{};

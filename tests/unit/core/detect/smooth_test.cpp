@@ -115,5 +115,19 @@ TEST(Smooth, TheNextImageBeginsAfresh) {
     expect_even(smoothed(blank(100, 70, 90)), 0);
 }
 
+TEST(Smooth, PaperMapsOfLongImagesFitIntoTheMemory) {
+    static LargeWorkspace workspace;
+    const PaperMap& map = workspace.smoothing.paper;
+    // The block side is a tenth of the shorter side, rounded down, so the number of blocks is
+    // largest just below a multiple of 10.
+    for (int side = kMinFrameSide_px; side < 100; ++side) {
+        for (const auto& [width, height] : {std::pair{4096, side}, std::pair{side, 4096}}) {
+            begin_smoothing(blank(width, height, 100).view(), workspace.smoothing);
+            EXPECT_LE(map.rows * map.columns, static_cast<int>(map.levels.size())) << side;
+            EXPECT_LE(map.rows * map.columns, static_cast<int>(map.brightest.size())) << side;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace dotpose::core_test::smooth_test
