@@ -111,9 +111,9 @@ std::optional<DotDrawing> drawing_by_name(const std::string& name);
 /// Adds --dots, which selects how a PDF draws dots.
 void add_drawing_option(Command& command, DotDrawing& drawing);
 
-/// Parses integers from 0 to `max`. Each character of `separators` separates two consecutive
-/// integers: "640x480" has the separators "x", and "10,20,640x480" has ",,x". Returns nullopt if
-/// the text does not match.
+/// Parses a list of integers from 0 to `max`. `separators` contains one character for each gap
+/// between consecutive integers: "x" for "640x480", and ",,x" for "10,20,640x480". Returns nullopt
+/// if the text does not match.
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
                                                         std::uint32_t max);

@@ -1,5 +1,5 @@
-// Hypothesis: a plane and a place in the code that an attempt tests. Also determines the cells in
-// view.
+// Hypothesis: a plane and a place in the code, to be tested by an attempt. This file also declares
+// the functions that determine the cells in view.
 #pragma once
 
 #include <cstdint>

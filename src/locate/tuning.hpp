@@ -91,8 +91,8 @@ inline constexpr float kMinGain = 3;
 /// Maximum number of grids for which the search looks for a place in the code. If none of these
 /// grids has a place, the search ends, because further rotations usually lead to the same grids.
 inline constexpr int kMaxClimbs = 3;
-/// The correction of the rotation moves the dots in the image corners. If it moves them by at least
-/// kSettled_px, the image is measured again. Smaller corrections are applied to the measured dots.
+/// If a correction of the rotation moves the dots in the image corners by at least kSettled_px, the
+/// image is measured again. A smaller correction is applied to the dots already measured.
 /// kMaxRounds is the maximum number of measurements.
 inline constexpr float kSettled_px = 0.5F;
 inline constexpr int kMaxRounds = 5;
@@ -219,9 +219,10 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// If the image contains fewer than this number of cells, bits are also read from dots that are cut
 /// off by the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels in a small view. In small views, the effort spent on testing a place is
-/// limited. A view is small only if it also contains fewer than kMaxCellsWithCutDots cells. Larger
-/// images rarely contain so few cells, except if a rolling shutter stretches the cells.
+/// Maximum number of pixels in a small view. A view is small if it also contains fewer than
+/// kMaxCellsWithCutDots cells. The effort spent on testing a place in a small view is limited.
+/// Images with more pixels rarely contain so few cells unless a rolling shutter stretches the
+/// cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Minimum number of cells in a small view for which a second attempt is made. Of 241 frames of 72
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,
@@ -311,9 +312,9 @@ namespace cascade {
 /// The frame is read again in another code if the odds of that code, relative to the code of the
 /// fix, exceed this number.
 inline constexpr float kBetterOdds = 2;
-/// A place in another code is reported only if at most one bit is wrong per this number of dots.
-/// This is an error rate of 1 %, because a dot has two bits. Misread bits can cause such an error
-/// rate even if the place is correct.
+/// Minimum number of dots per wrong bit for a place in another code to be reported. A dot has two
+/// bits, so the maximum error rate is 1 %. Misread bits can cause this error rate even if the place
+/// is correct.
 inline constexpr int kMinDotsPerBitError = 50;
 /// A different place in another code is also reported if its likelihood is at least this fraction
 /// of the likelihood of the fix.

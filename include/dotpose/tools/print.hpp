@@ -66,9 +66,9 @@ struct SheetOptions {
 /// end of the code plane.
 Sheet make_sheet(const SheetOptions& options);
 
-/// Lays out `pages` sheets with adjacent regions that do not overlap. Each region begins to the
-/// right of the previous region. When the right edge of the plane is reached, the next region is
-/// below, at `options.origin.x`.
+/// Lays out `pages` sheets with adjacent regions that do not overlap. Regions are placed from left
+/// to right. A region that would extend past the right edge of the plane starts a new row of
+/// regions below, at column `options.origin.x`.
 ///
 /// Throws BadArgument in the cases listed for `make_sheet`, and if `pages` is outside [1,
 /// kMaxPages].

@@ -152,8 +152,8 @@ class SpaceTracker {
     /// - The sighting is in another plane than the track, or is not later than the previous frame.
     /// If the sighting is ambiguous in these cases, it starts no track, and the camera is lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
-    /// Processes a frame without a sighting. The camera is lost if the frame is earlier than the
-    /// previous frame, or too late (see `lost_after_us`).
+    /// Processes a frame without a sighting. The camera becomes lost if the frame is earlier than
+    /// the previous frame, or more than `lost_after_us` later than the last accepted sighting.
     const SpaceTrack& update(std::int64_t time_us);
 
     /// Predicts the track at a time after the last accepted sighting. The verdict is `none`.

@@ -39,7 +39,7 @@ class RankedLines {
 
     std::array<std::uint8_t, kMaxLines> ranks_{};
     std::array<OddsByOffset, kMaxLines> odds_;
-    /// Losses, indexed by line and by `further`.
+    /// Losses, indexed by line and by the second argument of `loss`.
     std::array<std::array<std::int16_t, 256>, kMaxLines> losses_;
 };
 

@@ -39,8 +39,8 @@ struct SplitFit {
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 
-/// Fits a plane to the dots beyond the line. Returns false if too few of these dots have a common
-/// displacement, or if the dots do not determine a plane.
+/// Fits a plane to the dots beyond the line. Returns false if too few of these dots share a common
+/// residual relative to the plane of this side, or if the dots do not determine a plane.
 bool fit_far_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                   const SplitFit& split, FloatPlane& beyond);
 

@@ -206,7 +206,7 @@ export class FleetMap {
         return this.#map === "" ? {} : { map: this.#map, ...this.#view.bounds() };
     }
 
-    /** Requests the robots in view, a limited number of times per second. */
+    /** Requests the robots in view, at most once per kAskPeriod_ms. */
     #ask(): void {
         if (this.#ask_timer !== undefined) return;
         this.#ask_timer = window.setTimeout(() => {

@@ -169,7 +169,7 @@ describe("print map", () => {
         const newer = print_map.slice();
         newer[8] = 99;
         await refused(newer, /^it has version 99, and this program reads versions 1 to \d+/);
-        // The number of dots on the page is 2^32, which does not fit into the integers of the module.
+        // The number of dots on the page is 2^32, which does not fit in the module's 32-bit size_t.
         const huge = print_map.slice();
         const columns = columnsAt("page");
         new DataView(huge.buffer).setUint32(columns, 65536, true);
