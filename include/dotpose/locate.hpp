@@ -212,7 +212,7 @@ class Locator : public RowLocator {
     CodeEvidence evidence_;  ///< evidence from all images so far, if the code is detected
 };
 
-/// A locator for microcontrollers whose camera looks straight at the paper. Uses only integer
+/// A locator for microcontrollers with a camera that looks straight at the paper. Uses only integer
 /// arithmetic, with a short and bounded time per frame. Ignores the options `effort` and `decoder`,
 /// and computes neither a covariance nor a residual. Its bound on the probability of a wrong
 /// position is simpler than that of a Locator. Positions whose bound exceeds

@@ -255,7 +255,7 @@ class Tracker {
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    /// Returns the motion estimate whose newest sighting is `seen`. Returns null if there is none.
+    /// Returns the motion estimate whose newest sighting is `seen`, or null if there is none.
     const track::MotionEstimate* following(const Sighting& seen) const;
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion* motion);

@@ -44,7 +44,7 @@ class SmallView {
         if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
         // The last axis is searched first. On each axis, the sets that are not searched may have
         // total expected odds of at most `fraction` times the remaining probability `left_`. The
-        // earlier axes need the rest of it.
+        // rest is reserved for the axes that are searched later.
         const auto far = sum_of_planned_alternatives(lines, plan, fraction, left_ / factor_, work_);
         return far && spend(factor_ * *far);
     }

@@ -335,7 +335,7 @@ struct Kernels {
     /// displacement. `dot_contrast_q8` is the contrast of a typical dot, in 1/256 of the paper
     /// level. Compares the bits with the code, and adds them to `columns` and `rows`, as
     /// `read_bits` does. Drops dots that are not read or have a wrong bit. Sets `projected` and
-    /// `squares` to 0. Reads no bits if stride_bytes * height_px of the image may exceed INT32_MAX.
+    /// `squares` to 0. Reads no bits if stride_bytes * height_px of the image exceeds INT32_MAX.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int dot_contrast_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
