@@ -125,7 +125,7 @@ double speed(const Sample& s) {
     return std::hypot(s.truth.vx_mm_s, s.truth.vy_mm_s);
 }
 
-/// Draws the errors of a drive over time, with gaps where the robot is not tracked.
+/// Plots the errors of a drive over time, with gaps where the robot is not tracked.
 void draw_drive(const DriveSamples& run, const std::string& title, const std::string& file) {
     constexpr double kWidth = 900;
     constexpr double kLeft = 80;

@@ -56,8 +56,8 @@ struct Noise {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// Returns the expected information in a bit of a cell, in bits, averaged over all weights.
-    /// Missing cells contain no information.
+    /// Returns the expected information per cell bit, in bits, averaged over all weights. Missing
+    /// cells contain no information.
     double information() const {
         double sum = 0;
         for (int weight = min_weight; weight <= 127; ++weight)

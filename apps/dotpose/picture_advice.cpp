@@ -217,7 +217,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
-    // Only with this effort does the trace contain the grid of blobs.
+    // The trace contains the grid of blobs only at this effort level.
     blobs.effort = Effort::device;
     blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {

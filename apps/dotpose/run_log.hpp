@@ -91,7 +91,7 @@ struct LogRow {
     std::string plane;  ///< pattern or world, or empty if the robot is lost
     int dots_seen = 0;
     std::optional<double> p_wrong;
-    // Position and speed of the robot, as tracked. There is no position while the robot is lost.
+    // Tracked position and speed of the robot. There is no position while the robot is lost.
     std::optional<double> x_mm;
     std::optional<double> y_mm;
     double speed_mm_s = 0;
