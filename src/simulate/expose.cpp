@@ -20,8 +20,8 @@ namespace {
 constexpr std::size_t kLanes = 4;
 
 // Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. To
-// save time, the absorbed light is computed by convolving only the sub-pixels with ink, a few
-// percent of all sub-pixels, with the kernel.
+// save time, only the sub-pixels that contain ink, a few percent of all sub-pixels, are convolved
+// with the kernel.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)

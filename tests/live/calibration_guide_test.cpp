@@ -59,7 +59,7 @@ std::vector<capture::Frame> frames_of_sheet() {
     return frames;
 }
 
-/// Starts the step `lens`, and offers each frame to the guide until the guide accepts it.
+/// Starts the `lens` step, and offers each frame to the guide until the guide accepts it.
 void collect(CalibrationGuide& guide, const std::vector<capture::Frame>& frames) {
     // The guide ignores a command while eight other commands are pending. `collect` therefore first
     // waits until all earlier commands have been executed.

@@ -128,7 +128,7 @@ TEST(FleetConditions, AnEmptyConnectionMessageRemovesTheRobot) {
     EXPECT_EQ(r.fleet.bad(), 0);
 }
 
-/// Returns the changes of the robots' conditions as text, such as "anna lost (moving)".
+/// Returns the changes in the robots' conditions as text, such as "anna lost (moving)".
 std::vector<std::string> words(AlertWatch& watch, const Receiver& r) {
     std::vector<std::string> words;
     for (const auto& alert : watch.changes(r.fleet.robots(r.now()), r.now())) {

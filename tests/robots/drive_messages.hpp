@@ -1,5 +1,5 @@
 /// Compares messages with the JSON lines that `dotpose watch --units ros` writes in the same run.
-/// Independent readers have decoded the messages (npm_readers.hpp).
+/// The messages are decoded by independent readers (npm_readers.hpp).
 #pragma once
 
 #include <array>
