@@ -1,6 +1,6 @@
 // Unshared lines: the lines that distinguish two positions whose places differ in only one of the
 // four sequences. Two positions *share* a line at a given shift if their rolls for this line differ
-// by the shift. If the sections differ by the opposite amount, shared lines have the same bits at
+// by the shift. If the sections differ by the negated shift, shared lines have the same bits at
 // both positions. The tables contain minimum numbers of unshared lines.
 // tests/unit/code/unshared_lines_test.cpp recomputes the tables.
 #pragma once
