@@ -1,4 +1,4 @@
-// Tests the page /calibration of `dotpose watch --web`: a simulated camera on a simulated robot is
+// Tests the /calibration page of `dotpose watch --web`: a simulated camera on a simulated robot is
 // calibrated step by step, and the camera file is compared with the simulated camera.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";

@@ -194,7 +194,7 @@ test("a small view is located on a known sheet, and only there", async () => {
     assert.deepEqual([line.prior, line.sheet], ["only_sheets", "table"]);
     assert.ok(Math.abs(line.x_sheet_mm - expected_mm[0]) < 0.02 && Math.abs(line.y_sheet_mm - expected_mm[1]) < 0.02);
 
-    // The view "Print" lists the sheet. After the user removes it there, it is no longer known.
+    // The "Print" view lists the sheet. After the user removes it there, it is no longer known.
     await page.click("nav [data-view=print]");
     await page.click("[aria-label='Forget the sheet table']");
     await page.click("nav [data-view=look]");

@@ -632,7 +632,7 @@ typedef struct dotpose_track {
 /* Sets the default options. `bytes` is the caller's sizeof(dotpose_track_options). */
 dotpose_status dotpose_track_options_init(dotpose_track_options* options, size_t bytes);
 
-/* Sets up a tracker in the state `lost`. If `options` is null, uses the defaults. */
+/* Sets up a tracker in the `lost` state. If `options` is null, uses the defaults. */
 dotpose_status dotpose_tracker_init(dotpose_tracker* tracker, const dotpose_track_options* options);
 
 /* Converts a fix to a sighting in the pattern frame. Returns NO_FIX if the fix is not ok, and

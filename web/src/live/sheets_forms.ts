@@ -40,7 +40,7 @@ function fact(name: string, value: string): HTMLElement {
     return make("div", {}, make("dt", { textContent: name }), make("dd", { textContent: value }));
 }
 
-/** Offers a file, and starts its download. */
+/** Shows a download link for a file, and starts the download. */
 function offer(id: string, { url }: Answer): void {
     const link = element(id, HTMLAnchorElement);
     const file = url.slice(url.lastIndexOf("/") + 1);

@@ -1,4 +1,4 @@
-// Values of the topics about sheets (docs/web.md). apps/dotpose-live/sheet_messages.cpp writes them.
+// Values published on the sheet topics (docs/web.md). apps/dotpose-live/sheet_messages.cpp writes them.
 
 /** Pose of the upper left corner of a page in the world, with y up. */
 export interface Pose {

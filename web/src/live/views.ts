@@ -37,7 +37,7 @@ export class Views {
         }
         if (name !== before) {
             this.#views[before]!.hidden?.();
-            // Moves the focus of keyboards and screen readers to the new content.
+            // Moves the keyboard and screen reader focus to the new content.
             element("content", HTMLElement).focus({ preventScroll: true });
             scrollTo(0, 0);
         }

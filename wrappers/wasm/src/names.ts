@@ -56,7 +56,7 @@ export interface Section {
     v: number;
 }
 
-/** An intersection of the grid: column x and row y, 0 to 410,815,347. */
+/** An intersection of the grid: column x and row y, each from 0 to 410,815,347. */
 export interface Cell {
     /** Column, which increases to the right. */
     x: number;

@@ -128,7 +128,7 @@ export interface Scene {
     pose: CameraPose;
     /** Effects of printer, paper, light and sensor. Default: none. */
     imperfections?: Imperfections;
-    /** Seed of noise and dirt. Default: 1. */
+    /** Seed for the noise and the dirt. Default: 1. */
     seed?: number;
 }
 
