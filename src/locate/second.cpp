@@ -113,7 +113,7 @@ Status SecondAttempt::read_filtered(const Frame& frame) {
     return status;
 }
 
-/// Finds the position from the bits, and verifies the position with the bits of all dots.
+/// Finds the position from the bits, and verifies it against the bits of all dots.
 Status SecondAttempt::read_position(const PlaceEvidence& evidence) {
     const auto& [kernels, options, known, earlier, line_scores, others, work] = evidence;
     const Grid& grid = w_.grid;

@@ -158,8 +158,8 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Fr
     return hypothesis;
 }
 
-/// For each of the image points kPoints in turn, corrects the hypothesis with the dots near the
-/// point, and tests the corrected hypothesis (see `confirm`). Returns true as soon as a corrected
+/// Tries the image points kPoints in turn: corrects the hypothesis with the dots near the point,
+/// and tests the corrected hypothesis (see `confirm`). Returns true as soon as a corrected
 /// hypothesis is confirmed.
 bool confirm_corrected(const Frame& frame, const Hypothesis& hypothesis, int max_px,
                        const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {

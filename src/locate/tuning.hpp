@@ -73,9 +73,9 @@ inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
 /// Maximum drift of the scene while a row is read, in rows.
 inline constexpr float kMaxDrift = 0.9F;
-/// kStep is the first step of the search for the rotation, expressed as the distance, in spacings,
-/// by which it moves the dots in the corners of the patch. The search ends when the step has been
-/// reduced to kStep / kStepParts.
+/// kStep is the first step of the search for the rotation, expressed as the displacement of the
+/// dots in the corners of the patch, in spacings. The search ends when the step has been reduced to
+/// kStep / kStepParts.
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
 /// A grid replaces the best grid so far if its agreement exceeds this multiple of the best
@@ -206,8 +206,8 @@ inline constexpr float kFacing = 0.55F;
 /// phases in view are uniformly distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// The pixel bias is corrected only if the sub-pixel phases of the dots of a row or column change
-/// by less than this distance across the view. The correction is restricted in this way because it
-/// takes several times as long as all other steps together.
+/// by less than this distance across the view. This limit keeps the correction rare, because it
+/// takes several times as long as all other steps combined.
 inline constexpr float kDriftInView_px = 0.35F;
 /// The pixel bias is not significant if the variance of the mean dot centre along one axis exceeds
 /// this limit, because other errors are then larger than the bias.

@@ -125,7 +125,7 @@ class WorkspaceOf : public DesktopWorkspace {
     // `MaxWidth`, for example 188 x 188 px for the paper's sensor, but at most 1280 x 1024 px.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
-    // Maximum number of columns, and of rows, that are read in one view.
+    // Maximum number of columns and maximum number of rows read in one view.
     static constexpr std::size_t kRolls = 1024;
 
     Patch patch_;

@@ -46,7 +46,8 @@ struct ReadoutTurn {
     FloatVec axis;   ///< point around which the scene rotates, at time 0
     FloatVec drift;  ///< velocity of `axis` at time 0, in px per row, with y < 1
 
-    /// Returns the point that shows the same scene point as `seen`, in the image without rotation.
+    /// Returns the image point at which the scene point seen at `seen` would appear without
+    /// rotation.
     FloatVec without_turn(FloatVec seen) const {
         const float row = seen.y;
         const FloatVec moved = displacement(row);
