@@ -238,7 +238,7 @@ class Tracker {
     /// the filter predicts, with the uncertainty of that pose. If `seen` is not accepted yet, the
     /// prediction is computed from `seen` and the earlier sightings that are consistent with it.
     ///
-    /// Returns Prediction::like(newest) if no prediction is possible:
+    /// Returns Prediction::like(newest) if no prediction is possible, that is, if:
     /// - `seen` is neither the newest sighting of the track nor the newest sighting that is
     ///   inconsistent with the track,
     /// - the robot will be considered lost at `time_us`,
