@@ -74,7 +74,7 @@ struct SheetEntry {
     int page = 1;      ///< number of the page within its print job, starting at 1
     Sheet sheet;
     /// Ratio of the printed to the nominal length, 0.5 to 2. The page is scaled about the first
-    /// intersection, which is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.
+    /// intersection, which is at (sheet.origin_x_mm, sheet.origin_y_mm) whatever the scale.
     double print_scale_x = 1;
     double print_scale_y = 1;
     AxisScale print_scale() const { return {print_scale_x, print_scale_y}; }
@@ -187,8 +187,8 @@ class SheetFile {
 };
 
 /// Adds sheets to a sheet file before their pages are written. The sheets are marked as reserved,
-/// and keep their regions even if this program is killed. `confirm` removes the mark. Other
-/// programs may change the file in the meantime.
+/// and keep their regions even if this program is killed. `confirm` removes the mark. The file is
+/// not locked in the meantime, so other programs can change it.
 class SheetReservation {
   public:
     /// Calls `enter` to add the sheets, and saves the file. Throws Error if the file cannot be

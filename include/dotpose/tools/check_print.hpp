@@ -121,8 +121,8 @@ struct PrintField {
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< length of the largest deviation in `distortion`
 
-    /// Number of cells covered by other print, such as text. These cells are not counted in
-    /// `cells`.
+    /// Number of cells covered by other printed content, such as text. These cells are not counted
+    /// in `cells`.
     int covered = 0;
     int cells = 0;       ///< number of cells in the region that are in view and not covered
     int missing = 0;     ///< number of cells without a dot

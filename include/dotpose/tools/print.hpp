@@ -75,8 +75,8 @@ Sheet make_sheet(const SheetOptions& options);
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
 /// Checks that a printer with this resolution can print the pattern. The resolution must be above 0
-/// and at most kMaxResolution_dpi. The displacement must be at least one printer pixel, and at
-/// least one white pixel must be between any two dots. Throws BadArgument otherwise.
+/// and at most kMaxResolution_dpi. The displacement must be at least one printer pixel, and there
+/// must be at least one white pixel between any two dots. Throws BadArgument otherwise.
 void validate_resolution(const Sheet& sheet, double dpi);
 
 /// File formats of printed sheets.

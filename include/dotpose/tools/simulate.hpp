@@ -4,7 +4,7 @@
 /// ink, light, blur, motion, integration over the area of each pixel, noise, clipping, rounding.
 /// The centroid of a dot is accurate to 0.003 px (tested in tests/unit/simulate).
 ///
-/// Usage: fill a `Setup`, then render frame i:
+/// Usage: fill in a `Setup`, then render frame i:
 ///
 ///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
 ///     const GreyImage image = render(shot);
