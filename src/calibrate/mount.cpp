@@ -190,7 +190,7 @@ Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
            turned(station.theta_rad, spot_turn.offset) - station.place_mm;
 }
 
-/// Fits the turn of a robot that stays on the spot or, if `has_drift` is true, drifts.
+/// Fits the rotation of a robot that turns on the spot. If `has_drift` is true, also fits a drift.
 SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
     const std::size_t parameters = has_drift ? 6 : 4;  // pivot, offset, drift
     NormalEquations equations(static_cast<int>(parameters));

@@ -97,7 +97,8 @@ CentrePose centre_pose(const Camera& camera, const Camera& other) {
     return {at.real(), at.imag(), std::arg(turn) + image_axis_rad(camera, centre)};
 }
 
-/// Returns the camera with one parameter of `LensFit::mounted_covariance` changed by `step`.
+/// Returns the camera with one of the parameters covered by `LensFit::mounted_covariance` changed
+/// by `step`.
 Camera with_moved(Camera camera, Eigen::Index parameter, double step, double reach_px) {
     PaperScale& paper = camera.paper.value();
     const std::array<double*, 8> values = {

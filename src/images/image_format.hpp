@@ -89,8 +89,9 @@ std::optional<Resolution> resolution_from(double x, double y, double units_per_i
 /// f-number, sensitivity and focal length.
 inline constexpr std::array<std::uint16_t, 4> kCameraTags{0x829A, 0x829D, 0x8827, 0x920A};
 
-/// Returns true if EXIF data contain one of kCameraTags. The name "Exif" may precede the TIFF
-/// header. Truncated or damaged data are treated as missing.
+/// Returns true if EXIF data contain one of kCameraTags. The data may begin with the identifier
+/// "Exif" or directly with the TIFF header. Entries that are truncated or damaged are treated as
+/// missing.
 bool is_of_camera(Bytes exif);
 
 }  // namespace dotpose::images

@@ -151,8 +151,8 @@ class JpegReader {
     }
 
   private:
-    /// Returns the colour space in which libjpeg returns the pixels. For YCbCr files, this is grey,
-    /// so that the luma is returned without a conversion to RGB and back.
+    /// Returns the output colour space to request from libjpeg. For YCbCr files, this is grey, to
+    /// obtain the luma without a conversion to RGB and back.
     J_COLOR_SPACE output_space() const {
         switch (jpeg_.jpeg_color_space) {
             case JCS_GRAYSCALE:

@@ -267,7 +267,7 @@ std::string ruler_content(const Sheet& sheet, Side side) {
         const double length_mm = width_mm(number, kNumber_pt);
         const double from_mm = mm == 0 ? kEdge_mm : mm - length_mm / 2;
         if (is_crossed(from_mm, from_mm + length_mm, kNumberAway_mm)) continue;
-        // The numbers of the left ruler are written upwards, so their tops are on the left.
+        // The numbers on the left ruler read upwards, so their tops face left.
         numbers +=
             fmt::format("{} {} Tm {} Tj\n", is_top ? "1 0 0 1" : "0 1 -1 0",
                         at(is_top ? from_mm : from_mm + length_mm, kNumberAway_mm), shown(number));
