@@ -1,4 +1,4 @@
-// Tests the view "Look" with a fake camera that plays a clip of frames with known poses. Tests both methods of reading
+// Tests the "Look" view with a fake camera that plays a clip of frames with known poses. Tests both methods of reading
 // the luma: straight from the camera, and by means of a canvas.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

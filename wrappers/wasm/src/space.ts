@@ -59,7 +59,7 @@ export interface SpacePose extends PoseInSpace {
     second: SecondPose | null;
 }
 
-/** The second pose that explains the view of a plane. */
+/** The second of the two poses that explain a view of a plane. */
 export interface SecondPose extends PoseInSpace {
     /** Odds of this pose relative to the first pose. */
     odds: number;
