@@ -27,7 +27,7 @@ struct DriveReading {
 };
 
 /// Errors in position (per axis), heading and velocity. A new filter needs some frames to estimate
-/// the velocity, so the rms errors exclude the frame of each event `fix` and the next two frames.
+/// the velocity, so the rms errors exclude the frame of each `fix` event and the next two frames.
 class DriveErrors {
   public:
     void add(const DriveState& truth, const DriveReading& reading) {

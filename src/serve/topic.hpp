@@ -48,7 +48,7 @@ class Topic {
 
     const std::string& name() const { return name_; }
     bool is_binary() const { return is_binary_; }
-    /// Returns the number of values that were published.
+    /// Returns the number of values published so far.
     std::uint64_t version() const;
     /// Returns the message with the newest value: the name of the topic, a line break, and the
     /// value. Sets `version` to the number of the value. The topic must have a value.

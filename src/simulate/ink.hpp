@@ -1,4 +1,4 @@
-/// Ink shapes in the sharp image, before blur and motion are applied. Functions that create the
+/// Ink shapes in the sharp image, before blur and motion are applied, and functions that create the
 /// shapes and expose frames.
 #pragma once
 

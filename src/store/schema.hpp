@@ -27,7 +27,7 @@ struct Dialect {
 /// Returns statements that create the missing tables and the view, separated by semicolons.
 std::string schema_of(const Dialect& dialect);
 
-/// Columns of the table `states` in the order of its definition.
+/// Columns of the `states` table, in the order of its definition.
 inline constexpr std::string_view kColumns =
     "time_us, number, x_nm, y_nm, robot, place, delay_us, theta_urad, deviation_nm, vx_um_s, "
     "vy_um_s, omega_urad_s, state, reason";
