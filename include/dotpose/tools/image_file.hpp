@@ -64,9 +64,9 @@ GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaul
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
                      int page = 1);
 
-/// Returns the number of pages in a file. Only TIFF files can have more than one page. For anything
-/// other than a regular file, such as a pipe, returns 1 without reading it. Throws Error if the file
-/// cannot be read (see `read_image`).
+/// Returns the number of pages in a file. Only TIFF files can have more than one page. Returns 1
+/// for anything other than a regular file, such as a pipe, without reading it. Throws Error if the
+/// file cannot be read (see `read_image`).
 int count_pages(const std::filesystem::path& path);
 
 /// Pixels per inch along both axes.

@@ -72,7 +72,7 @@ struct PlanarMotion {
     std::array<std::array<double, 6>, 6> covariance{};
 };
 
-/// Results for one image, in the coordinate frame `map`.
+/// Results for one image, in the `map` coordinate frame.
 struct RobotUpdate {
     std::int64_t time_ns = 0;  ///< middle of the exposure
     /// None if there is no fix, or if the place of the fix is unknown.
