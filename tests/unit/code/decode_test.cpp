@@ -330,7 +330,7 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// If a window is decoded in the wrong code variant, the result may be a wrong place. The expected
+// If a window is decoded with the wrong code variant, the result may be a wrong place. The expected
 // numbers of windows were computed from the sequences by a program in another language.
 TEST(Decode, AnotherVariantReadsSomeWindowsWrong) {
     using Pair = std::pair<CodeVariant, CodeVariant>;

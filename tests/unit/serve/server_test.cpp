@@ -79,7 +79,7 @@ class WebSocket : public Socket {
         send(
             "GET /live HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
             "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
-        // RFC 6455 gives the answer to this key as an example.
+        // RFC 6455 gives this key and its answer as an example.
         EXPECT_THAT(receive("\r\n\r\n"), HasSubstr("s3pPLMBiTxaQ9kYGzzhZRbK+xOo="));
     }
     void command(const std::string& text) const {

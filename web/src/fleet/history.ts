@@ -25,8 +25,8 @@ function maxGap_ms(span_ms: number): number {
 }
 
 /**
- * Returns one track for each map in a history. A track begins a new stroke after a pause, and after the robot was lost
- * or on another map.
+ * Returns one track for each map in a history. A track begins a new stroke after a pause, and when the robot returns
+ * after being lost or on another map.
  */
 export function tracksOf({ maps, map_of, x_mm, y_mm, times_ms, span_ms }: StoredHistory): Track[] {
     const tracks = maps.map((map): Track => ({ map, strokes_mm: [] }));

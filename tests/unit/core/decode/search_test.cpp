@@ -16,8 +16,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 43;
 
-/// A window in which only the x bits are set, as weights, and storage for the scores of its
-/// columns.
+/// A window with only the x bits (as weights), and storage for the scores of its columns.
 struct ScoredWindow {
     ScoredWindow(int columns, int rows) : owned(std::max(columns, rows)) {
         owned.grid.columns = columns;
@@ -95,7 +94,7 @@ TEST(FindAxis, FindsThePositionAmongWrongBits) {
 }
 
 TEST(FindAxis, HoldsForThePublishedCode) {
-    // In the code `libdots`, eight consecutive lines are necessary to determine a position.
+    // In the `libdots` code, eight consecutive lines are necessary to determine a position.
     EXPECT_EQ(found_of_200(CodeVariant::libdots, 12, 0), 200) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 12, 0.05), 198) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 30, 0.2), 198) << "seed " << kSeed;

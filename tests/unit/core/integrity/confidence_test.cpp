@@ -56,7 +56,7 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
             // The fraction of wrong bits is 1 / (1 + odds). As a margin for small samples, the
             // estimate counts two more wrong bits than were observed.
             const double expected = std::log2(bits / (wrong + 2.0) - 1);
-            // The tolerance allows for two errors. Weights are quantised in steps of 8, which
+            // The tolerance covers two sources of error. Weights are quantised in steps of 8, which
             // changes the largest weights by up to 3 %. The exponential is accurate to 2 %, which
             // changes the result by less than 0.1.
             EXPECT_NEAR(odds_per_bit_q8(confidence(bits, 127, wrong)) / 256.0, expected,

@@ -197,7 +197,7 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 
 /// Expected odds in double precision, indexed by the roll offset and by the length of the current
 /// run. The current run consists of adjacent lines in which the alternative has the roll offset 0
-/// and the digits of the reading. Its last line is the line that was processed last.
+/// and the digits of the reading. It ends with the line processed last.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
 /// Calls `use` for every choice of digits at one step. Digits are chosen only in sequences with
