@@ -228,8 +228,8 @@ inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,
 /// "Small frames", contains the numbers for other sizes.
 inline constexpr float kMinCellsForSecond = 70;
-/// Maximum distance, in spacings, of an intersection outside the image whose dot may still be
-/// partly visible.
+/// Maximum distance of a listed intersection beyond the image border, in spacings. The dot of such
+/// an intersection may still be partly visible.
 inline constexpr float kBeyondBorder = 0.2F;
 /// Minimum number of dots that `DotReader::find_centres` must find to fit a plane to them.
 inline constexpr int kMinFound = 8;
