@@ -82,8 +82,8 @@ class RowLocator {
 /// Computes the pose of the camera relative to the pattern.
 class Locator : public RowLocator {
   public:
-    /// Allocates a LargeMemory on the heap. If any option is outside its range, every frame fails
-    /// with bad_argument, and `bad_option` returns the name of the option.
+    /// Allocates a LargeMemory on the heap. If any option is out of range, every frame fails with
+    /// bad_argument, and `bad_option` returns the name of the option.
     explicit Locator(const LocatorOptions& options = {}) : Locator(new LargeMemory, options) {}
     /// Uses `memory`, which must outlive the locator. No other locator may use this memory while
     /// this locator exists.
@@ -221,8 +221,7 @@ class Locator : public RowLocator {
 class DeviceLocator : public RowLocator {
   public:
     /// Uses `memory`, which must outlive the locator. No other locator may use this memory while
-    /// this locator exists. If any option is outside its range, every frame fails with
-    /// bad_argument.
+    /// this locator exists. If any option is out of range, every frame fails with bad_argument.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
     /// Sets the known regions (see Locator::set_known). `locate` and `finish` then search the

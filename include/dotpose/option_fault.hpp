@@ -19,7 +19,7 @@ struct OptionFault {
     std::int32_t high = 0;
 };
 
-/// Returns the first option that is outside its range and therefore causes Status::bad_argument.
+/// Returns the first option that is out of range and therefore causes Status::bad_argument.
 OptionFault option_fault(const DeviceOptions& options) noexcept;
 
 }  // namespace dotpose
