@@ -88,7 +88,7 @@ void set_up() {
     // The frames are stored in the internal RAM, which is large enough for QVGA frames and faster
     // than external PSRAM.
     config.fb_location = CAMERA_FB_IN_DRAM;
-    // With this mode, the driver returns the newest frame after a pause, instead of the oldest
+    // In this mode, the driver returns the newest frame after a pause, instead of the oldest
     // queued frame.
     config.grab_mode = CAMERA_GRAB_LATEST;
     while (esp_camera_init(&config) != ESP_OK)

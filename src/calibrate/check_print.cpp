@@ -70,8 +70,8 @@ void validate(const CheckPrintOptions& options) {
     }
 }
 
-/// Returns the index of the sheet whose region contains the cell, or an empty optional if no sheet
-/// contains it.
+/// Returns the index of the sheet whose region contains the cell, or nullopt if there is no such
+/// sheet.
 std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section section, Cell cell) {
     Sheet place;
     place.pattern.code = options.pattern.code;

@@ -68,7 +68,7 @@ inline constexpr double kMaxInkGap_s = 0.1;
 /// samples whose smoothed heights are clearly above the paper.
 std::vector<InkPage> ink_of(std::span<const InkSample> samples);
 
-/// Returns the page as SVG, in mm, with the size of the page.
+/// Returns the page as SVG. The image has the size of the page, and its unit is mm.
 std::string ink_svg(const InkPage& page);
 
 /// Returns the page as W3C InkML, with the channels X and Y (in mm from the top left corner), T (in
