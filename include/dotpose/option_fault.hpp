@@ -10,7 +10,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// An option whose value is outside its range.
+/// An option whose value is out of range.
 struct OptionFault {
     /// Name of the option, such as "lattice.min_dots". Null if all options are in range.
     const char* name = nullptr;

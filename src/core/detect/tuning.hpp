@@ -37,7 +37,7 @@ inline constexpr int kMinHalf_px = 4;
 /// frames are located.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are clamped to this
-/// level, so they are not darker than a weak dot. Otherwise, the required contrast near dark
+/// level, so they are no darker than a pale dot. Otherwise, the required contrast near dark
 /// graphics would exceed the contrast of dots. With a value of 2, only 1,937 frames are located.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
