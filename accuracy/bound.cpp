@@ -1,6 +1,6 @@
-// Compares the position errors of the locator with the Cramer-Rao bound, in frames in which noise
-// is the only source of error. The simulator and an independent renderer (dot_image.hpp) draw the
-// frames. Prints a table for docs/accuracy.md in Markdown.
+// Compares the position errors of the locator with the Cramer-Rao bound, in frames whose only
+// source of error is noise. The frames are rendered by the simulator and by an independent renderer
+// (dot_image.hpp). Prints a table for docs/accuracy.md in Markdown.
 //
 //   dotpose_tables bound [--frames N] [--seed S] [--threads N] [--rows R,...]
 #include <algorithm>

@@ -34,7 +34,7 @@ struct DriveOptions {
 struct DriveKind {
     const char* name;
     bool has_printing_errors;
-    double noise;  ///< ratio of the noise sigma to that of the preset `nominal`
+    double noise;  ///< ratio of the noise sigma to that of the `nominal` preset
 };
 constexpr std::array kDriveKinds{DriveKind{"nominal", true, 1},
                                  DriveKind{"nominal, four times the noise", true, 4},

@@ -26,7 +26,7 @@ struct StageTimes {
     double solving = 0;
 };
 
-/// Adds the processor time of `work` to `sum`.
+/// Adds the CPU time of `work` to `sum`.
 template <typename Work>
 void add_time(double& sum, const Work& work) {
     const std::clock_t start = std::clock();

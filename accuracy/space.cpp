@@ -22,7 +22,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// Standard deviation of the print jitter in the preset `nominal`, per axis.
+/// Standard deviation of the print jitter in the `nominal` preset, per axis.
 constexpr double kJitter_mm = 0.010;
 /// Errors of one method. The error of each coordinate is divided by the Cramer-Rao bound on its
 /// standard deviation.

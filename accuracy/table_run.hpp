@@ -104,7 +104,7 @@ LargeMemory& thread_memory();
 /// Returns the frame and the true pose of a shot. The code variant of the frame is not set.
 KnownFrame known_frame(const Shot& shot);
 
-/// Returns a setup with the preset `nominal` and the given image size.
+/// Returns a setup with the `nominal` preset and the given image size.
 Setup setup_of(std::uint64_t seed, int width_px, int height_px);
 
 }  // namespace dotpose::tables

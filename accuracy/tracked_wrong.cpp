@@ -98,7 +98,7 @@ GreyImage scattered_dots(const Shot& shot, Rng& rng) {
 struct WrongClass {
     const char* name;
     Prediction (*predict)(const LocatedPair& views, Rng& rng);
-    /// Draws a scene without a valid code, as seen by the camera of the shot. Every prediction for
+    /// Renders a scene without a valid code, as seen by the camera of the shot. Every prediction for
     /// this scene is wrong. Null if the class uses the image of the shot.
     GreyImage (*draw)(const Shot& shot, Rng& rng) = nullptr;
 };

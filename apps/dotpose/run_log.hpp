@@ -43,7 +43,7 @@ class LogCells {
 };
 
 /// Reads a log row by row. The functions throw Error, with the line number, if the file is not a
-/// valid log. An incomplete last line, which a power failure may cause, is ignored.
+/// valid log. An incomplete last line, for example after a power failure, is ignored.
 class LogReader {
   public:
     /// Columns that `read_log` needs. Logs written by `watch --log` contain all of them.
@@ -121,7 +121,7 @@ struct RunStatistics {
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);
 
-/// Draws an SVG with the path, and with plots of the speed, the number of dots and the certainty
+/// Returns an SVG image of the path, with plots of the speed, the number of dots and the certainty
 /// over time. Periods without a fix are marked in the plots.
 std::string draw_run(const std::vector<LogRow>& rows, const std::string& title);
 
