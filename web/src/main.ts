@@ -1,4 +1,4 @@
-// Starts the page. The address after '#' selects one of its three views.
+// Starts the page. The part of the address after '#' selects one of the three views.
 import { Engine } from "./engine/engine.js";
 import { LookView } from "./look/look.js";
 import { element, show } from "./page/dom.js";

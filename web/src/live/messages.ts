@@ -82,7 +82,7 @@ export interface Advice {
     reason: string;
 }
 
-/** Head of a frame message. The picture follows as JPEG. */
+/** Header of a frame message. A JPEG picture follows it. */
 interface FrameHead {
     frame: number;
     width_px: number;
@@ -100,7 +100,7 @@ export interface LiveFrame extends DrawnFrame {
     index: number;
 }
 
-/** Parses a frame message, which consists of the size of its head, the head as JSON, and a picture. */
+/** Parses a frame message: the size of the header, the header as JSON, and a JPEG picture. */
 export async function frameOf(bytes: Uint8Array<ArrayBuffer>): Promise<LiveFrame> {
     const kSizeBytes = 4;
     const end = kSizeBytes + new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);

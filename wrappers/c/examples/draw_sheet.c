@@ -1,4 +1,4 @@
-/* Draws a part of a sheet as an image. The example locate_one can locate the image:
+/* Draws a part of a sheet as an image. The locate_one example can locate the image:
  *
  *     ./draw_sheet 1000 2000 >sheet.pgm
  *     ./locate_one sheet.pgm */

@@ -30,7 +30,7 @@ void define_locator(py::module_& module);
 void define_tracker(py::module_& module);
 void define_simulate(py::module_& module);
 
-/// Each function defines the classes and functions for one subject in the module _tools. The
+/// Each function defines the classes and functions for one subject in the _tools module. The
 /// functions are called in this order, because signatures refer to classes that must already be
 /// defined.
 void define_sheets(py::module_& module);

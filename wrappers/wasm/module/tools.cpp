@@ -1,4 +1,4 @@
-// The module dotpose-tools.wasm: sheets and the simulated camera, compiled from the sources of the
+// The dotpose-tools.wasm module: sheets and the simulated camera, compiled from the sources of the
 // command-line tool.
 //
 // A function that fails sets the message returned by `dotpose_tools_error` and ends the instance

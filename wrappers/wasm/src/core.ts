@@ -26,8 +26,8 @@ export function callOk(core: Instance, name: string, ...args: (number | bigint)[
 
 /**
  * Calls a function in dotpose-space.wasm. If the C++ library throws an exception, it stores the
- * message in the module and ends the instance with a trap. In this case, throws RangeError with the
- * stored message.
+ * message in the module and ends the instance with a trap. This function then throws RangeError
+ * with the stored message.
  */
 export function callSpace(core: Instance, name: string, ...args: number[]): number {
     try {

@@ -31,7 +31,7 @@ function header({ width_px, height_px }: Raster): Uint8Array {
     const view = new DataView(bytes.buffer);
     view.setUint32(0, width_px);
     view.setUint32(4, height_px);
-    bytes[8] = 1; // 1 bit per pixel; the zeros mean grey, deflate, filter types per row, no interlacing
+    bytes[8] = 1; // 1 bit per pixel; zeros: grey, deflate, filter type per row, no interlacing
     return bytes;
 }
 
