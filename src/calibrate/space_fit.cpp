@@ -173,8 +173,8 @@ class NoiseModel {
         normalize(centre_);
     }
 
-    /// Finds the most likely fraction of the variance due to print errors, and sets the whitening
-    /// of the dots for this fraction.
+    /// Finds the most likely value of the fraction of the variance that is due to print errors, and
+    /// sets the whitening of the dots for this fraction.
     void whiten(std::vector<WeightedDot>& dots) const {
         const double fraction = likeliest_fraction();
         for (std::size_t i = 0; i < dots.size(); ++i) {

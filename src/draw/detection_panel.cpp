@@ -36,7 +36,7 @@ void draw_connections(const FrameView& view, Svg& svg) {
     svg.add(R"(<g class="connections" stroke="{}" stroke-width="{:.2f}" )"
             R"(stroke-linecap="round" stroke-opacity="0.85">)",
             colour::kEdge, 3.5 * view.stroke());
-    // The edges connect the dots as they were first measured, so they are not drawn if the dots
+    // The edges connect the dot centres of the first measurement, so no edges are drawn if the dots
     // were measured again.
     if (view.reached().edges && !trace.seeds.empty() && !view.is_dense()) {
         for (const SeedEdge& edge : trace.edges) {

@@ -27,9 +27,9 @@ struct Pair {
     PixelPoint wanted;
 };
 
-/// Residual of a pair, and its derivatives. The distorted point is undistorted (paper, equation 2)
-/// and transformed by the affine map. The residual is the result minus the undistorted point of the
-/// pair.
+/// Residual of a pair, and its derivatives. The distorted point is undistorted (equation 2 of the
+/// paper) and transformed by the affine map. The residual is the result minus the undistorted point
+/// of the pair.
 struct Misfit {
     double u = 0;
     double v = 0;

@@ -377,8 +377,8 @@ bool SpaceTracker::take(const SpaceSighting& sighting) {
     return true;
 }
 
-/// Counts rejected sightings, each of which is consistent with the previous one. Starts a new track
-/// when `SpaceTrackOptions::confirmations` sightings have been counted.
+/// Counts successive rejected sightings that are each consistent with the previous one. Starts a
+/// new track when `SpaceTrackOptions::confirmations` sightings have been counted.
 void SpaceTracker::reject(const SpaceSighting& sighting) {
     update(sighting.time_us);
     track_.verdict = SpaceVerdict::rejected;
