@@ -35,8 +35,8 @@ struct SourceArguments {
     /// Adds only --size, --fps, --exposure, --gain, --flip and --roi.
     void add_frame_options(Command& command);
 
-    /// If the flag `flip` is set in `camera`, makes the sources flip their frames. Then clears the
-    /// flag, because the sources deliver frames that are already flipped.
+    /// If the `flip` flag is set in `camera`, makes the sources flip their frames. Then clears the
+    /// flag, because the frames from the sources are already flipped.
     void flip_as(std::optional<Camera>& camera);
 
     /// Calls `flip_as`. If --roi is given and the camera file describes full frames, restricts

@@ -1,5 +1,5 @@
-// Port for the AI-Thinker ESP32-CAM (OV2640) with ESP-IDF 5.1 or later and the component
-// espressif/esp32-camera 2. The port was reviewed, but neither compiled nor run.
+// Port for the AI-Thinker ESP32-CAM (OV2640) with ESP-IDF 5.1 or later and version 2 of the
+// espressif/esp32-camera component. The port was reviewed, but neither compiled nor run.
 //
 // The driver delivers whole frames by DMA to two buffers. The port reads the central 188 x 120 px
 // of each frame (or the size set in board.hpp). Focus the lens at a distance of about 19 mm

@@ -118,7 +118,7 @@ double spacing_px(const Field& field) {
     return count > 0 ? sum / count : 0;
 }
 
-/// Returns the resolution, or an empty optional if the spacing of the dots contradicts it.
+/// Returns the resolution, or nullopt if the spacing of the dots contradicts it.
 std::optional<Resolution> plausible_resolution(const std::optional<Resolution>& resolution,
                                                const Pattern& pattern, const Field& field) {
     if (!resolution) return std::nullopt;

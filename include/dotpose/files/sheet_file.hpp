@@ -60,7 +60,7 @@ struct WorldPose {
 /// again.
 struct SheetPrint {
     std::string title;          ///< first label of the page, and title of the document
-    int pages = 1;              ///< number of pages in the document that have dots
+    int pages = 1;              ///< number of pages with dots in the document
     double dpi = 600;           ///< resolution of the printer
     std::string dots = "auto";  ///< method of drawing dots in a PDF: "auto", "glyphs" or "strokes"
     bool has_labels = true;     ///< true if the PDF has text and rulers in the margins

@@ -167,7 +167,7 @@ enum class FindingKind {
     swollen,       ///< dots are too large or run together
     thin,          ///< dots are too small or too pale
     missing,       ///< dots are missing
-    covered,       ///< other print covers some of the dots
+    covered,       ///< other printed content covers some of the dots
     /// Many bits are wrong. Either dots are too far from their nominal positions, or the page was
     /// printed in another code variant.
     bits_wrong,
