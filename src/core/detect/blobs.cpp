@@ -145,7 +145,7 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     other.last_v = kNoRow;
 }
 
-/// Returns the blob that contains `blob` after all merges. Returns null if `blob` is null.
+/// Returns the blob that contains `blob` after all merges, or null if `blob` is null.
 OpenBlob* whole(OpenBlob* blob) {
     while (blob != nullptr && blob->part_of != nullptr)
         blob = blob->part_of;
