@@ -486,7 +486,7 @@ typedef struct dotpose_dot {
 
 /* Writes up to `capacity` dots of the last frame to `dots`. Sets `count` to the total number of
  * dots, which may exceed `capacity`. `dots` may be null if `capacity` is 0. Some attempts store
- * their dots only if the option show_stages is set. Without this option, `count` may be 0. Returns
+ * their dots only if the show_stages option is set. Without this option, `count` can be 0. Returns
  * WRONG_KIND for device locators. */
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
@@ -691,7 +691,7 @@ dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t 
 
 /* Writes the DOTPOSE_PACKET_BYTES bytes of a packet. `capacity` is the size of `bytes`. Returns
  * TOO_LITTLE_MEMORY if `capacity` is less than DOTPOSE_PACKET_BYTES, and BAD_VALUE if a member of
- * the packet is out of its range. */
+ * the packet is out of range. */
 dotpose_status dotpose_packet_encode(const dotpose_packet* packet, uint8_t* bytes, size_t capacity);
 
 /* Extracts packets from a byte stream that may contain other data. The contents are private. */

@@ -1,4 +1,4 @@
-// The class Tracker, which follows a robot from frame to frame.
+// Tracker: follows a robot from frame to frame.
 import { callOk, coreModule } from "./core.js";
 import type { Fix } from "./fix.js";
 import { kFixBytes } from "./fix_fields.js";
