@@ -55,8 +55,7 @@ struct SeamShot {
     }
 };
 
-/// Ink coverage of each pixel of an image. Includes a border around the image, which the blur
-/// needs.
+/// Ink coverage of each pixel of an image, and of the border around the image that the blur needs.
 class InkMap {
   public:
     InkMap(int width_px, int height_px)

@@ -1,6 +1,6 @@
-/// JSON messages from robots according to VDA 5050, version 2.0.0: poses on the topic
-/// `visualization`, and the connection state on the topic `connection` (docs/live.md). Also defines
-/// the alerts that `dotpose fleet` publishes (docs/fleet.md).
+/// JSON messages from robots according to VDA 5050, version 2.0.0: poses on the `visualization`
+/// topic, and the connection state on the `connection` topic (docs/live.md). Also defines the
+/// alerts that `dotpose fleet` publishes (docs/fleet.md).
 #pragma once
 
 #include <array>

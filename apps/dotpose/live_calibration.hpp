@@ -20,7 +20,7 @@ struct LiveCalibrationOptions {
 /// ends the capture. If called in the program dotpose, replaces the process with dotpose-live.
 /// Throws Error in these cases:
 /// - The source fails.
-/// - There are too few frames for the verdict `good`. The error message lists the unmet
+/// - There are too few frames for the `good` verdict. The error message lists the unmet
 ///   requirements.
 LensCalibration calibrate_live(const SourceArguments& arguments, Sources& sources,
                                const CalibrateOptions& calibration,

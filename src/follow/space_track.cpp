@@ -259,8 +259,8 @@ void correct(Motion& motion, const CameraInSpace& camera, const Matrix6& noise) 
     covariance = (kept * covariance * kept.transpose() + gain * noise * gain.transpose()).eval();
 }
 
-/// Converts a motion to a SpaceTrack with the verdict `none`. The covariance of the pose includes
-/// the errors that are common to all sightings.
+/// Converts a motion to a SpaceTrack with verdict `none`. The covariance of the pose includes the
+/// errors that are common to all sightings.
 SpaceTrack track_of(const Motion& motion, std::uint32_t plane) {
     SpaceTrack track;
     track.is_lost = false;

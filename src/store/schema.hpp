@@ -13,7 +13,7 @@ namespace dotpose::store {
 
 inline constexpr std::int64_t kDay_us = 86'400'000'000;
 
-/// Version of the tables, stored in the table `version`.
+/// Version of the tables, stored in the `version` table.
 inline constexpr int kVersion = 1;
 
 /// Parts of the SQL statements that differ between databases.
@@ -42,7 +42,7 @@ using Integers = std::array<std::optional<std::int64_t>, kIntegerCount>;
 
 Integers integers_of(const State& state, std::int64_t robot_id, std::int64_t place_id);
 
-/// Returns the text of the column `reason`.
+/// Returns the text of the `reason` column.
 std::string_view reason_text(Status reason);
 
 /// Returns the state stored in a row, without `robot` and `place`.

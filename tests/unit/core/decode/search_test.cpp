@@ -174,7 +174,7 @@ TEST(FindAxis, FewerLinesThanCarryAPositionAreNotInTheCode) {
                       .find(CodeVariant::anoto, reading),
                   Status::not_in_code);
     }
-    // Because of the misprint in a4, the code `libdots` needs eight lines instead of six.
+    // Because of the misprint in a4, the `libdots` code needs eight lines instead of six.
     const Place place = random_place(rng);
     EXPECT_EQ(
         window(CodeVariant::libdots, place, 7, 12, 0, rng).find(CodeVariant::libdots, reading),
