@@ -43,7 +43,7 @@ struct SpaceTally {
     std::uint64_t located = 0;
     std::uint64_t wrong = 0;
     std::uint64_t ambiguous = 0;
-    std::uint64_t second = 0;  ///< number of frames with a second pose, including ruled-out poses
+    std::uint64_t second = 0;  ///< number of frames with a second pose, even if ruled out
     SpaceErrors ours;
     SpaceErrors opencv;
 

@@ -1,4 +1,4 @@
-/// Functions that perform the measurements of the command `tracked`, and counters for the results.
+/// Functions that perform the measurements of the `tracked` command, and counters for the results.
 #pragma once
 
 #include <algorithm>

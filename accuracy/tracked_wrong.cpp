@@ -98,8 +98,8 @@ GreyImage scattered_dots(const Shot& shot, Rng& rng) {
 struct WrongClass {
     const char* name;
     Prediction (*predict)(const LocatedPair& views, Rng& rng);
-    /// Renders a scene without a valid code, as seen by the camera of the shot. Every prediction for
-    /// this scene is wrong. Null if the class uses the image of the shot.
+    /// Renders a scene without a valid code, as seen by the camera of the shot. Every prediction
+    /// for this scene is wrong. Null if the class uses the image of the shot.
     GreyImage (*draw)(const Shot& shot, Rng& rng) = nullptr;
 };
 constexpr Prediction (*kRight)(const LocatedPair&, Rng&) = displaced<0, 0>;

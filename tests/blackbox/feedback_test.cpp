@@ -94,7 +94,7 @@ TEST_F(Feedback, CtrlCKeepsTheUnreadableFramesOfEvaluate) {
     for (int i = 0; i < 30'000; ++i)
         list << "frames/frame_000001.pgm\n";
     list.close();
-    // Interrupts the tool after 1.5 s of processor time (150 clock ticks). By then, the tool has
+    // Interrupts the tool after 1.5 s of CPU time (150 clock ticks). By then, the tool has
     // located some of the frames, but not all: reading the list takes up to 0.5 s, and locating all
     // frames takes about 6 s.
     EXPECT_EQ(interrupt(std::string("exec ") + kTool + "evaluate --list list --format json",
