@@ -59,7 +59,7 @@ struct Sighting {
 };
 
 /// Converts a fix to a sighting in the pattern frame. The plane ID is the section of the fix. The
-/// fix must be ok, and its spacing must be known and at most 20 mm.
+/// fix must have the status ok, and its spacing must be known and at most 20 mm.
 Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits on the robot's motion, and criteria for accepting sightings.
