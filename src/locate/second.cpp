@@ -58,8 +58,8 @@ bool may_be_biased(const Fix& fix, const PlaneFromImage& plane, const ImageView&
 
 }  // namespace
 
-/// Finds the grid of the detected dots. Allows for perspective, and for lens distortion that the
-/// dot centres still contain.
+/// Finds the grid of the detected dots. Allows for perspective, and for lens distortion that
+/// remains in the dot centres.
 Status SecondAttempt::find_grid(const LatticeOptions& options, FixedVec centre_q8) {
     Status status = find_axes(centre_q8, kMaxSeeds, w_);
     if (status != Status::ok) return status;

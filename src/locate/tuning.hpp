@@ -66,9 +66,9 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F, 0.85F, 0.65F};
 
 /// Search for a rotation of the scene during the readout (locate/turning).
 namespace turning {
-/// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum number of rows
-/// by which the rotation moves a point at the left or right image border down while one row is
-/// read.
+/// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum distance, in
+/// rows, by which the rotation moves a point at the left or right image border downwards while one
+/// row is read.
 inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
 /// Maximum drift of the scene while a row is read, in rows.

@@ -57,10 +57,10 @@ struct ReadoutTurn {
         return {p.x + axis.x + still_row * drift.x, still_row};
     }
 
-    /// Inverse of `without_turn`: returns the point that shows the same scene point as `still`, in
-    /// the image with rotation. Uses `steps` steps of Newton's method. `row` is the approximate row
-    /// of the result. The result is correct only where the scene moves down by less than one row
-    /// while a row is read. Otherwise, several rows or none may show the scene point.
+    /// Inverse of `without_turn`: returns the image point at which a scene point appears that would
+    /// be at `still` without rotation. Uses `steps` steps of Newton's method. `row` is the
+    /// approximate row of the result. The result is correct only where the scene moves down by less
+    /// than one row while a row is read. Otherwise, several rows or none may show the scene point.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
         constexpr float kMaxRow = 4096;  // larger than any row number
