@@ -106,8 +106,8 @@ void set_up_pio() {
 void set_up_dma() {
     for (int& channel : channels)
         channel = dma_claim_unused_channel(true);
-    // The address of the grey byte in a FIFO word. The state machine shifts to the right, so this
-    // is the most significant byte.
+    // Address of the grey byte in a FIFO word. The state machine shifts to the right, so the grey
+    // byte is the most significant byte.
     const volatile void* source = reinterpret_cast<volatile std::uint8_t*>(&pio0->rxf[machine]) + 3;
     for (int i = 0; i < 2; ++i) {
         const auto channel = static_cast<uint>(channels[i]);

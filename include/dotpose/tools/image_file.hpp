@@ -77,7 +77,7 @@ struct Resolution {
 
 /// Origin of an image, according to the metadata in its file.
 struct ImageOrigin {
-    /// True if the image is from a camera: its EXIF data (JPEG, PNG, TIFF, WebP, HEIC) contain
+    /// True if the image is from a camera: its EXIF data (JPEG, PNG, TIFF, WebP, HEIC) contain an
     /// exposure time, f-number, sensitivity or focal length.
     bool is_photo = false;
     /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if the image is

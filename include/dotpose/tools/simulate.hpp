@@ -242,8 +242,8 @@ struct PageImage {
     /// extends indefinitely.
     ImageView image;
     double mm_per_px = 25.4 / 1200;
-    /// Point under the image centre, relative to the upper left corner of the image: x right, y
-    /// down.
+    /// Point of the page under the centre of the rendered image, relative to the upper left corner
+    /// of `image`: x right, y down.
     Vec2 centre_mm;
 };
 
