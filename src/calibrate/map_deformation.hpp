@@ -47,8 +47,8 @@ class MapDeformation {
     using Following = Eigen::Matrix<float, kFrameTerms, Eigen::Dynamic>;
 
     /// Response of a frame to a deformation. `nodes` are the coarse nodes around the frame's dots.
-    /// Each column of `terms` belongs to one unknown of these nodes. The column contains the terms
-    /// that the frame has if this unknown is 1 and all other unknowns are 0.
+    /// Each column of `terms` contains the terms of the frame for a deformation in which one
+    /// unknown of these nodes is 1 and all other unknowns are 0.
     struct Follower {
         std::vector<std::uint32_t> nodes;
         Following terms;  ///< columns: shift x, shift y and displacement of each node

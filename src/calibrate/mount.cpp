@@ -30,7 +30,7 @@ constexpr double kMinDrive_mm = 5;
 /// Maximum angle by which the robot may turn during a straight drive. This angle also determines
 /// how far the robot may be from the line of the drive (see require_straight).
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
-/// Probability of mistaking noise for a drift if the robot stays on the spot.
+/// Probability of mistaking noise for a drift if the robot does not drift.
 constexpr double kFalseDrift = 1e-3;
 /// Minimum number of frames required to distinguish a drift from noise.
 constexpr int kMinDriftFrames = 5;

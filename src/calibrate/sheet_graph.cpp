@@ -114,9 +114,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Returns a pose in the page frame of the sheet that `view` shows. The position of the pose is the
-/// point `in_camera` in the camera frame, and its direction is that of the x axis of the camera
-/// frame.
+/// Converts the point `in_camera` and the direction of the x axis from the camera frame to the page
+/// frame of the sheet that `view` shows.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
