@@ -20,7 +20,7 @@ export function sourceText({ source }: Setup): string {
     return source === "-" ? "standard input" : source;
 }
 
-/** Those keys of an output line of `dotpose watch` that the page shows (docs/schema/lines-1.json). */
+/** The keys of a `dotpose watch` output line that the page shows (docs/schema/lines-1.json). */
 export interface Line {
     frame: number;
     t_s: number;

@@ -1,4 +1,4 @@
-// The map of all sheets, on which sheets are selected, moved and turned.
+// The map of all sheets. The user selects, moves and turns the sheets on it.
 import { surfaceOf } from "../draw/surface.js";
 import { element, show } from "../page/dom.js";
 import type { Point_mm } from "../page/sheet_frame.js";

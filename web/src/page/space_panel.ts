@@ -71,7 +71,7 @@ export class SpacePanel {
     readonly #figure: HTMLElement;
     readonly #id: string;
 
-    /** Fills the figure `ID-space`. The figure is hidden until a pose is known. */
+    /** Fills the `ID-space` figure. The figure is hidden until a pose is known. */
     constructor(id: string) {
         this.#id = id;
         this.#figure = element(`${id}-space`, HTMLElement);

@@ -99,8 +99,8 @@ dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes);
  * - OK,
  * - NO_FIX if the last image was not located or if the spacing of the sheet is not known,
  * - TOO_FEW_DOTS if the dots do not determine a pose,
- * - BAD_VALUE if a member of the camera is out of its range, or if the size of the image differs
- *   from that of the camera,
+ * - BAD_VALUE if a member of the camera is out of range, or if the size of the image differs from
+ *   that of the camera,
  * - WRONG_KIND for device locators, and for locators without `show_stages`,
  * - OUT_OF_MEMORY, or another misuse status. */
 dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_space_camera* camera,
