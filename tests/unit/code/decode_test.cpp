@@ -22,7 +22,7 @@ constexpr std::uint32_t kSeed = 7998798;
 /// Initial value of the output `place`. If a window is refused, `place` must not change.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
-/// Indices (modulo 241) in the sequence a4 of libdots. The 5-digit string that starts at each of
+/// Indices (modulo 241) in the `libdots` sequence a4. The 5-digit string that starts at each of
 /// these indices also occurs elsewhere in the sequence.
 const std::set<std::uint32_t> kTwinPlaces{82,  238, 170, 236, 177, 237,
                                           195, 217, 198, 218, 199, 219};
@@ -157,7 +157,7 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     }
 }
 
-/// Returns the indices in the sequence a4 of libdots at which a window is rejected as ambiguous.
+/// Returns the indices in the `libdots` sequence a4 at which a window is rejected as ambiguous.
 /// Expects that the windows at all other indices are decoded.
 std::set<std::uint32_t> ambiguous_places(int columns, int rows, bool along_x) {
     std::set<std::uint32_t> result;

@@ -155,7 +155,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
             0.01);
         EXPECT_LE(fix.p_wrong_log2, device.integrity.max_p_wrong_log2);
         EXPECT_GE(fix.dots_used, 36);
-        // A device computes neither the residual nor the covariance, which are floating-point
+        // A device does not compute the residual or the covariance, because they are floating-point
         // values.
         EXPECT_EQ(fix.residual_px, 0);
         for (const auto& row : fix.covariance)

@@ -110,7 +110,7 @@ TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const auto near = [](double distance_mm) { return testing::DoubleNear(distance_mm, 0.001); };
     EXPECT_THAT(marks.ticks_x_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_x));
     EXPECT_THAT(marks.ticks_y_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_y));
-    // A number is centred at its tick. Two digits are 2 * 0.556 * 4.5 points = 1.765 mm wide.
+    // Each number is centred on its tick. Two digits are 2 * 0.556 * 4.5 points = 1.765 mm wide.
     ASSERT_TRUE(marks.texts_mm.contains("80"));
     EXPECT_THAT(marks.texts_mm.at("80")[0] + 1.765 / 2, near(80));
 }

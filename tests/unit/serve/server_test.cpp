@@ -22,7 +22,8 @@ using testing::StartsWith;
 
 constexpr Page kPages[] = {{"/", "text/html", "<p>start"}};
 
-/// Waits until a condition holds. Fails after a minute, which is long enough for a busy computer.
+/// Waits until a condition holds. Fails after a minute, which is long enough even on a busy
+/// computer.
 void wait_until(const std::function<bool()>& holds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!holds()) {

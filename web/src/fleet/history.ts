@@ -13,7 +13,7 @@ function timeText(time_us: number): string {
     return new Date(time_us / 1000).toLocaleString("en-GB");
 }
 
-/** Returns a text with the percentage of states in which the robot had this motion. */
+/** Returns the percentage of states in which the robot had this motion, as text. */
 function shareText(motion: string, count: number, states: number): string {
     return `${((100 * count) / states).toFixed(count === 0 || count === states ? 0 : 1)} % ${motion}`;
 }

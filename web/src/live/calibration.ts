@@ -89,7 +89,7 @@ function draw(id: string, text: string, paint: (canvas: HTMLCanvasElement) => vo
     if (canvas.clientWidth > 0) paint(canvas);
 }
 
-/** Shows which directions have been seen, and the tilts. */
+/** Shows the tilts, and which directions have been seen. */
 function showDials({ lens, step, directions, leans }: CalibrationState): void {
     const is_pen = step === "pivot";
     const seen = lens?.directions ?? directions;

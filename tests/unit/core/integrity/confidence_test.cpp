@@ -174,7 +174,7 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
         for (int odds_q8 = 256; odds_q8 <= 4 * 256; odds_q8 += 64) {
             const int before = chance_log2(agree, odds_q8);
             const int after = chance_log2(contradict, odds_q8);
-            if (after > 30) continue;  // close to 37, at which the bound of the probability is 1
+            if (after > 30) continue;  // close to 37, where the bound on the probability is 1
             const double y = odds_q8 / 256.0 * weight / 127;
             // `chance_log2` rounds y to a multiple of 2^-8, and its result to an integer.
             EXPECT_NEAR(after - before, y * kBits / 16, kBits / 16 / 256.0 + 1.01)
