@@ -98,7 +98,7 @@ TEST(FleetConditions, AClockThatIsSetBackOrDriftsDoesNotSilenceARobot) {
     r.pass(0.1);
     r.receive({.robot = "anna"}, 0, -3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::moving);
-    // The clock is slow by 1 %, so it falls behind by 18 s in half an hour.
+    // The clock runs 1 % slow, so it falls behind by 18 s in half an hour.
     Receiver slow;
     for (int i = 0; i < 1800; ++i) {
         slow.receive({.robot = "anna"}, 0, -i * kSecond / 100);
