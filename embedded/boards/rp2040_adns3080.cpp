@@ -93,7 +93,7 @@ void read_pixels() {
         }
     }
     gpio_put(kSelect, true);
-    sleep_us(4);  // minimum time for which the sensor must be deselected to end the burst
+    sleep_us(4);  // minimum time that the sensor must be deselected to end the burst
 }
 
 }  // namespace

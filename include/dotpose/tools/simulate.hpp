@@ -87,8 +87,8 @@ struct CameraPose {
 double x_grid(const CameraPose& pose);
 double y_grid(const CameraPose& pose);
 
-/// Effects of the printer, paper, light and sensor on a frame. The defaults are those of the preset
-/// `clean`, in which all of these effects are absent. Fractions and reflectances are in [0, 1].
+/// Effects of the printer, paper, light and sensor on a frame. The defaults are those of the
+/// `clean` preset, which has none of these effects. Fractions and reflectances are in [0, 1].
 /// Sigmas, lengths and counts must not be negative.
 struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
