@@ -1,5 +1,5 @@
 // Tests the "Look" view with a fake camera that plays a clip of frames with known poses. Tests both methods of reading
-// the luma: straight from the camera, and by means of a canvas.
+// the luma: directly from the camera, and through a canvas.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

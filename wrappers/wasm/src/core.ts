@@ -16,8 +16,8 @@ export function coreModule(wasm?: WasmSource, has_space = false): Promise<WebAss
 }
 
 /**
- * Calls a function that returns a dotpose_status. A nonzero status means that an option or argument
- * is invalid. In this case, throws RangeError with the message for the status.
+ * Calls a function that returns a dotpose_status. If the status is nonzero (an option or argument
+ * is invalid), throws RangeError with the message for the status.
  */
 export function callOk(core: Instance, name: string, ...args: (number | bigint)[]): void {
     const status = core.call(name, ...args);
