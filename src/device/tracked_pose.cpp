@@ -66,7 +66,7 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // A fit to only a few dots may be arbitrarily wrong, and give very small cells. These are
+    // A fit to only a few dots may be arbitrarily wrong, and give very small cells. Such cells are
     // rejected, because the slopes would overflow.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {

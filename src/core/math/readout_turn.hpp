@@ -88,9 +88,8 @@ struct ReadoutTurn {
     }
 };
 
-/// Computes the drift from a plane, for a camera that looks straight at the paper. For such a
-/// camera, only the motion of the scene can shear the image of a square grid or stretch it
-/// vertically.
+/// Computes the drift from a plane. Assumes that the camera looks straight at the paper. Only the
+/// motion of the scene can then shear the image of a square grid or stretch it vertically.
 inline FloatVec drift_of(const FloatPlane& plane) {
     const float square = plane.du_x * plane.du_x + plane.du_y * plane.du_y;
     return {-(plane.dv_x * plane.du_x + plane.dv_y * plane.du_y) / square,

@@ -6,7 +6,7 @@
 namespace dotpose::core {
 
 /// Restricts fits to one side of a line during the lifetime of the object. The constructor moves
-/// the cells of all other dots far away, which makes these dots outliers. The destructor moves the
+/// the cells of all other dots far away, to make these dots outliers. The destructor moves the
 /// cells back. Dots near the line belong to neither side.
 class HalfPlane {
   public:
