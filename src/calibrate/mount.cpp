@@ -171,7 +171,7 @@ void require_stations(std::size_t found, int least, int frames) {
 struct SpotTurn {
     Vector2d pivot;
     Vector2d offset;         ///< from the image centre to the pivot, along the image axes
-    Vector2d drift;          ///< 0 for a robot that stays on the spot
+    Vector2d drift;          ///< 0 if the pivot does not move
     double squares_mm2 = 0;  ///< sum of the squared residuals
     /// Variance of the offset, per axis, relative to the variance of a measured position.
     double offset_fraction = 0;

@@ -105,7 +105,7 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
     Fix fix = locate_near(image, options, expected);
     auto place = find_sheet(options_.sheets, options.code, fix);
     // A prediction keeps the fix on the same page, but another page may now be at the image centre.
-    // If the image centre is on no known page, locates the image again without the prediction.
+    // If the image centre is not on a known page, locates the image again without the prediction.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place &&
         !options_.sheets.empty()) {
         fix = locator(options).locate(image);
