@@ -145,7 +145,7 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     };
     for (const CodeVariant code : kCodeVariants) {
         for (const Size size : {Size{6, 32}, Size{32, 6}, Size{7, 9}, Size{32, 32}, Size{6, 6}}) {
-            // In the sequence a4 of libdots, the 5-digit strings starting at indices 100 and 59 are
+            // In the `libdots` sequence a4, the 5-digit strings starting at indices 100 and 59 are
             // unique, so no window is ambiguous.
             const Place truth{{241 * 1000 + 100, 241 * 77 + 59}, {5, 60}};
             const Grid grid = reference_window(code, truth, size.columns, size.rows);

@@ -1,5 +1,6 @@
-// Tests frames from a rolling-shutter camera whose scene turns while the rows are read. Some tests
-// use single frames, and others use drives in which each frame is predicted from the last fix.
+// Tests frames from a rolling-shutter camera in which the scene turns while the rows are read. Some
+// tests use single frames, and others use drives in which each frame is predicted from the last
+// fix.
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -33,7 +33,7 @@ struct ScoredWindow {
     std::array<ScoredLine, kMaxLines> storage;
 };
 
-/// Returns the window of the code at a place. A fraction of its bits is flipped.
+/// Returns the window of the code at a place. Each bit is flipped with probability `flipped`.
 ScoredWindow window(CodeVariant code, const Place& place, int columns, int rows, double flipped,
                     Rng& rng) {
     ScoredWindow result(columns, rows);
