@@ -182,7 +182,7 @@ double time_of(std::size_t frame, const std::vector<Station>& stations) {
     return 2.0 * double(frame) / double(stations.size() - 1) - 1;
 }
 
-/// Returns the position that the turn predicts for a frame, minus the measured position.
+/// Returns the position predicted by the turn for a frame, minus the measured position.
 Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
                      const std::vector<Station>& stations) {
     const Station& station = stations[frame];

@@ -88,7 +88,7 @@ Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters,
     return fit.solve();
 }
 
-/// Minimises the sum of squared residuals, until the steps are smaller than rounding errors.
+/// Minimises the sum of squared residuals. Stops when the steps are smaller than rounding errors.
 /// Returns the minimum.
 double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
     constexpr int kMaxSteps = 500;
