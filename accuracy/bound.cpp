@@ -33,7 +33,7 @@ struct BoundFrames {
     int width_px;
     int height_px;
     int spacing_px;
-    /// Angle of the image x axis, or a negative value to draw a random angle for each frame.
+    /// Angle of the image x axis, or a negative value to choose a random angle for each frame.
     double theta_rad;
     double motion_px;  ///< length of the motion blur
     double fall;       ///< relative decrease in illumination across the image

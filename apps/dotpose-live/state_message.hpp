@@ -21,8 +21,8 @@ namespace dotpose::cli {
 inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 
 /// Prefix of all alert topics. A topic has the form kAlertRoot/ROBOT. Alert topics are not below
-/// kTopicRoot, because a broker may allow each robot to publish below kTopicRoot/ROBOT, but robots
-/// must not be able to publish alerts.
+/// kTopicRoot. A broker can therefore allow each robot to publish below kTopicRoot/ROBOT without
+/// also allowing it to publish alerts.
 inline constexpr const char* kAlertRoot = "dotpose/alerts";
 
 /// Values of `connectionState`, indexed by publish::Presence.

@@ -249,7 +249,7 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Returns the advice to specify a code, or an empty string. If the code is not given, a position
+/// Returns advice to specify a code, or an empty string. If the code is not given, a position
 /// may be uncertain only because positions in other codes are also possible. If the position is
 /// certain when only one of the codes is tried, the advice names this code.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
