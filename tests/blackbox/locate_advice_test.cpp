@@ -117,8 +117,8 @@ Shot wide_shot() {
     return draw_shot(setup, 0);
 }
 
-// The image has an odd width and an odd height. Its last column and row are therefore omitted when
-// it is reduced to half its size, which moves the image centre.
+// The image has an odd width and an odd height. When it is reduced to half its size, its last
+// column and last row are therefore omitted, so the image centre moves.
 TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     const Shot wide = wide_shot();
     write_pgm(directory_ / "wide.pgm", render(wide).view());

@@ -1,5 +1,5 @@
-// Tests print maps: `calibrate --print-map` creates them, and the option --print-map of `locate`
-// and `watch` uses them.
+// Tests print maps. `calibrate --print-map` creates them, and `locate --print-map` and `watch
+// --print-map` use them.
 #include <cmath>
 #include <string>
 #include <vector>
