@@ -8,7 +8,7 @@ import type { Pose, Sheet } from "./sheets_messages.js";
 
 const kMargin_px = 24;
 const kZoom = 1.25;
-/** Delay from the last key press until a pose changed with the keyboard is saved. */
+/** Delay between the last key press and the saving of a pose changed with the keyboard. */
 const kKeyPause_ms = 700;
 
 export interface MapEvents {

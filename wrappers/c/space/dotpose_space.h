@@ -121,7 +121,7 @@ typedef struct dotpose_space_pen {
     double sigma_mm[3]; /* 40: standard deviations of x_mm, y_mm and z_mm */
 } dotpose_space_pen;
 
-/* Sets all members to 0. `bytes` is the caller's sizeof(dotpose_space_pen). */
+/* Sets all members except `size` to 0. `bytes` is the caller's sizeof(dotpose_space_pen). */
 dotpose_status dotpose_space_pen_init(dotpose_space_pen* pen, size_t bytes);
 
 /* Position of a pen tip in the pattern (104 bytes). */

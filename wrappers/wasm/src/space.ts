@@ -53,7 +53,7 @@ export interface SpacePose extends PoseInSpace {
     dots: number;
     /** Root mean square residual of the dots used, per axis. */
     residual_px: number;
-    /** True if the dots do not exclude the second pose. */
+    /** True if the dots do not rule out the second pose. */
     is_ambiguous: boolean;
     /** The second pose that explains the view. Null if there is none. */
     second: SecondPose | null;
