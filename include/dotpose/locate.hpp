@@ -12,7 +12,7 @@
 ///
 /// Memory: the constructor of a Locator allocates all memory, unless the caller provides it.
 /// Locating a frame does not allocate, print or throw. There are no global variables. Different
-/// locators may be used concurrently. A Locator uses up to 300 KB of the stack.
+/// locators may be used concurrently. A Locator uses up to 300 KB of stack.
 #pragma once
 
 #include <concepts>
@@ -76,7 +76,7 @@ class RowLocator {
   private:
     /// Status that `begin` returned, or bad_argument if no frame was begun.
     Status begun_ = Status::bad_argument;
-    int rows_left_ = 0;  ///< number of rows that may still be pushed
+    int rows_left_ = 0;  ///< number of rows that have not been pushed yet
 };
 
 /// Computes the pose of the camera relative to the pattern.

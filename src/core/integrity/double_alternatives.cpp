@@ -149,7 +149,7 @@ struct Opposite {
 };
 
 /// The places in one sequence except the place of the reading, sorted into buckets by the
-/// difference of their offsets at two anchors, modulo 63.
+/// difference between their offsets at two anchors, modulo 63.
 class Buckets {
   public:
     Buckets(const AnchorOffsets& offsets, std::size_t sequence, std::uint32_t length,
