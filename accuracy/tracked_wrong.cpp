@@ -22,7 +22,7 @@ std::int32_t between(std::uint32_t from, std::uint32_t to) {
 }
 
 /// Returns a prediction of the wrong position that shares the most lines with the true position.
-/// Considers only the 10 to 16 lines in the middle of the view, which shows 11 to 18 lines.
+/// The view shows 11 to 18 lines. Only the 10 to 16 lines in its middle are compared.
 template <bool is_along_x>
 Prediction worst(const LocatedPair& views, Rng& rng) {
     const Fix& fix = views.fix;

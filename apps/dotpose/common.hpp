@@ -122,7 +122,7 @@ struct FrameSize {
     int width_px = 0;
     int height_px = 0;
 };
-/// Parses "WIDTHxHEIGHT". If the text is invalid, throws ValidationError for the option `flag`.
+/// Parses "WIDTHxHEIGHT". If the text is invalid, throws a ValidationError that names `flag`.
 FrameSize parse_frame_size(const std::string& flag, const std::string& text);
 
 /// Makes all numeric options of all subcommands reject values that are not finite, such as nan, inf
