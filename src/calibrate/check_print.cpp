@@ -221,7 +221,7 @@ std::vector<CollectedField> collect_fields(const ImageView& scan, const LocatedT
     return collected;
 }
 
-/// Returns the number of cells with a correct dot in both fields.
+/// Returns the number of cells whose dot is correct in both fields.
 int common_cells(const CellGrid& a, const CellGrid& b) {
     int count = 0;
     for (const SeenCell& cell : a.cells) {

@@ -203,7 +203,7 @@ class SheetReservation {
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
-    /// Removes the marks of the reserved sheets. Must be called after the pages have been written.
+    /// Removes the marks from the reserved sheets. Call this after the pages have been written.
     /// If another program has removed the sheets in the meantime, adds them again. Throws Error if
     /// the file cannot be changed, or if another program has assigned the names or cells of the
     /// reserved sheets to other sheets. After an Error, the file is unchanged.

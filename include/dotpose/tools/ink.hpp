@@ -4,7 +4,7 @@
 ///     for (const InkPage& page : pages)
 ///         write_file(page.name + ".svg", ink_svg(page));
 ///
-/// `ink_of` is in the library dotpose::follow. `ink_svg` and `ink_ml`, which return the contents of
+/// `ink_of` is in the dotpose::follow library. `ink_svg` and `ink_ml`, which return the contents of
 /// files, are in dotpose::draw. All functions are pure and thread-safe.
 #pragma once
 

@@ -1,5 +1,5 @@
-/// Mounted pose: the fix of a camera with a constant view of the paper, for example a camera on a
-/// robot.
+/// Mounted pose: the fix of a camera whose view of the paper does not change, for example a camera
+/// on a robot.
 ///
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///     locator.set_options(options);

@@ -38,7 +38,7 @@ struct Paper {
 };
 
 /// Returns the page size for a name (A0 to A6, Letter, Legal or Tabloid, in upper or lower case) or
-/// for a size WIDTHxHEIGHT in mm, for example "100x62.5". Named sizes are in portrait orientation.
+/// for dimensions WIDTHxHEIGHT in mm, such as "100x62.5". Named sizes are in portrait orientation.
 /// Throws BadArgument for any other text, and for sizes outside (0, kMaxPage_mm].
 Paper paper_by_name(std::string_view name);
 
