@@ -30,7 +30,7 @@ using namespace dotpose::calibrate;
 /// most this distance, in spacings.
 constexpr double kSamePlace = 1.5;
 
-/// Reads the frames given to `calibrate_lens`. Rejects frames of different sizes and detects
+/// Reads the frames given to `calibrate_lens`. Throws Error if their sizes differ, and detects
 /// duplicates.
 class Series {
   public:

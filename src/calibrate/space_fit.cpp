@@ -265,7 +265,7 @@ bool is_same(const SpaceState& a, const SpaceState& b) {
            kSame_rad;
 }
 
-/// Returns rough solutions, which are fitted to at most 300 of the dots to save time.
+/// Returns rough solutions, fitted to at most 300 of the dots to save time.
 Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
                           const std::vector<WeightedDot>& all, const Vector2d& focal_px) {
     constexpr std::size_t kDots = 300;

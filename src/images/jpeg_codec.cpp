@@ -23,7 +23,7 @@ constexpr int kExifMarker = JPEG_APP0 + 1;
 constexpr int kMaxScans = 100;
 
 /// Collects the messages from libjpeg. The error handler must not return to libjpeg, so it jumps to
-/// `leave`. Each call that may fail must follow setjmp(leave), and no objects with destructors may
+/// `leave`. Each call that can fail must follow setjmp(leave), and no objects with destructors may
 /// be created between setjmp and the call.
 struct Report : jpeg_error_mgr {
     std::jmp_buf leave;

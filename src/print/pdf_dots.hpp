@@ -46,7 +46,7 @@ DotDrawing resolve_drawing(DotDrawing asked, const Pattern& pattern, double dpi)
 /// in memory. The memory needed is therefore independent of the size of the page.
 class DotContent {
   public:
-    /// `pdf` must outlive this object. `rows` counts the rows that all streams write.
+    /// `pdf` must outlive this object. `rows` counts the rows written by all streams.
     DotContent(QPDF& pdf, double dpi, DotDrawing asked, std::shared_ptr<RowCount> rows);
 
     /// Returns the dots of the sheet as content streams that are independent of each other. Throws

@@ -246,8 +246,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     }
     const double dots_begin_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
     // Returns true if a tick or number from `from_mm` to `to_mm` would cross the other ruler or its
-    // arrow. The marks of the other ruler that could be crossed are at least `nearest_mm` away from
-    // the dots.
+    // arrow. `nearest_mm` is the minimum distance between the dots and the marks of the other ruler
+    // that could be crossed.
     const auto is_crossed = [&](double from_mm, double to_mm, double nearest_mm) {
         return to_mm > crossing_mm && from_mm < dots_begin_mm - nearest_mm;
     };
