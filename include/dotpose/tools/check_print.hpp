@@ -50,8 +50,8 @@ struct CheckPrintOptions {
     std::vector<Sheet> sheets;
     /// Resolution of the scan. If no resolution is given, or if the image shows the perspective or
     /// lens distortion of a camera, the image is treated as a photo. The check of a photo allows
-    /// for perspective and lens distortion, and does not check the absolute scale. If the resolution
-    /// contradicts the spacing, the check reports a fault.
+    /// for perspective and lens distortion, and does not check the absolute scale. If the
+    /// resolution contradicts the spacing, the check reports a fault.
     std::optional<Resolution> resolution;
     /// True if the metadata in the image file indicate that the image was taken with a camera. In
     /// this case, the resolution is ignored.
