@@ -99,9 +99,9 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     }
 }
 
-/// Sets the members that depend on the spacing. Returns false if the memory or the frame has too
-/// few rows, or if the image must be cropped to less than `min_side_px` to make its cells fit in
-/// the memory.
+/// Sets the members that depend on the spacing. Returns false if the memory is too small, if the
+/// frame has too few rows, or if the image must be cropped to less than `min_side_px` to make its
+/// cells fit in the memory.
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;

@@ -12,8 +12,8 @@ namespace {
 
 /// Returns the right shift, in bits, that reduces the total mass to less than 2^16. The same shift
 /// is applied to the masses and to the mass-weighted sums. All sums are then less than 2^31: a dot
-/// is at most 16 cells from the middle, and its offset is at most an eighth of the maximum spacing
-/// of 14 px, which is 448/256 px.
+/// is at most 16 cells from the middle, and its offset is at most 448/256 px, an eighth of the
+/// maximum spacing of 14 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)

@@ -148,8 +148,8 @@ bool SecondAttempt::fit_pattern(const Frame& frame, const Nominal& nominal, Pose
     return refine_pose({w_.found_dots(), w_.grid, nominal, &w_.smoothing.paper}, plane, fit);
 }
 
-/// Reads the bits again, with a grid fitted to the dots of a doubtful position. If the position is
-/// correct, more bits are clear in the new grid.
+/// Reads the bits again, using a grid fitted to the dots that the code predicts at a doubtful
+/// position. If the position is correct, more bits are clear in the new grid.
 Status SecondAttempt::resample(const Frame& frame, const PlaceEvidence& evidence) {
     const DeviceOptions& options = frame.options;
     PoseFit fit;

@@ -206,8 +206,8 @@ inline constexpr float kFacing = 0.55F;
 /// phases in view are uniformly distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// The pixel bias is corrected only if the sub-pixel phases of the dots of a row or column change
-/// by less than this distance across the view. This limit keeps the correction rare, because it
-/// takes several times as long as all other steps combined.
+/// by less than this distance across the view. This limit keeps corrections rare, because a
+/// correction takes several times as long as all other steps combined.
 inline constexpr float kDriftInView_px = 0.35F;
 /// The pixel bias is not significant if the variance of the mean dot centre along one axis exceeds
 /// this limit, because other errors are then larger than the bias.

@@ -22,8 +22,8 @@
 namespace dotpose::core {
 
 /// Memory of a Locator, and results of its attempts. Only the entry points and the attempts access
-/// the whole workspace. They pass parts of it to the stages. The base class, which is the memory of
-/// a DeviceLocator, is used by the attempt of `Effort::device`.
+/// the whole workspace. They pass parts of it to the stages. The base class is the memory of a
+/// DeviceLocator. Attempts with `Effort::device` also use it.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;   ///< used by the first attempt and the search for a rotation
     Smoothing smoothing;      ///< used by the second attempt
@@ -135,7 +135,7 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
     // The PaperMap divides the image into square blocks. The side of a block is a tenth of the
-    // shorter image side, rounded down. Images are at least 60 px high and wide, so a block is at
+    // shorter image side, rounded down. Images are at least 64 px high and wide, so a block is at
     // least 6 px wide, and there are at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
