@@ -357,7 +357,7 @@ TEST(Locate, ALensIsUndone) {
 }
 
 // At the positions predicted by the code, the second attempt also measures dots that were not found
-// as blobs. These dots must be counted as seen, too.
+// as blobs. These dots must also be counted as seen.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

@@ -36,7 +36,8 @@ Shot turned_shot(const ShotSize& size, double turn_deg, Vec2 motion, int index) 
 
 struct Counts {
     int located = 0;
-    /// Sum of the squared errors of x and y over all located frames, each divided by its variance.
+    /// Sum over all located frames. Each term is a squared error of x or y, divided by its
+    /// variance.
     double squares = 0;
 };
 

@@ -59,8 +59,9 @@ TEST(labels, say_what_is_on_the_page) {
     EXPECT_THAT(content, HasSubstr("dotpose print -o door.pdf"));
     EXPECT_THAT(content, HasSubstr("0 0 0 1 k 0 0 0 1 K"));
     EXPECT_THAT(content, HasSubstr("(0 mm) Tj"));
-    // The ruler counts from the edge of the page. The dots begin at 10.2 mm and are 79.8 mm wide,
-    // so they end at 90.0 mm. The ruler ends before that, and its last number is 80.
+    // The numbers on the ruler are distances from the edge of the page. The dots begin at 10.2 mm
+    // and are 79.8 mm wide, so they end at 90.0 mm. The ruler ends before that, and its last number
+    // is 80.
     EXPECT_THAT(content, HasSubstr("(80) Tj"));
     EXPECT_THAT(content, Not(HasSubstr("(90) Tj")));
 }

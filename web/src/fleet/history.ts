@@ -132,7 +132,7 @@ export class HistoryPanel {
         return `${states} states from ${timeText(first_us)} to ${timeText(last_us)}${thinned}: ${shares}; up to ${max_speed_mm_s.toFixed(0)} mm/s.${cut}`;
     }
 
-    /** Draws the speed, and below it the states. */
+    /** Draws the speed, with the states below it. */
     #draw({ times_ms, speeds_mm_s, motions, span_ms, max_speed_mm_s }: StoredHistory): void {
         const kBand_px = 12;
         const { context, width, height } = surfaceOf(this.#canvas);

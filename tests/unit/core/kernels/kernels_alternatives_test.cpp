@@ -51,7 +51,7 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                     continue;
                 }
                 // Computes the maximum total loss over all sets of steps. A set contains only steps
-                // with different digits, and no two adjacent steps.
+                // at which the digits differ, and no two adjacent steps.
                 int most = 0;
                 int max_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
