@@ -42,7 +42,7 @@ function pixelsOf(file, pixels = kWidth_px * kHeight_px) {
     return readFileSync(file).subarray(-pixels);
 }
 
-/** Rotates a vector about a unit axis (Rodrigues). */
+/** Rotates a vector about a unit axis, using Rodrigues' formula. */
 function rotated(v, axis, angle) {
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     const dot = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];

@@ -527,7 +527,7 @@ dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* p
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
 /* Sets `code` to the most likely code, and `p_wrong` to the probability that the sheet is printed
- * in another code. Without evidence, all codes are equally probable: the result is anoto, and
+ * in a different code. Without evidence, all codes are equally probable: the result is anoto, and
  * `p_wrong` is 2/3. */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
@@ -647,8 +647,8 @@ dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
 /* Like dotpose_tracker_update, but also uses the measured motion of the robot since the previous
- * update. The motion's `right_mm` is the displacement along the image x axis, whose angle is the
- * theta of the sightings. If `sighting` is null, only the motion changes the pose. */
+ * update. The motion's `right_mm` is the displacement along the image x axis. The theta of a
+ * sighting is the angle of this axis. If `sighting` is null, only the motion changes the pose. */
 dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
                                             const dotpose_sighting* sighting,
                                             const dotpose_measured_motion* motion,

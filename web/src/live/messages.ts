@@ -1,4 +1,4 @@
-// Values of the topics that `dotpose watch --web` publishes (docs/web.md). apps/dotpose-live/web_view.cpp writes them.
+// Values that `dotpose watch --web` publishes on its topics (docs/web.md). apps/dotpose-live/web_view.cpp writes them.
 import type { DrawnFrame } from "../draw/frame.js";
 import type { Quaternion } from "../page/lean.js";
 

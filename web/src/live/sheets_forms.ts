@@ -1,4 +1,4 @@
-// Forms for the numbers of the selected sheet, and for new sheets.
+// Forms for editing the selected sheet and for adding sheets.
 import { element, make, show } from "../page/dom.js";
 import { showAnswer, type SheetCommands } from "./sheets_commands.js";
 import { wrapped_deg } from "./sheets_geometry.js";

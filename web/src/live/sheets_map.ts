@@ -38,7 +38,7 @@ export class SheetsMap {
     #key_timer: ReturnType<typeof setTimeout> | undefined;
     /** Sheet that is being moved with the keyboard, as it was before the first key press. */
     #key_sheet: Sheet | undefined;
-    /** Centre of the canvas in the world, and scale. Null while all sheets are shown. */
+    /** World point at the centre of the canvas, and the scale. Null while all sheets are shown. */
     #view: { x_mm: number; y_mm: number; scale: number } | null = null;
     #frame: Frame = { x_mm: 0, y_mm: 0, scale: 1, width: 1, height: 1 };
 

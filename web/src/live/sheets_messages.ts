@@ -31,7 +31,7 @@ export interface Sheet {
 
 export interface SheetFile {
     may_edit: boolean;
-    /** Reason why the file cannot be read now. Empty if it was read. */
+    /** Reason why the file could not be read. Empty if it was read. */
     problem: string;
     /** Descriptions of the edits that can be undone and redone. Empty if there are none. */
     undo: string;

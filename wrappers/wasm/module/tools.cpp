@@ -61,7 +61,7 @@ Sheet sheet_of(const wasm::SheetRequest& sheet) {
     return make_sheet(options);
 }
 
-/// Returns a page that is on a table. The paper has the size of the sheet.
+/// Returns a page on a table. The paper has the size of the sheet.
 Page page_on_table(const Sheet& sheet, double table_reflectance) {
     Page page = page_of(sheet);
     const double spacing_mm = sheet.pattern.spacing_mm;

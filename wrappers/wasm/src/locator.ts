@@ -229,7 +229,7 @@ export class Locator {
         return this.#core.bytes(this.#pixels, bytes);
     }
 
-    /** Returns the address of a prediction, or 0 if there is none. */
+    /** Returns the address of the prediction, or 0 if there is no usable prediction. */
     #predict(given: Fix | Prediction | null | undefined): number {
         if (!given || codeNumber(given.code) !== this.#codeRead()) return 0;
         if (!("ok" in given)) {
