@@ -165,7 +165,7 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
 
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place) {
-    // Number of bits per axis, which is equal for x and y.
+    // Number of bits per axis. The number is the same for x and y.
     const int bits = number_of_bits(block.columns);
     const ScoredTurn upright(kernels, block);
     const CornerPlace best{code, moved(code, place, upright.columns_range.first - BitBlock::kMiddle,

@@ -359,8 +359,8 @@ struct Kernels {
     /// each direction. Dots outside the grid are added to the nearest block.
     BlockSums (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                             float limit, float reach_px, int side);
-    /// Returns the places in a sequence where an alternative may lose less than the loss limit,
-    /// which is StepLosses::kLimitParts parts. The result excludes `own`, the place of the reading.
+    /// Returns the places in a sequence where an alternative may lose less than the loss limit
+    /// (StepLosses::kLimitParts parts). The result excludes `own`, the place of the reading.
     /// `steps` contains a lower bound on the loss at each step.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
@@ -385,10 +385,10 @@ struct Kernels {
     /// 16 elements. Negative losses are treated as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
     /// Combines each of the 32 combinations in a batch with one combination of places in the other
-    /// sequences. Returns one bit per resulting alternative, which is 1 if the alternative may lose
-    /// less than `limit` (at most 255). `losses[i]` is the loss if line i is not shared.
-    /// `opposite[i]` is the negated roll offset of the other combination in line i. The line is
-    /// shared if this number equals the offset in the batch.
+    /// sequences. Returns one bit per resulting alternative: 1 if the alternative may lose less
+    /// than `limit` (at most 255). `losses[i]` is the loss if line i is not shared. `opposite[i]`
+    /// is the negated roll offset of the other combination in line i. The line is shared if this
+    /// number equals the offset in the batch.
     std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
                                       std::span<const std::uint8_t> losses, int limit);
     /// Returns the expected total odds of the alternatives that differ from the reading in the
