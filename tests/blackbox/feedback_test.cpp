@@ -1,5 +1,5 @@
 // Tests the output of long operations on a terminal: progress with the estimated remaining time,
-// colour, and partial results after Ctrl-C. The program `script` runs the tool on a
+// colour, and partial results after Ctrl-C. The `script` program runs the tool on a
 // pseudo-terminal.
 #include <cstdint>
 #include <filesystem>

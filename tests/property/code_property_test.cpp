@@ -1,5 +1,5 @@
-// Checks that decoding inverts encoding for random windows, upright and turned. The nightly test
-// checks a million windows.
+// Checks that decoding inverts encoding for random upright windows, and that turned windows are
+// refused unless the code contains them too. The nightly test checks a million windows.
 #include <array>
 #include <cstddef>
 #include <cstdint>
