@@ -1,8 +1,9 @@
-// The part of the preconditioner that handles slow deformations of the page, which vary little over
-// the width of a frame. A slow deformation moves all dots in a frame together, so a change in the
-// frame's pose nearly cancels the effect of the deformation on the residuals. If the preconditioner
-// consisted only of the diagonal blocks of single frames, slow deformations would need many
-// iterations to converge. This part therefore solves for the deformation and the poses together.
+// The part of the preconditioner that handles slow deformations of the page. A slow deformation
+// varies little over the width of a frame and moves all dots in the frame together, so a change in
+// the frame's pose nearly cancels the effect of the deformation on the residuals. If the
+// preconditioner consisted only of the diagonal blocks of single frames, slow deformations would
+// need many iterations to converge. This part therefore solves for the deformation and the poses
+// together.
 #pragma once
 
 #include <cstdint>

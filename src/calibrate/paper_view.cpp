@@ -18,8 +18,8 @@ namespace {
 constexpr double kMaxFocalError = 0.15;
 
 /// Difference between a measured view and the view of a tilted camera with square pixels. A view
-/// consists of the members of PaperScale, with the perspective multiplied by the reach, which is
-/// half the diagonal of the image.
+/// consists of the members of PaperScale, with the perspective multiplied by the reach (half the
+/// diagonal of the image).
 struct TiltResidual {
     std::array<double, 5> seen;
     Eigen::MatrixXd whitening;

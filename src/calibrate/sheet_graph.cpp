@@ -295,7 +295,7 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
         }
         if (i == fixed_ && !has_scale()) {
             // Fixes the aspect to its value in the sheet file. Views computed from parts of frames
-            // contain information about the aspect, but all of them have the same error, which
+            // contain information about the aspect, but they all have the same error, so the error
             // would not average out.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }

@@ -82,7 +82,7 @@ inline constexpr double kMetresPerInch = 0.0254;
 inline constexpr double kCentimetresPerInch = 2.54;
 
 /// Converts a resolution to dots per inch. Returns an empty optional if a value is not positive,
-/// which means that the resolution is unknown.
+/// that is, if the resolution is unknown.
 std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
 /// EXIF tags that are written by cameras but not by scanners (CIPA DC-008): exposure time,
