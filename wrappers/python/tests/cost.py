@@ -3,7 +3,8 @@
     python3 cost.py
 
 Python and C++ locate the same image with the same options, in short alternating batches. For each
-language, the result is the fastest batch, because other programs disturbed the slower batches.
+language, the result is the time of the fastest batch, because other programs disturb the slower
+batches.
 """
 
 import time

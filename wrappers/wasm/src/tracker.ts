@@ -69,7 +69,7 @@ export interface TrackOptions {
 export interface Track {
     /** Time of the pose. */
     time_us: number;
-    /** True if the robot is lost: no fix was accepted for too long, or the pose is too uncertain. */
+    /** True if the robot is lost: no fix accepted for too long, or the pose is too uncertain. */
     is_lost: boolean;
     /** True if the robot is at rest. */
     is_stationary: boolean;
