@@ -50,7 +50,7 @@ class Sources {
   public:
     /// Collects the sources. Only dotpose-live can read cameras and videos. If a source is a camera
     /// or a video, `dotpose` therefore replaces this process with dotpose-live (live_sources.hpp),
-    /// so no output may be open yet. Throws BadArgument if no source is given or if standard input
+    /// so outputs must be opened later. Throws BadArgument if no source is given or if standard input
     /// is given twice. Throws Error if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
