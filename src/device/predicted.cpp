@@ -58,7 +58,7 @@ std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_p
     return static_cast<std::int32_t>(det_q24);
 }
 
-/// Sets `cells` to the inverse of a plane with the determinant `det_q24`.
+/// Sets `cells` to the inverse of a plane with determinant `det_q24`.
 void invert(const PlaneFromImage& plane, std::int32_t det_q24, CellMap& cells) {
     const FixedVec at_q16 = plane.at_centre_q16;
     const FixedVec du = plane.du_q24;
