@@ -33,7 +33,7 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
-    // If a fix is certain only with the prior, it is used only if the tracker accepted it.
+    // A fix that is certain only with the prior is used only if the tracker accepted it.
     const bool is_with_prior = result.track.verdict == Verdict::with_prior;
     const bool is_fix = strict.status == Status::ok || is_with_prior;
     if (is_fix) {

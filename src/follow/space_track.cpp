@@ -193,7 +193,8 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
 /// - If this fraction is small, the agility determines the gain of the filter. With the correct
 ///   gain, consecutive innovations have equal signs as often as opposite signs. Equal signs
 ///   therefore increase the agility, and opposite signs decrease it.
-/// - If the fraction is large, the gain is about 1 with any agility, and the agility determines
+/// - If the fraction is large, the gain is about 1 regardless of the agility, and the agility
+///   determines
 ///   only the covariance of predictions. With the correct covariance, the mean square of the
 ///   normalised innovation is 1.
 /// `noise` is the independent part of the sighting covariance.

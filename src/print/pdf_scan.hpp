@@ -27,7 +27,7 @@ struct PageContent {
 
 /// Scans the content of a page and of its forms, and adds their unpacked size to `unpacked`. Throws
 /// Error if the content cannot be read completely, because viewers stop at damaged content and
-/// would not show dots that are added after it.
+/// would not show dots added after it.
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 
 /// Returns true if dotpose printed the document, or has already added dots to the page.
