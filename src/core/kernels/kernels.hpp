@@ -340,7 +340,7 @@ struct Kernels {
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
     /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot along an axis is
-    /// `weight_px` times the ratio of the first moment of its window along this axis to the weighted
+    /// `weight_px` times the first moment of its window along this axis, divided by the weighted
     /// darkness sum of the window. If `weight_px` is 0, the factor is estimated from dots in the
     /// middle of the list. Returns the sums of `DotOffsets` over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
