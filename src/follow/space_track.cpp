@@ -194,9 +194,8 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
 ///   gain, consecutive innovations have equal signs as often as opposite signs. Equal signs
 ///   therefore increase the agility, and opposite signs decrease it.
 /// - If the fraction is large, the gain is about 1 regardless of the agility, and the agility
-///   determines
-///   only the covariance of predictions. With the correct covariance, the mean square of the
-///   normalised innovation is 1.
+///   determines only the covariance of predictions. With the correct covariance, the mean square of
+///   the normalised innovation is 1.
 /// `noise` is the independent part of the sighting covariance.
 void adapt_agility(Motion& motion, const Vector6& innovation, const Matrix6& covariance,
                    const Matrix6& noise) {
