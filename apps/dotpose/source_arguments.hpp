@@ -50,8 +50,8 @@ class Sources {
   public:
     /// Collects the sources. Only dotpose-live can read cameras and videos. If a source is a camera
     /// or a video, `dotpose` therefore replaces this process with dotpose-live (live_sources.hpp),
-    /// so outputs must be opened later. Throws BadArgument if no source is given or if standard input
-    /// is given twice. Throws Error if the list, a folder or a glob cannot be read.
+    /// so outputs must be opened later. Throws BadArgument if no source is given or if standard
+    /// input is given twice. Throws Error if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
     /// Returns true if a pipe may deliver more names.
