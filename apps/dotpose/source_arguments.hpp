@@ -54,7 +54,7 @@ class Sources {
     /// input is given twice. Throws Error if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
-    /// Returns true if a pipe may deliver more names.
+    /// Returns true if the list is standard input or a pipe, so its names are not known in advance.
     bool has_pipe() const { return names_.has_pipe(); }
 
     /// Registers the list file and all input files that are already known.

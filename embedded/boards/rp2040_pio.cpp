@@ -134,7 +134,7 @@ void set_up() {
 /// Stops the capture of the previous frame and discards its remaining data.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
-    // Aborting one channel may start the other. Both channels are therefore aborted together, and
+    // Aborting one channel can start the other. Both channels are therefore aborted together, and
     // the abort is repeated once.
     const std::uint32_t both = 1U << channels[0] | 1U << channels[1];
     for (int i = 0; i < 2; ++i) {

@@ -13,7 +13,7 @@
 /// in the image. The scale, rotation and skew of the print are computed from the measured and
 /// nominal positions of the dots.
 ///
-/// A page may contain several fields: patches of a test page (test_page.hpp), or sheets side by
+/// A page can contain several fields: patches of a test page (test_page.hpp), or sheets side by
 /// side. Functions share no state, and throw Error or BadArgument.
 ///
 /// Coordinate frames, both with x right and y DOWN: *pattern* (mm, as printed), *scan* (px,

@@ -61,8 +61,8 @@ inline constexpr double kMaxInkGap_s = 0.1;
 /// Returns the strokes on each page. The pages are ordered by their first strokes. `samples` must
 /// be ordered by time.
 ///
-/// The path is estimated by a fixed-interval smoother (Rauch, Tung and Striebel 1965). Its motion
-/// model has an acceleration driven by white noise, whose power is chosen to maximise the
+/// The path is estimated by a fixed-interval smoother (Rauch, Tung and Striebel 1965). In its
+/// motion model, the acceleration is driven by white noise, whose power is chosen to maximise the
 /// likelihood of the samples. PenContact detects when the pen is lifted from the paper. PenContact
 /// reports the start of a lift late and the end early, so each lift is extended to the adjacent
 /// samples whose smoothed heights are clearly above the paper.

@@ -60,7 +60,7 @@ struct MovingFix {
 MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
                                    const AxisScale& print = {});
 
-/// A MovingFix, corrected with a map of the print if `map_use` is MapUse::used.
+/// A MovingFix that has been corrected with a map of the print if `map_use` is MapUse::used.
 struct MappedMovingFix {
     Fix fix;
     std::optional<ReadoutVelocity> velocity;

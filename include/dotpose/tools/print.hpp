@@ -160,7 +160,7 @@ struct InkRectangle {
     double height_mm = 0;
 };
 
-/// A page that may contain several regions of the code, and other marks. There must be at least one
+/// A page that can contain several regions of the code, and other marks. There must be at least one
 /// sheet. Each sheet must have the width and height of the page.
 struct PrintPage {
     double width_mm = 0;

@@ -27,7 +27,7 @@ struct Time {
     std::uint32_t nanosec = 0;
 };
 
-/// Converts nanoseconds since 1970, or since any other epoch, to a Time message. Times out of range
+/// Converts nanoseconds since 1970, or since any other epoch, to a Time message. Out-of-range times
 /// are clamped.
 Time ros_time(std::int64_t time_ns);
 
