@@ -1,6 +1,6 @@
-// Compares the position errors of the locator with the Cramer-Rao bound, in frames in which noise
-// is the only source of error. The simulator and an independent renderer (dot_image.hpp) draw the
-// frames. Prints a table for docs/accuracy.md in Markdown.
+// Compares the position errors of the locator with the Cramer-Rao bound, in frames whose only
+// source of error is noise. The frames are rendered by the simulator and by an independent renderer
+// (dot_image.hpp). Prints a table for docs/accuracy.md in Markdown.
 //
 //   dotpose_tables bound [--frames N] [--seed S] [--threads N] [--rows R,...]
 #include <algorithm>
@@ -33,7 +33,7 @@ struct BoundFrames {
     int width_px;
     int height_px;
     int spacing_px;
-    /// Angle of the image x axis, or a negative value to draw a random angle for each frame.
+    /// Angle of the image x axis, or a negative value to choose a random angle for each frame.
     double theta_rad;
     double motion_px;  ///< length of the motion blur
     double fall;       ///< relative decrease in illumination across the image

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr int kLensFrames = 20;
-/// Standard deviation of the print jitter in the preset `nominal`.
+/// Standard deviation of the print jitter in the `nominal` preset.
 constexpr double kJitter_mm = 0.010;
 
 /// A kind of camera whose calibration errors are measured.

@@ -61,7 +61,7 @@ Table draw_table(Rng& rng) {
                        1 + rng.uniform(-kPrintError, kPrintError)};
     }
     // Stitching keeps the mean print scale of the first sheet, which is 1 in the sheet file. The
-    // drawn print scales of this sheet are therefore normalised to a mean of 1. They may still
+    // random print scales of this sheet are therefore normalised to a mean of 1, but can still
     // differ between the two axes.
     const double mean = std::sqrt(table[0].print.x * table[0].print.y);
     table[0].print = {table[0].print.x / mean, table[0].print.y / mean};

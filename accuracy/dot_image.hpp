@@ -50,7 +50,7 @@ class DotTable {
     std::vector<double> values_;
 };
 
-/// Draws the frame of a shot. The blur, the motion and the size of the dots come from `dot`. The
+/// Renders the frame of a shot. The blur, motion and size of the dots are taken from `dot`. The
 /// tilt of the pose is ignored, as are all imperfections except the levels of paper and ink, the
 /// illumination gradient and the noise.
 GreyImage draw_with(const DotTable& dot, const Shot& shot);

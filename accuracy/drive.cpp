@@ -34,7 +34,7 @@ struct DriveOptions {
 struct DriveKind {
     const char* name;
     bool has_printing_errors;
-    double noise;  ///< ratio of the noise sigma to that of the preset `nominal`
+    double noise;  ///< ratio of the noise sigma to that of the `nominal` preset
 };
 constexpr std::array kDriveKinds{DriveKind{"nominal", true, 1},
                                  DriveKind{"nominal, four times the noise", true, 4},
@@ -125,7 +125,7 @@ double speed(const Sample& s) {
     return std::hypot(s.truth.vx_mm_s, s.truth.vy_mm_s);
 }
 
-/// Draws the errors of a drive over time, with gaps where the robot is not tracked.
+/// Plots the errors of a drive over time, with gaps where the robot is not tracked.
 void draw_drive(const DriveSamples& run, const std::string& title, const std::string& file) {
     constexpr double kWidth = 900;
     constexpr double kLeft = 80;

@@ -1,4 +1,4 @@
-/// Counts of readings and wrong positions, grouped by p_wrong, for the table `integrity`.
+/// Counts of readings and wrong positions, grouped by p_wrong, for the `integrity` table.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct IntegrityTally {
     /// a smaller p_wrong.
     std::array<Bin, 64> bins;
     std::uint64_t unread = 0;
-    std::uint64_t skipped = 0;  ///< number of grids that were skipped because they are not doubtful
+    std::uint64_t skipped = 0;  ///< number of grids skipped because they are not doubtful
 
     void add(int p_wrong_log2, bool is_wrong) {
         Bin& bin = bins[std::min(static_cast<std::size_t>(-p_wrong_log2), bins.size() - 1)];
@@ -62,8 +62,8 @@ enum class GridKind : std::uint8_t {
     doubtful,  ///< grids with so many errors that p_wrong is between 1e-3 and 1e-5
 };
 
-/// Draws grid `index` of a run, with random bit errors, decodes it, and adds the result to `tally`.
-/// Thread-safe.
+/// Generates grid `index` of a run, with random bit errors, decodes it, and adds the result to
+/// `tally`. Thread-safe.
 void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally);
 
 }  // namespace dotpose::tables

@@ -56,8 +56,8 @@ struct Noise {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// Returns the expected information in a bit of a cell, in bits, averaged over all weights.
-    /// Missing cells contain no information.
+    /// Returns the expected information per cell bit, in bits, averaged over all weights. Missing
+    /// cells contain no information.
     double information() const {
         double sum = 0;
         for (int weight = min_weight; weight <= 127; ++weight)
@@ -69,7 +69,7 @@ struct Noise {
 /// Draws a random `odds_log2` at which a reading of `cells` cells is doubtful. There are 2^36.6
 /// combinations of position, section and turn along one axis, so the decoder needs 36.6 bits of
 /// information to distinguish them. It needs about 30 more bits to make a wrong position unlikely.
-/// The information in the reading is therefore drawn from 60 to 80 bits.
+/// The information in the reading is therefore drawn uniformly from 60 to 80 bits.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;

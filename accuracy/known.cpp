@@ -68,7 +68,7 @@ Setup setup_of(const ViewSize& size, std::uint64_t seed) {
     return setup;
 }
 
-/// Draws a random view that is completely inside a page.
+/// Returns a random view that is completely inside a page.
 Shot draw_on_page(const ViewSize& size, std::uint64_t seed, std::uint64_t index,
                   std::span<const KnownRegion> sheets) {
     Shot shot = draw_shot(setup_of(size, seed), index);

@@ -50,7 +50,7 @@ std::array<Score, 2> score_once_and_twice(const std::string& what, FrameRun fram
     return {score_of(outcomes[0]), score_of(outcomes[1])};
 }
 
-/// Prints the row of one condition and returns the number of wrong fixes.
+/// Prints the table row for one condition and returns its number of wrong fixes.
 int print_limit(const test::Limit& limit, std::uint64_t frames, const TableRun& run) {
     FrameRun frame_run;
     frame_run.frames = frames_of(limit.camera, frames);

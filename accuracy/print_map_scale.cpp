@@ -1,10 +1,10 @@
-// Measures the processor time and the memory that are needed to make a print map of an A4 page from
-// many frames of 640 x 480 px (docs/print-map.md).
+// Measures the CPU time and memory needed to make a print map of an A4 page from many frames of
+// 640 x 480 px (docs/print-map.md).
 //
 //   dotpose_tables print_map_scale [--frames N] [--threads N]
 //
-// The processor time is the sum over all threads, so other programs on the machine hardly affect
-// it. The exit status is 1 unless the map corrects all 50 test frames.
+// The CPU time is the sum over all threads, so other programs on the machine hardly affect it. The
+// exit status is 1 unless the map corrects all 50 test frames.
 #include <algorithm>
 #include <ctime>
 #include <thread>
@@ -26,7 +26,7 @@ struct StageTimes {
     double solving = 0;
 };
 
-/// Adds the processor time of `work` to `sum`.
+/// Adds the CPU time of `work` to `sum`.
 template <typename Work>
 void add_time(double& sum, const Work& work) {
     const std::clock_t start = std::clock();

@@ -1,12 +1,12 @@
-// Measures the processor time and the memory that the print map solver (docs/print-map.md) needs
-// for an A4 page and frames of 640 x 480 px. The dots are simulated directly, because rendering all
-// frames would take hours.
+// Measures the CPU time and memory that the print map solver (docs/print-map.md) needs for an A4
+// page and frames of 640 x 480 px. The dots are simulated directly, because rendering all frames
+// would take hours.
 //
 //   dotpose_tables print_map_solver [--frames N]
 //
-// The processor time is the sum over all threads, so other programs on the machine hardly affect
-// it. The exit status is 1 if the solver needs more than 10 minutes of processor time (5 minutes on
-// each of two cores) or more than 2 GB of memory.
+// The CPU time is the sum over all threads, so other programs on the machine hardly affect it. The
+// exit status is 1 if the solver needs more than 10 minutes of CPU time (5 minutes on each of two
+// cores) or more than 2 GB of memory.
 #include <cmath>
 #include <cstddef>
 #include <ctime>

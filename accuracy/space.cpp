@@ -22,7 +22,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// Standard deviation of the print jitter in the preset `nominal`, per axis.
+/// Standard deviation of the print jitter in the `nominal` preset, per axis.
 constexpr double kJitter_mm = 0.010;
 /// Errors of one method. The error of each coordinate is divided by the Cramer-Rao bound on its
 /// standard deviation.
@@ -43,7 +43,7 @@ struct SpaceTally {
     std::uint64_t located = 0;
     std::uint64_t wrong = 0;
     std::uint64_t ambiguous = 0;
-    std::uint64_t second = 0;  ///< number of frames with a second pose, including ruled-out poses
+    std::uint64_t second = 0;  ///< number of frames with a second pose, even if ruled out
     SpaceErrors ours;
     SpaceErrors opencv;
 

@@ -17,7 +17,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// The lenses from the table `space`, and lenses with a narrow field of view. With a narrow field
+/// The lenses from the `space` table, and lenses with a narrow field of view. With a narrow field
 /// of view, perspective hardly distinguishes the two possible poses.
 constexpr std::array kSecondLenses = {kSpaceLenses[0], kSpaceLenses[1],
                                       SpaceLens{"10 degrees", 167, -0.03e-6},
@@ -33,7 +33,7 @@ constexpr std::array kTiltRanges = {TiltRange{0, 15}, TiltRange{15, 30}, TiltRan
 struct SecondTally {
     std::uint64_t frames = 0;
     std::uint64_t located = 0;
-    std::uint64_t second = 0;  ///< number of frames with a second pose, including ruled-out poses
+    std::uint64_t second = 0;  ///< number of frames with a second pose, even if ruled out
     std::uint64_t ambiguous = 0;
     std::uint64_t swapped = 0;  ///< number of ambiguous frames whose second pose is more accurate
     double expected = 0;        ///< expected value of `swapped`, computed from the odds

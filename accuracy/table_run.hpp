@@ -52,8 +52,8 @@ class TableRun {
     void add_count(const std::string& flag, std::uint64_t& count, const std::string& what);
     void add_seed();
     void add_threads();
-    /// Adds the option --update. Its value is the path of the document whose generated blocks
-    /// `update_document` replaces.
+    /// Adds the --update option: the path of the document in which `update_document` replaces the
+    /// generated blocks.
     void add_update();
     /// Parses the command line. Returns false if the help was requested and has been printed.
     /// Throws cli::UsageError, or Error if the document cannot be read.
@@ -104,7 +104,7 @@ LargeMemory& thread_memory();
 /// Returns the frame and the true pose of a shot. The code variant of the frame is not set.
 KnownFrame known_frame(const Shot& shot);
 
-/// Returns a setup with the preset `nominal` and the given image size.
+/// Returns a setup with the `nominal` preset and the given image size.
 Setup setup_of(std::uint64_t seed, int width_px, int height_px);
 
 }  // namespace dotpose::tables

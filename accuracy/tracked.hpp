@@ -1,4 +1,4 @@
-/// Functions that perform the measurements of the command `tracked`, and counters for the results.
+/// Functions that perform the measurements of the `tracked` command, and counters for the results.
 #pragma once
 
 #include <algorithm>
@@ -124,7 +124,7 @@ struct TrackedTable {
 /// Returns the table for drives at several speeds and frame rates.
 TrackedTable drives_table(const TableRun& run);
 
-/// Returns the table for predictions of increasing error. The frames have the preset `nominal`.
+/// Returns the table for predictions of increasing error. The frames use the `nominal` preset.
 TrackedTable offsets_table(const TableRun& run, std::uint64_t frames);
 
 /// Returns the table for changes between two frames, such as different light, a lifted camera,

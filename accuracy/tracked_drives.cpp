@@ -21,7 +21,7 @@ constexpr std::array kDrives{DriveRate{0, 1},   DriveRate{30, 1},  DriveRate{100
 
 struct DriveTally {
     TrackedTally seen;
-    TrackedTally settled;  ///< results without the first two frames after the robot is put down
+    TrackedTally settled;  ///< results excluding the first two frames after the robot is put down
 };
 
 struct DriveTallies {

@@ -22,7 +22,7 @@ std::int32_t between(std::uint32_t from, std::uint32_t to) {
 }
 
 /// Returns a prediction of the wrong position that shares the most lines with the true position.
-/// Considers only the 10 to 16 lines in the middle of the view, which shows 11 to 18 lines.
+/// The view shows 11 to 18 lines. Only the 10 to 16 lines in its middle are compared.
 template <bool is_along_x>
 Prediction worst(const LocatedPair& views, Rng& rng) {
     const Fix& fix = views.fix;
@@ -98,8 +98,8 @@ GreyImage scattered_dots(const Shot& shot, Rng& rng) {
 struct WrongClass {
     const char* name;
     Prediction (*predict)(const LocatedPair& views, Rng& rng);
-    /// Draws a scene without a valid code, as seen by the camera of the shot. Every prediction for
-    /// this scene is wrong. Null if the class uses the image of the shot.
+    /// Renders a scene without a valid code, as seen by the camera of the shot. Every prediction
+    /// for this scene is wrong. Null if the class uses the image of the shot.
     GreyImage (*draw)(const Shot& shot, Rng& rng) = nullptr;
 };
 constexpr Prediction (*kRight)(const LocatedPair&, Rng&) = displaced<0, 0>;

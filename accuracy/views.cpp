@@ -151,7 +151,7 @@ struct ViewCounts {
     int alone = 0;        ///< number of views located without evidence from other views
     int ambiguous = 0;    ///< number of views refused as `ambiguous_code` without that evidence
     int later_given = 0;  ///< number of views after the first kFirstViews
-    int later = 0;        ///< number of views in `later_given` located with earlier evidence
+    int later = 0;        ///< number of these views located with evidence from earlier views
     int wrong = 0;
     double max_against_log2 = 0;  ///< maximum evidence of one view against the given code, in bits
 };

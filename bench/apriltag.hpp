@@ -10,7 +10,7 @@
 
 namespace dotpose::bench {
 
-/// A frame that shows a tag of the family tag36h11 at the image centre.
+/// A frame that shows a tag of the tag36h11 family at the image centre.
 struct TagFrame {
     GreyImage image;
     int id = 0;

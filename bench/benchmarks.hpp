@@ -126,7 +126,7 @@ struct HardTimes {
     double p99_ms = 0;
     double longest_ms = 0;
 };
-/// Measures how long `locate` takes for frames of the preset `hard`. Throws Error if a fix is
+/// Measures how long `locate` takes for frames with the `hard` preset. Throws Error if a fix is
 /// wrong.
 HardTimes time_hard_frames(int frames);
 std::string hard_table(const HardTimes& times);

@@ -9,7 +9,7 @@ namespace {
 /// Number of lanes that count pixels in parallel. Each lane is an 8-bit counter, which allows the
 /// compiler to use the widest vectors of the processor.
 constexpr std::size_t kLanes = 64;
-/// Maximum number of steps before an 8-bit lane may overflow.
+/// Maximum number of steps before an 8-bit lane can overflow.
 constexpr std::size_t kMaxSteps = 255;
 
 std::uint32_t count_steps(std::span<const std::uint8_t> pixels, std::uint8_t level) {

@@ -48,7 +48,7 @@ namespace {
 
 /// Locates the frame with `count_frame_in_any_code` and with `count_frame_in_code`, and returns
 /// true. Calls neither function and returns false if the first attempt does not locate the frame in
-/// the code `anoto`.
+/// the `anoto` code.
 bool compare_codes(const ImageView& image, Locator& locator) {
     const auto is_settled = [](const CodeReading& reading) {
         return reading.fix.status == Status::ok && reading.fix.attempt == Attempt::first &&

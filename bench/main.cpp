@@ -96,7 +96,7 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
                               [](const FrameTimes& t) { return t.camera.width_px; });
 }
 
-/// Returns two worst values over all tilts: the lowest percentage of frames that the first attempt
+/// Returns the worst values over all tilts: the lowest percentage of frames that the first attempt
 /// locates, and the highest ratio of the median time to the median time without tilt.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     double fraction = 100;

@@ -175,7 +175,7 @@ bool fit_affine_pose(Located& l) {
 struct NamedStage {
     const char* name;
     Stage run;
-    bool is_part = false;  ///< true if this stage is part of the stage `position`
+    bool is_part = false;  ///< true if this stage is part of the `position` stage
 };
 constexpr std::array kStages = {
     NamedStage{"light", measure_light},

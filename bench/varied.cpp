@@ -59,7 +59,7 @@ Subject locating(const std::vector<KnownFrame>& frames, Effort effort, SmallMemo
     return subject;
 }
 
-/// Returns the method that uses only the first attempt, and no AVX2 instructions.
+/// Returns the method that uses only the first attempt, without AVX2 instructions.
 Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {

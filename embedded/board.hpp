@@ -1,4 +1,4 @@
-/// Interface between main.cpp and a board: three functions, which each port in boards/ implements.
+/// Interface between main.cpp and a board: three functions that each port in boards/ implements.
 /// docs/porting.md describes how to write a port.
 #pragma once
 

@@ -15,7 +15,7 @@ TrackOptions PoseSender::device_tracking() {
 }
 
 /// Begins a frame with the prediction from the tracker, or without a prediction if the previous
-/// frame gave no pose. A wrong prediction may be the reason why there was no pose: the rows of a
+/// frame gave no pose. The pose may have been missing because of a wrong prediction: the rows of a
 /// frame are not stored, so a frame that does not confirm its prediction cannot be located again
 /// without the prediction.
 Status PoseSender::begin(const board::Frame& frame) {

@@ -1,5 +1,5 @@
-// Runs a microcontroller program on a desktop. The program processes each image row by row, as a
-// camera delivers the rows, and writes each pose as a packet of 32 bytes.
+// Runs a microcontroller program on a desktop. The program processes each image row by row, as if
+// the rows came from a camera, and writes each pose as a 32-byte packet.
 //
 //     dotpose_device_packets frames/*.pgm > packets.bin
 //     dotpose listen packets.bin

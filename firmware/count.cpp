@@ -69,8 +69,8 @@ struct Stage {
     std::uint64_t count = 0;  ///< number of instructions in the current frame
 };
 
-/// The state is global, because QEMU passes only one pointer to callbacks. The emulated machine has
-/// one processor, so all callbacks run in one thread.
+/// State of the plugin. The only instance is global, because QEMU passes only one pointer to
+/// callbacks. The emulated machine has one processor, so all callbacks run in one thread.
 struct Counter {
     std::deque<Stage> stages = {{0, "other"}};
     Stage* current = &stages.front();

@@ -10,7 +10,7 @@ dotpose::DeviceOptions program_options();
 void set_known_sheet(dotpose::DeviceLocator& locator);
 
 /// Locates the frames in the file at `path`. The file is a sequence of binary PGM images (P5, 8
-/// bits, no comments). An image may be preceded by a prediction, with which the image is tracked.
+/// bits, no comments). An image can be preceded by a prediction, which is then used to track it.
 /// The prediction is a line with the letter T and the integer members of Place (x, y, u, v),
 /// PlaneFromImage (centre, at_centre, du, dv) and displacement_q16, separated by spaces. Prints one
 /// line for each frame:

@@ -12,7 +12,8 @@ extern "C" std::uint32_t stack_bottom[], stack_top[];
 
 inline constexpr std::uint32_t kPaint = 0x5AFEC0DE;
 
-/// Fills the unused stack below the caller's frame with the pattern. Must be called first.
+/// Fills the unused stack below the caller's frame with `kPaint`. Must be called before
+/// `high_water_bytes` and `has_overflown`.
 [[gnu::always_inline]] inline void paint() {
     // Number of words below the frame address that are not filled, because they contain the
     // variables of this function.
@@ -30,8 +31,8 @@ inline std::size_t high_water_bytes() {
     return static_cast<std::size_t>(stack_top - word) * sizeof *word;
 }
 
-/// Returns true if the stack was used completely, and may therefore have overflowed into the memory
-/// below it.
+/// Returns true if the whole stack has been used, in which case it may have overflowed into the
+/// memory below it.
 inline bool has_overflown() {
     return *static_cast<volatile std::uint32_t*>(stack_bottom) != kPaint;
 }

@@ -34,7 +34,7 @@ enum class Adversary : std::uint8_t {
     half_empty,  ///< only one side of the frame contains a pattern
     few_lines,   ///< 5 to 8 columns or rows on blank paper
     slip,        ///< one column or row of dots is missing or occurs twice
-    other_code,  ///< a pattern printed in the code anoto but decoded as libdots, or vice versa
+    other_code,  ///< a pattern in the `anoto` code that is decoded as `libdots`, or vice versa
 };
 inline constexpr std::array kAdversaries = {Adversary::noise,          Adversary::text,
                                             Adversary::halftone,       Adversary::texture,

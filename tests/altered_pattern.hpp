@@ -19,8 +19,7 @@ inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }
 
-/// Returns the symbol of a cell. Each of the two bits differs from the code with the probability
-/// `probability`.
+/// Returns the symbol of a cell, each of whose two bits is flipped with probability `probability`.
 inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::uint64_t seed,
                              Cell cell) {
     Rng rng = rng_of(seed, cell);

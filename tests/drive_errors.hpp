@@ -27,7 +27,7 @@ struct DriveReading {
 };
 
 /// Errors in position (per axis), heading and velocity. A new filter needs some frames to estimate
-/// the velocity, so the rms errors exclude the frame of each event `fix` and the next two frames.
+/// the velocity, so the rms errors exclude the frame of each `fix` event and the next two frames.
 class DriveErrors {
   public:
     void add(const DriveState& truth, const DriveReading& reading) {
@@ -72,7 +72,7 @@ class DriveErrors {
     static double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
     double root_mean(double sum) const { return std::sqrt(sum / settled_); }
 
-    int settling_ = 0;  ///< number of frames since the last event `fix`
+    int settling_ = 0;  ///< number of frames since the last `fix` event
     int fixes_ = 0;
     int wrong_ = 0;
     int settled_ = 0;

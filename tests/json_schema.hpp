@@ -1,5 +1,5 @@
 /// Validates JSON against a JSON Schema (draft 2020-12). Supports only the keywords that are used
-/// in docs/schema. Throws an exception for other keywords, because ignoring them would leave a part
+/// in docs/schema. Throws an exception for other keywords, because ignoring them would leave part
 /// of the schema unchecked.
 #pragma once
 

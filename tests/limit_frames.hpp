@@ -1,4 +1,4 @@
-/// The conditions in docs/limits.md. In each condition, one property of nominal frames has its
+/// The conditions in docs/limits.md. Each condition sets one property of nominal frames to its
 /// worst permitted value. A frame is determined by its condition, seed and index.
 #pragma once
 

@@ -26,9 +26,9 @@ struct SolverInput {
 /// measured dots.
 SolverInput simulated_input(const MappedPrint& print, std::uint64_t frames, std::uint64_t seed);
 
-/// Returns the error of each dot's offset in a solution, in mm. Subtracts the mean shift, rotation
-/// and scale of the errors, because the frames do not determine these means. The means are fitted
-/// to the dots that are visible in at least one frame.
+/// Returns the error of each dot's offset in a solution, in mm. The frames do not determine the
+/// shift, rotation and scale that all dots have in common, so these are fitted to the errors of the
+/// dots that are visible in at least one frame, and subtracted from all errors.
 std::vector<Eigen::Vector2d> offset_errors_mm(const SolverInput& input,
                                               const calibrate::MapSolution& solution);
 

@@ -12,7 +12,7 @@ std::string source_dir();
 /// Returns the path of a built program, or of a library that tests load.
 std::string built(const std::string& name);
 
-/// Returns the path of the built tool `dotpose`.
+/// Returns the path of the built `dotpose` tool.
 std::string tool_path();
 
 }  // namespace dotpose::test

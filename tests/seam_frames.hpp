@@ -55,8 +55,7 @@ struct SeamShot {
     }
 };
 
-/// Ink coverage of each pixel of an image. Includes a border around the image, which the blur
-/// needs.
+/// Ink coverage of each pixel of an image, and of the border around the image that the blur needs.
 class InkMap {
   public:
     InkMap(int width_px, int height_px)
@@ -188,9 +187,9 @@ inline GreyImage render(const SeamShot& shot) {
     return image;
 }
 
-/// Draws a view with a seam at most `max_distance_px` from the image centre, in a random direction.
-/// The far side is shifted by up to half a spacing, and rotated by up to one degree about a random
-/// point of the visible seam.
+/// Returns a random view with a seam at most `max_distance_px` from the image centre. The far side
+/// is shifted by up to half a spacing, and rotated by up to one degree about a random point on the
+/// visible part of the seam.
 inline SeamShot draw_seam_shot(int width_px, int height_px, double max_distance_px,
                                std::uint64_t seed, std::uint64_t index) {
     Rng rng(seed, index);

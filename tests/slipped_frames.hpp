@@ -22,7 +22,7 @@ struct Slip {
     double turn_rad = 0;
 };
 
-/// Returns half the length of the view along a direction in the pattern, in spacings.
+/// Returns half the extent of the view along a direction in the pattern, in spacings.
 inline double half_extent_grid(const Shot& shot, double direction_rad) {
     const double from_u_axis = direction_rad - shot.pose.theta_rad;
     return (std::abs(std::cos(from_u_axis)) * shot.camera.width_px +
@@ -30,8 +30,8 @@ inline double half_extent_grid(const Shot& shot, double direction_rad) {
            shot.camera.mm_per_px / (2 * shot.page.pattern.spacing_mm);
 }
 
-/// Draws a slip whose line crosses the view at a random position and in a random direction. The
-/// displacement is 0.05 to 0.5 spacings in a random direction, and the rotation is at most one
+/// Returns a random slip. Its line crosses the view at a random position and in a random direction.
+/// The displacement is 0.05 to 0.5 spacings in a random direction, and the rotation is at most one
 /// degree.
 inline Slip draw_slip(const Shot& shot) {
     Rng rng(shot.seed, 3);

@@ -15,7 +15,7 @@ class XmlCheck {
   public:
     explicit XmlCheck(std::string_view text) : rest_(text) { check(); }
 
-    /// Returns the fault, or an empty string if the text is well-formed.
+    /// Returns the first problem found, or an empty string if the text is well-formed.
     const std::string& problem() const { return problem_; }
 
   private:

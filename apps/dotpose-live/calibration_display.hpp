@@ -1,6 +1,6 @@
 /// Displays the progress of `dotpose calibrate --live` in a window or, if no window can be opened,
-/// in the terminal. Without a window and a terminal, writes a line to standard error whenever the
-/// status changes.
+/// in the terminal. If neither is available, writes a line to standard error whenever the status
+/// changes.
 #pragma once
 
 #include <atomic>

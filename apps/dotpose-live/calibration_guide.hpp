@@ -63,8 +63,8 @@ struct GuideResult {
     Camera camera;
     std::string report;                           ///< report as printed by `dotpose calibrate`
     bool is_good = true;                          ///< false if the verdict is a warning
-    std::optional<ResidualField> residuals = {};  ///< set only by the step `lens`
-    std::vector<SpinStation> stations = {};       ///< set only by the step `spin`
+    std::optional<ResidualField> residuals = {};  ///< set only by the `lens` step
+    std::vector<SpinStation> stations = {};       ///< set only by the `spin` step
     std::vector<std::string> improvements = {};   ///< ways to improve the result with more frames
 };
 
@@ -74,12 +74,12 @@ struct GuideState {
     int frames = 0;  ///< number of collected frames
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what the user should do now
-    std::optional<CalibrationStatus> lens;  ///< progress of the step `lens`
+    std::optional<CalibrationStatus> lens;  ///< progress of the `lens` step
     /// True for each direction for which enough frames have been collected. A direction is a
     /// heading of the turning robot, or a direction in which the pen must be tilted.
     std::vector<bool> directions;
     std::vector<PenLean> leans;      ///< tilts of the pen
-    std::vector<std::string> needs;  ///< unmet requirements, not used in the step `lens`
+    std::vector<std::string> needs;  ///< unmet requirements, unused in the `lens` step
     std::string problem;             ///< reason why the step failed or the file was not written
     std::optional<GuideResult> result;
     std::optional<Camera> camera;  ///< newest saved camera, initially GuideOptions::camera
@@ -149,7 +149,7 @@ class CalibrationGuide {
     bool stops_ = false;
     GuideState state_;
     std::uint64_t version_ = 0;
-    std::unique_ptr<GuidedFrames> guided_;  ///< null during the step `lens`
+    std::unique_ptr<GuidedFrames> guided_;  ///< null during the `lens` step
     int lost_ = 0;                          ///< number of consecutive frames without a fix
     std::optional<Camera> saved_camera_;
     Clock::time_point next_offer_{};

@@ -26,7 +26,7 @@ class CalibrationJob {
 
     bool is_running() const { return job_.valid(); }
 
-    /// Starts a calibration with these frames. No calibration may be running.
+    /// Starts a calibration with these frames. Must not be called while a calibration is running.
     void start(Frames frames);
 
     /// Waits up to `patience` for the running calibration. Returns true if it has finished. A

@@ -1,4 +1,4 @@
-/// Progress of a lens calibration, as displayed in the window, the terminal and the web page.
+/// Progress of a lens calibration, as displayed in the window, in the terminal and on the web page.
 #pragma once
 
 #include <optional>

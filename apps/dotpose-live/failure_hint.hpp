@@ -14,12 +14,12 @@ namespace dotpose::cli {
 
 class FailureHint {
   public:
-    /// Must be called after each frame. `options` are the options with which the frame was located.
+    /// Must be called after each frame. `options` are the options used to locate the frame.
     /// `bits_per_px` is the bit rate of the source (capture/frame_source.hpp). Returns a hint for
-    /// the user if this frame failed, and if more than half of the frames in the last second, and
-    /// at least three of them, failed. Returns an empty string otherwise, and during the first
-    /// second. The hint is not repeated until the fraction of failed frames in the last second has
-    /// dropped to one half or less.
+    /// the user if this frame failed, and if more than half of the frames in the last second, but
+    /// at least three, failed. Returns an empty string otherwise, and during the first second. The
+    /// hint is not repeated until the fraction of failed frames in the last second has dropped to
+    /// one half or less.
     std::string after(const Reading& reading, ImageView image, const DeviceOptions& options,
                       double bits_per_px);
 

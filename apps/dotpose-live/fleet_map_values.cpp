@@ -29,8 +29,8 @@ void append(std::string& bytes, const draw::Point& at, const draw::Point& origin
     append(bytes, static_cast<float>(at.y - origin.y));
 }
 
-/// Returns the first part of a message: the JSON text of `head`, after its length in bytes as a
-/// 32-bit number.
+/// Returns the first part of a message: the length of the JSON text of `head` in bytes, as a 32-bit
+/// number, followed by the text.
 std::string message_with(const nlohmann::json& head) {
     const std::string text = head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     std::string bytes;

@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// Maximum number of trail points in a message, over all robots.
+/// Maximum total number of trail points in a message, for all robots together.
 inline constexpr std::size_t kMaxTrailPoints = 20'000;
 
 /// Returns the robots in the requested part of a map. The request has the arguments `map` (default:

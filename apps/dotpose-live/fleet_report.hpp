@@ -49,7 +49,7 @@ void sort_by_attention(FleetRobots& robots, const FleetMap& map);
 enum class Layout { wide, narrow };
 
 /// Return the header or one row of the table, without a line break. The reason, the map and the
-/// sheet are not truncated, so a row may have any width.
+/// sheet are not truncated, so the width of a row is not limited.
 std::string table_header(Layout layout);
 std::string table_row(const std::string& name, const FleetRobot& robot, const FleetMap& map,
                       Layout layout, Delivery delivery);

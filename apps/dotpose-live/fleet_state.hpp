@@ -82,7 +82,7 @@ struct CameraTotals {
 
 class FleetState {
   public:
-    /// Maximum number of robots. When a further robot appears, the robot that has sent no message
+    /// Maximum number of robots. When another robot appears, the robot that has sent no message
     /// for the longest time is removed.
     static constexpr std::size_t kMaxRobots = 10'000;
 

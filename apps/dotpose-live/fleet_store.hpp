@@ -55,7 +55,7 @@ class FleetStore {
     }
     store::QueueStatus status() const { return queue_.status(); }
 
-    /// Waits up to 10 s until the queued states are stored. Reports how many states were stored and
+    /// Waits up to 10 s for the queued states to be stored. Reports how many states were stored and
     /// how many were dropped. Throws Error if some states were not stored, for example because the
     /// database was unavailable.
     void finish();

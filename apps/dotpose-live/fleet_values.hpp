@@ -47,8 +47,8 @@ std::string summary_value(const FleetSnapshot& snapshot, const FleetState& fleet
 std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Delivery delivery,
                         const serve::Command& request);
 
-/// Returns the newest state, the path and the alerts of a robot. The argument `robot` of the
-/// request is the number of the robot. Returns null if there is no such robot.
+/// Returns the newest state, the path and the alerts of a robot. The request's `robot` argument is
+/// the number of the robot. Returns null if there is no such robot.
 std::string robot_value(const FleetSnapshot& snapshot, const FleetState& fleet, const FleetMap& map,
                         Delivery delivery, const std::deque<RobotAlert>& alerts,
                         const serve::Command& request);

@@ -28,8 +28,8 @@ class FleetView {
     /// table. Returns false if the user wants to quit.
     bool take_keys(const FleetState& fleet, const Now& now);
 
-    /// Updates the table if standard output is a terminal. Also draws the map, which may take at
-    /// most a tenth of the run time: if a drawing takes t seconds, the next one starts at least 9 t
+    /// Updates the table if standard output is a terminal. Also draws the map, but limits drawing
+    /// to a tenth of the run time: if a drawing takes t seconds, the next one starts at least 9 t
     /// seconds later.
     void refresh(const FleetState& fleet, const Now& now);
 

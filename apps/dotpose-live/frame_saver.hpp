@@ -25,10 +25,10 @@ class FrameSaver {
     /// Creates the folder, whose parent must exist. Throws Error if the folder cannot be created.
     explicit FrameSaver(SaveOptions options);
 
-    /// Saves the frame if it is one of the frames that SaveOptions::every selects. The names of the
-    /// files are frame_000000, frame_000001 and so on, with the extension of the format. Numbering
-    /// continues after the highest number in the folder, and existing files are never overwritten.
-    /// Throws Error if the image cannot be written.
+    /// Saves the frame if SaveOptions::every selects it. Files are named frame_000000, frame_000001
+    /// and so on, with the extension of the format. Numbering continues after the highest number in
+    /// the folder, and existing files are never overwritten. Throws Error if the image cannot be
+    /// written.
     void take(ImageView image, const Fix& fix);
 
     std::int64_t saved() const { return saved_; }

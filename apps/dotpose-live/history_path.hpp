@@ -41,7 +41,7 @@ class HistoryPath {
     std::size_t points_ = 0;
     double step_mm_ = 0.1;  ///< minimum distance between points
     store::State newest_;   ///< newest state on the map
-    /// Number of states on each other map (20 maps at most).
+    /// Number of states on each of the other maps (at most 20 maps).
     std::map<std::string, std::size_t> elsewhere_;
 };
 

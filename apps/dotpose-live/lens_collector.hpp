@@ -85,7 +85,7 @@ class LensCollector {
     bool finish(const std::function<bool()>& goes_on);
 
     /// Returns the last calibration. Must be called after `finish`. Throws Error if the calibration
-    /// failed, or if the frames are not sufficient for the verdict `good`. In the latter case, the
+    /// failed, or if the frames are not sufficient for the `good` verdict. In the latter case, the
     /// message names the unmet requirements.
     const LensCalibration& result() const;
 

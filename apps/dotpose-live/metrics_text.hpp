@@ -13,8 +13,7 @@ namespace dotpose::cli {
 /// MIME type of the format.
 inline constexpr const char* kMetricsType = "text/plain; version=0.0.4; charset=utf-8";
 
-/// Collects the samples of metrics. `begin` starts a metric, and the samples added next belong to
-/// it.
+/// Collects metric samples. `begin` starts a metric, and the samples added next belong to it.
 class MetricsText {
   public:
     void begin(std::string_view name, std::string_view type, std::string_view help) {

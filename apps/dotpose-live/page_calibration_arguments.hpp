@@ -1,5 +1,5 @@
-/// The option --calibrate-to. It specifies the camera file to which the web page of `dotpose watch
-/// --web` may save a calibration.
+/// The --calibrate-to option, which names the camera file in which the web page of
+/// `dotpose watch --web` saves calibrations.
 #pragma once
 
 #include <optional>

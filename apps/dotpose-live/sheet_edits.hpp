@@ -52,7 +52,7 @@ class SheetEdits {
 
     /// Removes a sheet. Throws Error if it is the only sheet in the file, because `dotpose watch`
     /// needs at least one sheet. If the removal is undone, the sheet is appended to the file, and
-    /// keys of the sheet that dotpose does not recognise are lost.
+    /// any keys in its entry that dotpose does not recognise are lost.
     void remove(const Target& target);
 
     /// Replaces the world poses and print scales of several sheets with the values in `measured`,

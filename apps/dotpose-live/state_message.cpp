@@ -19,7 +19,7 @@ constexpr std::int64_t kMicro = 1'000'000;
 /// Subject names as used in topics, indexed by Subject.
 constexpr std::string_view kSubjects[] = {"visualization", "connection"};
 
-/// Returns the JSON members with which every message starts.
+/// Returns the JSON members at the start of every message.
 nlohmann::ordered_json header(const std::string& robot, std::uint64_t id, std::int64_t sent_us) {
     return {{"headerId", id},
             {"timestamp", timestamp(sent_us)},

@@ -1,6 +1,6 @@
-/// JSON messages from robots according to VDA 5050, version 2.0.0: poses on the topic
-/// `visualization`, and the connection state on the topic `connection` (docs/live.md). Also defines
-/// the alerts that `dotpose fleet` publishes (docs/fleet.md).
+/// JSON messages from robots according to VDA 5050, version 2.0.0: poses on the `visualization`
+/// topic, and the connection state on the `connection` topic (docs/live.md). Also defines the
+/// alerts that `dotpose fleet` publishes (docs/fleet.md).
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ namespace dotpose::cli {
 inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 
 /// Prefix of all alert topics. A topic has the form kAlertRoot/ROBOT. Alert topics are not below
-/// kTopicRoot, because a broker may allow each robot to publish below kTopicRoot/ROBOT, but robots
-/// must not be able to publish alerts.
+/// kTopicRoot. A broker can therefore allow each robot to publish below kTopicRoot/ROBOT without
+/// also allowing it to publish alerts.
 inline constexpr const char* kAlertRoot = "dotpose/alerts";
 
 /// Values of `connectionState`, indexed by publish::Presence.

@@ -55,8 +55,8 @@ void StitchJob::offer(const Reading& reading, ImageView image) {
         if (!is_near_edge(reading.record, image) || !places_.take(reading.record.fix, image))
             return;
     } else {
-        // Also examines frames without a fix, but at most one every 500 ms. They may show a seam,
-        // because the two patterns at a seam may prevent a fix.
+        // Also examines frames without a fix, but at most one every 500 ms. Such a frame may show a
+        // seam, where the presence of two patterns can prevent a fix.
         constexpr std::chrono::milliseconds kPause(500);
         const Clock::time_point now = Clock::now();
         if (now < unlocated_at_ + kPause) return;

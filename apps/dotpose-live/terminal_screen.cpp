@@ -21,8 +21,8 @@ constexpr std::string_view kTopLeft = "\033[H";
 constexpr std::string_view kEraseRight = "\033[K";
 constexpr std::string_view kEraseBelow = "\033[J";
 
-/// Bytes that terminals send for keys. They are compared in this order, so a sequence must precede
-/// its own prefixes.
+/// Byte sequences that terminals send for keys. The input is matched against them in this order, so
+/// a sequence must precede its own prefixes.
 constexpr std::array<std::pair<std::string_view, Key>, 22> kKeys = {{
     {"\033[5~", Key::page_up},
     {"\033[6~", Key::page_down},

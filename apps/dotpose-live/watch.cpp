@@ -88,7 +88,7 @@ void report_problems(const Reading& reading, ImageView image, const Follower& fo
 
 FollowerOptions options_of(const WatchArguments& arguments) {
     FollowerOptions options = arguments.follower.read();
-    options.locate.show_stages = true;  // the window and the recording display the stages
+    options.locate.show_stages = true;  // for the window, its recording and the web page
     options.track.spacing_mm = static_cast<float>(options.spacing_mm);
     return options;
 }

@@ -17,7 +17,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum DDS domain. Higher domains would require port numbers above 65,535.
+/// Maximum DDS domain ID. Higher IDs would require port numbers above 65,535.
 constexpr int kLastDomain = 232;
 
 const std::map<std::string, ImageEncoding> kFrameFormats = {

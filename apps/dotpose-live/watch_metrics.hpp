@@ -18,7 +18,7 @@ class WatchMetrics {
     /// total number of dropped frames.
     void take(Status status, const WatchTally& tally, std::int64_t dropped, double rate_hz);
 
-    /// Returns the metrics in the text format of Prometheus.
+    /// Returns the metrics in the Prometheus text format.
     std::string text() const;
 
   private:

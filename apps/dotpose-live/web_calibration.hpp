@@ -1,4 +1,4 @@
-/// The page `/calibration` of `dotpose watch --web`: its topic `calibration` and its commands.
+/// The `/calibration` page of `dotpose watch --web`: the `calibration` topic and the commands.
 #pragma once
 
 #include <chrono>

@@ -29,7 +29,7 @@ struct HistoryRequest {
     double last_s = 0;
     double from_s = 0;
     double to_s = 0;
-    double ask = 0;  ///< number that the page changes to repeat a request
+    double ask = 0;  ///< changed by the page to repeat an otherwise identical request
     bool operator==(const HistoryRequest&) const = default;
 };
 

@@ -1,4 +1,4 @@
-/// The topic `history`, which provides the stored states of a robot to the web page of `dotpose
+/// The `history` topic, which provides the stored states of a robot to the web page of `dotpose
 /// fleet --web --store`.
 ///
 /// A low-priority thread reads the database through its own connection, so the live values on the

@@ -30,8 +30,7 @@ struct WebSheetsOptions {
     std::optional<Camera> camera;
 };
 
-/// Topics about sheets. They exist even without a sheet file, because web pages always subscribe to
-/// them.
+/// Sheet topics. They exist even without a sheet file, because web pages always subscribe to them.
 struct SheetTopics {
     /// Adds the topics to the server. Must be called before the server is started.
     explicit SheetTopics(serve::Server& server);

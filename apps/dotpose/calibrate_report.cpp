@@ -184,8 +184,8 @@ std::string print_scale_text(double scale, double sigma) {
                        is_scale_known(sigma) ? "" : " (UNKNOWN)");
 }
 
-/// Appends the print scales of the sheets, and a line that names the sheet or camera to which the
-/// scales refer.
+/// Appends the print scales of the sheets, and a line that names the sheet or camera that
+/// determines the absolute scale.
 void add_print_scales(std::string& text, const Stitching& stitching) {
     bool are_all_scales_known = true;
     std::string fixed;

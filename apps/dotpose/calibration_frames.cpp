@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of frames chosen from one source. More frames would only take longer and would
-/// not improve the result.
+/// Maximum number of frames chosen from one source. More frames would take longer without improving
+/// the result.
 constexpr std::size_t kMaxChosen = 50;
 
 Follower follower_for(const CalibrateOptions& calibration) {

@@ -101,9 +101,9 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Returns a remark about the position of the dots on the page. It states by how much scaling by
-/// the printer driver can shift the dots. The actual shift cannot be measured, because the scan
-/// does not show the edges of the paper.
+/// Returns a remark about the position of the dots on the page. The remark states how far the
+/// printer driver can shift the dots by scaling the page. The actual shift cannot be measured,
+/// because the scan does not show the edges of the paper.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
     // Returns the maximum shift of the first dot along one axis. Assumes that the driver scales the

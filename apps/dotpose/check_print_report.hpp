@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// The checked image and the sheets with which it was compared.
+/// The checked image and the sheets that it was compared with.
 struct CheckedScan {
     std::string file;
     int page = 1;   ///< number of the checked page

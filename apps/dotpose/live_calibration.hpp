@@ -17,10 +17,10 @@ struct LiveCalibrationOptions {
 
 /// Captures frames while the user moves the camera, displays the unmet requirements, and calibrates
 /// the lens. Stops capturing when there are enough frames, when the source ends, or when the user
-/// ends the capture. If called in the program dotpose, replaces the process with dotpose-live.
+/// ends the capture. If called in `dotpose`, replaces the process with dotpose-live.
 /// Throws Error in these cases:
 /// - The source fails.
-/// - There are too few frames for the verdict `good`. The error message lists the unmet
+/// - There are too few frames for the `good` verdict. The error message lists the unmet
 ///   requirements.
 LensCalibration calibrate_live(const SourceArguments& arguments, Sources& sources,
                                const CalibrateOptions& calibration,

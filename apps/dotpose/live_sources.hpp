@@ -23,7 +23,7 @@ std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
 /// Creates a video file: H.264 if the name ends in .mp4, and Motion JPEG if it ends in .avi. Throws
-/// Error if called in the program dotpose, because only dotpose-live can write videos.
+/// Error if called in `dotpose`, because only dotpose-live can write videos.
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

@@ -63,7 +63,7 @@ std::string reason(const Record& record);
 /// Returns all fields in output order.
 std::vector<Field> fields(const Record& record, Units units);
 
-/// Returns the fields that are output only with --sheets. The field `sheet` is null if the fix is
+/// Returns the fields that are output only with --sheets. The `sheet` field is null if the fix is
 /// not on any sheet.
 std::vector<Field> sheet_fields(const Record& record, Units units);
 

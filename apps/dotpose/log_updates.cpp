@@ -173,8 +173,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // The column `plane` is empty while the robot is lost. In this case, a value in the column x_m
-    // shows that the fix is on a sheet with a world pose.
+    // The `plane` column is empty while the robot is lost. In this case, a value in the `x_m`
+    // column indicates that the fix is on a sheet with a world pose.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

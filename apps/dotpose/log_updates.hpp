@@ -1,5 +1,5 @@
-/// Converts log rows to robot states, from which ROS messages are made. The logs are written by
-/// `dotpose watch --log`.
+/// Converts log rows written by `dotpose watch --log` to robot states, which are then converted to
+/// ROS messages.
 #pragma once
 
 #include "dotpose/tools/robot_messages.hpp"

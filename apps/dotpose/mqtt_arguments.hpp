@@ -1,4 +1,4 @@
-/// Command-line options of the commands `watch`, `listen` and `fleet` for the MQTT broker.
+/// Command-line options for the MQTT broker, used by the commands `watch`, `listen` and `fleet`.
 #pragma once
 
 #include <string>

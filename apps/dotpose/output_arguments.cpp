@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Adds the option -o. If the file name after -o ends with `ending` and the option `format` is not
+/// Adds the -o option. If the file name after -o ends with `ending` and the `format` option is not
 /// given, calls `choose` to select the format. `format` must be added before -o, because it must
 /// also be parsed before -o.
 void add_out_option(Command& command, std::string& out, const std::string& help,

@@ -52,8 +52,8 @@ void require_apart(const OverlayArguments& arguments) {
     files.writes("-o", arguments.out, Content::own);
 }
 
-/// Returns the print settings that are stored in a page's entry in the sheet file. The command in
-/// these settings does not contain the password.
+/// Returns the print settings to store in a page's entry in the sheet file. The stored command line
+/// omits the password.
 SheetPrint print_of(const OverlayArguments& arguments, int document_page, int pages) {
     std::set<std::string> left_out = SheetEntryArguments::options_of_entering();
     left_out.insert({"--password", "--copies", "--paper"});

@@ -217,7 +217,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
-    // Only with this effort does the trace contain the grid of blobs.
+    // The trace contains the grid of blobs only at this effort level.
     blobs.effort = Effort::device;
     blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
@@ -249,7 +249,7 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Returns the advice to specify a code, or an empty string. If the code is not given, a position
+/// Returns advice to specify a code, or an empty string. If the code is not given, a position
 /// may be uncertain only because positions in other codes are also possible. If the position is
 /// certain when only one of the codes is tried, the advice names this code.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {

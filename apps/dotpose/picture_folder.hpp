@@ -18,8 +18,8 @@ bool is_picture_name(const std::filesystem::path& path);
 class PictureFolder {
   public:
     /// Creates the folder, unless `path` names a picture. The parent folder must exist. `files` are
-    /// the files of the run, which no picture may overwrite. Throws Error if the folder cannot be
-    /// created.
+    /// the files of the run, and pictures must not overwrite them. Throws Error if the folder
+    /// cannot be created.
     PictureFolder(std::filesystem::path path, const RunFiles& files);
 
     /// Writes a picture, with the name of the image as its title. In a folder, the file name is

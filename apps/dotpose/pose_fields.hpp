@@ -25,10 +25,10 @@ struct PlanePose {
     PoseCovariance covariance{};
 };
 
-/// Returns the pose of a fix in the pattern frame. The fix must be ok.
+/// Returns the pose of a fix in the pattern frame. The status of the fix must be `ok`.
 PlanePose pattern_pose(const Fix& fix, double spacing_mm);
 
-/// Returns the pose with y and the angle negated, which converts between y down and y up.
+/// Converts a pose between y down and y up, by negating y and the angle.
 PlanePose with_other_y(const PlanePose& pose);
 
 /// Field names of a pose and its covariance, such as x_mm, y_mm, theta_deg and covariance_mm_deg.

@@ -81,7 +81,7 @@ std::string title_of(const PrintArguments& arguments) {
     return system::path_of(arguments.out).stem().string();
 }
 
-/// Returns the print settings that are stored in a page's entry in the sheet file.
+/// Returns the print settings to store in a page's entry in the sheet file.
 SheetPrint print_of(const PrintArguments& arguments) {
     SheetPrint print;
     print.title = title_of(arguments);

@@ -34,7 +34,7 @@ std::int64_t now_ns() {
 }
 
 /// Records the first signal. A second signal terminates the program immediately if it arrives more
-/// than 500 ms after the first. An earlier second signal is ignored, because the program `timeout`
+/// than 500 ms after the first. An earlier second signal is ignored, because the `timeout` program
 /// sends two signals in quick succession: one to the program and one to its process group.
 void on_signal(int signal_number) {
     constexpr std::int64_t kTwice_ns = 500'000'000;

@@ -29,9 +29,9 @@ std::string duration_text(double seconds);
 /// hides the line until the next update. Only one progress line may exist at a time.
 class ProgressLine {
   public:
-    /// `out` is the file to which the command writes its output lines. An empty path or "-" means
-    /// standard output. The progress line is not shown if the output lines appear on a terminal,
-    /// because they already indicate the progress.
+    /// `out` is the file for the output lines of the command. An empty path or "-" means standard
+    /// output. The progress line is not shown if the output lines appear on a terminal, because
+    /// they already indicate the progress.
     ProgressLine(std::string what, const std::string& out);
     explicit ProgressLine(std::string what);
     ~ProgressLine();

@@ -1,5 +1,5 @@
-/// The option --robot sets the name of a robot, which appears in MQTT topics and ROS names. The
-/// option --frame-prefix sets the prefix of the robot's coordinate frames in ROS.
+/// The --robot option sets the name of a robot, as it appears in MQTT topics and ROS names. The
+/// --frame-prefix option sets the prefix of the robot's coordinate frames in ROS.
 #pragma once
 
 #include <string>

@@ -59,8 +59,8 @@ class RunFiles {
     /// Registers a file that is read, changed and rewritten, or created if it does not exist.
     void updates(const std::string& option, const std::string& path, Content content);
 
-    /// Checks an input in the same way as `reads`, but does not store the path, because a run may
-    /// have an unlimited number of inputs.
+    /// Checks an input in the same way as `reads`, but does not store the path, because the number
+    /// of inputs is not limited.
     void require_not_written(const std::string& path) const;
 
     /// Checks an output in the same way as `writes`, but does not store the path. Use this function

@@ -43,7 +43,7 @@ class LogCells {
 };
 
 /// Reads a log row by row. The functions throw Error, with the line number, if the file is not a
-/// valid log. An incomplete last line, which a power failure may cause, is ignored.
+/// valid log. An incomplete last line, for example after a power failure, is ignored.
 class LogReader {
   public:
     /// Columns that `read_log` needs. Logs written by `watch --log` contain all of them.
@@ -91,7 +91,7 @@ struct LogRow {
     std::string plane;  ///< pattern or world, or empty if the robot is lost
     int dots_seen = 0;
     std::optional<double> p_wrong;
-    // Position and speed of the robot, as tracked. There is no position while the robot is lost.
+    // Tracked position and speed of the robot. There is no position while the robot is lost.
     std::optional<double> x_mm;
     std::optional<double> y_mm;
     double speed_mm_s = 0;
@@ -121,7 +121,7 @@ struct RunStatistics {
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);
 
-/// Draws an SVG with the path, and with plots of the speed, the number of dots and the certainty
+/// Returns an SVG image of the path, with plots of the speed, the number of dots and the certainty
 /// over time. Periods without a fix are marked in the plots.
 std::string draw_run(const std::vector<LogRow>& rows, const std::string& title);
 

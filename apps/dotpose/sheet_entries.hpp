@@ -14,7 +14,7 @@ namespace dotpose::cli {
 
 class SheetEntryArguments {
   public:
-    /// Adds the options. The option --origin must already have been added to the command.
+    /// Adds the options. The --origin option must already have been added to the command.
     void add_to(Command& command);
 
     /// Returns true if a sheet file is given. `reserve`, `enter` and `confirm` require one.

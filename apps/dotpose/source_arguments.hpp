@@ -35,8 +35,8 @@ struct SourceArguments {
     /// Adds only --size, --fps, --exposure, --gain, --flip and --roi.
     void add_frame_options(Command& command);
 
-    /// If the flag `flip` is set in `camera`, makes the sources flip their frames. Then clears the
-    /// flag, because the sources deliver frames that are already flipped.
+    /// If the `flip` flag is set in `camera`, makes the sources flip their frames. Then clears the
+    /// flag, because the frames from the sources are already flipped.
     void flip_as(std::optional<Camera>& camera);
 
     /// Calls `flip_as`. If --roi is given and the camera file describes full frames, restricts
@@ -50,11 +50,11 @@ class Sources {
   public:
     /// Collects the sources. Only dotpose-live can read cameras and videos. If a source is a camera
     /// or a video, `dotpose` therefore replaces this process with dotpose-live (live_sources.hpp),
-    /// so no output may be open yet. Throws BadArgument if no source is given or if standard input
-    /// is given twice. Throws Error if the list, a folder or a glob cannot be read.
+    /// so outputs must be opened later. Throws BadArgument if no source is given or if standard
+    /// input is given twice. Throws Error if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
-    /// Returns true if a pipe may deliver more names.
+    /// Returns true if the list is standard input or a pipe, so its names are not known in advance.
     bool has_pipe() const { return names_.has_pipe(); }
 
     /// Registers the list file and all input files that are already known.

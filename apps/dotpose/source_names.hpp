@@ -19,7 +19,7 @@ class SourceNames {
 
     const std::vector<std::string>& known() const { return known_; }
 
-    /// Returns true if a pipe may deliver more names.
+    /// Returns true if the list is standard input or a pipe, so its names are not known in advance.
     bool has_pipe() const { return is_pipe_; }
 
     /// Returns the next name, or none after the last name. Throws Error if the list cannot be read

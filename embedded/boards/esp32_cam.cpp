@@ -1,5 +1,5 @@
-// Port for the AI-Thinker ESP32-CAM (OV2640) with ESP-IDF 5.1 or later and the component
-// espressif/esp32-camera 2. The port was reviewed, but neither compiled nor run.
+// Port for the AI-Thinker ESP32-CAM (OV2640) with ESP-IDF 5.1 or later and version 2 of the
+// espressif/esp32-camera component. The port was reviewed, but neither compiled nor run.
 //
 // The driver delivers whole frames by DMA to two buffers. The port reads the central 188 x 120 px
 // of each frame (or the size set in board.hpp). Focus the lens at a distance of about 19 mm
@@ -88,7 +88,7 @@ void set_up() {
     // The frames are stored in the internal RAM, which is large enough for QVGA frames and faster
     // than external PSRAM.
     config.fb_location = CAMERA_FB_IN_DRAM;
-    // With this mode, the driver returns the newest frame after a pause, instead of the oldest
+    // In this mode, the driver returns the newest frame after a pause, instead of the oldest
     // queued frame.
     config.grab_mode = CAMERA_GRAB_LATEST;
     while (esp_camera_init(&config) != ESP_OK)

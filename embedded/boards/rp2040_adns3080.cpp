@@ -81,7 +81,7 @@ void set_up() {
 
 /// Reads the pixels of the captured frame, column by column from the lower left corner. Each byte
 /// contains the upper six bits of a grey level. The order of the pixels has not been verified on a
-/// real sensor. If frames have the status `mirrored`, reverse the columns.
+/// real sensor. If the status of frames is `mirrored`, reverse the columns.
 void read_pixels() {
     gpio_put(kSelect, false);
     transfer(kPixelBurst);
@@ -93,7 +93,7 @@ void read_pixels() {
         }
     }
     gpio_put(kSelect, true);
-    sleep_us(4);  // minimum time for which the sensor must be deselected to end the burst
+    sleep_us(4);  // minimum time that the sensor must be deselected to end the burst
 }
 
 }  // namespace

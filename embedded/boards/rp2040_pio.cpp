@@ -106,8 +106,8 @@ void set_up_pio() {
 void set_up_dma() {
     for (int& channel : channels)
         channel = dma_claim_unused_channel(true);
-    // The address of the grey byte in a FIFO word. The state machine shifts to the right, so this
-    // is the most significant byte.
+    // Address of the grey byte in a FIFO word. The state machine shifts to the right, so the grey
+    // byte is the most significant byte.
     const volatile void* source = reinterpret_cast<volatile std::uint8_t*>(&pio0->rxf[machine]) + 3;
     for (int i = 0; i < 2; ++i) {
         const auto channel = static_cast<uint>(channels[i]);
@@ -134,7 +134,7 @@ void set_up() {
 /// Stops the capture of the previous frame and discards its remaining data.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
-    // Aborting one channel may start the other. Both channels are therefore aborted together, and
+    // Aborting one channel can start the other. Both channels are therefore aborted together, and
     // the abort is repeated once.
     const std::uint32_t both = 1U << channels[0] | 1U << channels[1];
     for (int i = 0; i < 2; ++i) {

@@ -44,7 +44,7 @@ std::int64_t now_us() {
 }
 
 void set_up() {
-    // The HAL expects the width and the height of the crop minus one.
+    // The HAL expects the width and the height of the crop, each minus one.
     HAL_DCMI_ConfigCrop(&hdcmi, (kCameraWidth_px - kWidth_px) / 2,
                         (kCameraHeight_px - kHeight_px) / 2, kWidth_px - 1, kHeight_px - 1);
     HAL_DCMI_EnableCrop(&hdcmi);

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kRead = 1;
 inline constexpr std::uint32_t kWrite = 4;
 inline constexpr std::uint32_t kAppend = 8;
 
-/// Makes a semihosting call. `arguments` is an array of words that depends on the call.
+/// Makes a semihosting call. `arguments` is an array of words whose contents depend on the call.
 #ifdef __riscv
 inline std::int32_t call(Call number, const void* arguments) {
     register auto a0 asm("a0") = static_cast<std::int32_t>(number);

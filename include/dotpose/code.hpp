@@ -85,8 +85,8 @@ constexpr char letter(Symbol symbol) {
     return "ulrd"[static_cast<int>(symbol) & 3];
 }
 
-/// Returns the difference of adjacent rolls, (roll(p + 1) - roll(p)) mod 63, for columns or rows.
-/// The result is in [5, 58]. p must be in [0, kPositionsPerAxis).
+/// Returns the difference between adjacent rolls, (roll(p + 1) - roll(p)) mod 63, for columns or
+/// rows. The result is in [5, 58]. p must be in [0, kPositionsPerAxis).
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns the roll of column (or row) p in section 0, in O(1). The result is in [0, 63). `p` may

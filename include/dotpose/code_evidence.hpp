@@ -26,7 +26,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Odds for each code variant of a sheet, given all frames so far.
+/// Odds of each code variant for a sheet, given all frames so far.
 ///
 /// Each frame divides the odds of a variant by the likelihood ratio of this variant: the likelihood
 /// of the frame's bits in the variant that explains these bits best, divided by their likelihood in

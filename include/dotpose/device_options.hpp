@@ -117,8 +117,9 @@ struct DeviceOptions {
     IntegrityOptions integrity;
 
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast fails
-    /// with no_contrast, or with not_tracked if a DeviceLocator began it with a prediction. With
-    /// the default of 0, each attempt applies only its own limit (see LocatorOptions). [0 to 255]
+    /// with no_contrast. On a DeviceLocator, a frame that was begun with a prediction fails with
+    /// not_tracked instead. With the default of 0, each attempt applies only its own limit (see
+    /// LocatorOptions). [0 to 255]
     int min_contrast = 0;
 
     /// Maximum number of dots in the pose fit of the first and the tracked attempt. If more dots

@@ -85,9 +85,9 @@ struct Fix {
     /// unknown.
     float residual_px = 0;
 
-    /// Map from the image to the pattern, in spacings relative to `place`. Mapping the reference
-    /// point, and the direction of the image x axis at that point, gives the pose. `Prediction`
-    /// contains the same map.
+    /// Map from the image to the pattern, in spacings relative to `place`. The pose is computed by
+    /// mapping the reference point and the direction of the image x axis at that point.
+    /// `Prediction` contains the same map.
     PlaneFromImage pattern_from_image;
     Place place;  ///< origin of `pattern_from_image`
     /// Typical distance between a dot and its intersection, in units of 2^-16 spacings.

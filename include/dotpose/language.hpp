@@ -1,5 +1,5 @@
-/// Checks that the compiler supports C++20, which all headers require. Otherwise, compilation stops
-/// with a clear error message.
+/// Stops compilation with a clear error message if the compiler does not support C++20, which all
+/// headers require.
 #pragma once
 
 // Also checks _MSVC_LANG, because Microsoft's compiler sets __cplusplus correctly only with the

@@ -12,7 +12,7 @@
 ///
 /// Memory: the constructor of a Locator allocates all memory, unless the caller provides it.
 /// Locating a frame does not allocate, print or throw. There are no global variables. Different
-/// locators may be used concurrently. A Locator uses up to 300 KB of the stack.
+/// locators may be used concurrently. A Locator uses up to 300 KB of stack.
 #pragma once
 
 #include <concepts>
@@ -76,14 +76,14 @@ class RowLocator {
   private:
     /// Status that `begin` returned, or bad_argument if no frame was begun.
     Status begun_ = Status::bad_argument;
-    int rows_left_ = 0;  ///< number of rows that may still be pushed
+    int rows_left_ = 0;  ///< number of rows that have not been pushed yet
 };
 
 /// Computes the pose of the camera relative to the pattern.
 class Locator : public RowLocator {
   public:
-    /// Allocates a LargeMemory on the heap. If any option is outside its range, every frame fails
-    /// with bad_argument, and `bad_option` returns the name of the option.
+    /// Allocates a LargeMemory on the heap. If any option is out of range, every frame fails with
+    /// bad_argument, and `bad_option` returns the name of the option.
     explicit Locator(const LocatorOptions& options = {}) : Locator(new LargeMemory, options) {}
     /// Uses `memory`, which must outlive the locator. No other locator may use this memory while
     /// this locator exists.
@@ -212,7 +212,7 @@ class Locator : public RowLocator {
     CodeEvidence evidence_;  ///< evidence from all images so far, if the code is detected
 };
 
-/// A locator for microcontrollers whose camera looks straight at the paper. Uses only integer
+/// A locator for microcontrollers with a camera that looks straight at the paper. Uses only integer
 /// arithmetic, with a short and bounded time per frame. Ignores the options `effort` and `decoder`,
 /// and computes neither a covariance nor a residual. Its bound on the probability of a wrong
 /// position is simpler than that of a Locator. Positions whose bound exceeds
@@ -221,8 +221,7 @@ class Locator : public RowLocator {
 class DeviceLocator : public RowLocator {
   public:
     /// Uses `memory`, which must outlive the locator. No other locator may use this memory while
-    /// this locator exists. If any option is outside its range, every frame fails with
-    /// bad_argument.
+    /// this locator exists. If any option is out of range, every frame fails with bad_argument.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
     /// Sets the known regions (see Locator::set_known). `locate` and `finish` then search the

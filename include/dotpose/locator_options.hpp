@@ -63,7 +63,7 @@ struct LocatorOptions {
     operator DeviceOptions() const;
 };
 
-/// Returns the name of the first option that is out of range. Returns null if there is none.
+/// Returns the name of the first option that is out of range, or null if all options are in range.
 inline const char* bad_option(const LocatorOptions& options) {
     const auto is_in = [](double value, double low, double high) {
         return value >= low && value <= high;  // false if `value` is NaN

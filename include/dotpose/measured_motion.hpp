@@ -1,7 +1,7 @@
 /// Measured motion: the displacement and rotation of the camera between two frames, from wheel
-/// odometry or an inertial unit. A Locator uses it to combine the bits of several frames if a
-/// single frame does not determine a reliable position. A Tracker uses it to follow a robot over
-/// areas without a pattern.
+/// odometry or an inertial measurement unit. A Locator uses it to combine the bits of several
+/// frames if a single frame does not determine a reliable position. A Tracker uses it to follow a
+/// robot over areas without a pattern.
 #pragma once
 
 #include "dotpose/export.hpp"

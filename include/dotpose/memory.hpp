@@ -61,7 +61,7 @@ class DeviceMemoryFor : public AnyDeviceMemory {
 };
 
 /// Memory for a Locator that processes images up to 188 px wide, the width of the sensor in the
-/// paper. The memory has a size of about 330 KB.
+/// paper. The size is about 330 KB.
 class SmallMemory {
   public:
     SmallMemory();
@@ -75,8 +75,7 @@ class SmallMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory for a Locator that processes images of up to 4096 x 4096 px. The memory has a size of
-/// about 4.4 MB.
+/// Memory for a Locator that processes images of up to 4096 x 4096 px. The size is about 4.4 MB.
 class LargeMemory {
   public:
     LargeMemory();

@@ -10,7 +10,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// An option whose value is outside its range.
+/// An option whose value is out of range.
 struct OptionFault {
     /// Name of the option, such as "lattice.min_dots". Null if all options are in range.
     const char* name = nullptr;
@@ -19,7 +19,7 @@ struct OptionFault {
     std::int32_t high = 0;
 };
 
-/// Returns the first option that is outside its range and therefore causes Status::bad_argument.
+/// Returns the first option that is out of range and therefore causes Status::bad_argument.
 OptionFault option_fault(const DeviceOptions& options) noexcept;
 
 }  // namespace dotpose

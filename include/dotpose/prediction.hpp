@@ -37,7 +37,8 @@ struct Prediction {
     /// this value.
     float readout_turn_rad = 0;
 
-    /// Returns a prediction for a camera that has not moved since `fix`. The fix must be ok.
+    /// Returns a prediction for a camera that has not moved since `fix`. The status of the fix must
+    /// be ok.
     static Prediction like(const Fix& fix);
 };
 

@@ -103,7 +103,7 @@ struct GridRegion {
 struct Decoding {
     GridRegion window;  ///< the clearest window of 8 x 8 cells
     GridRegion region;  ///< all decoded cells, at most kMaxLines x kMaxLines
-    /// Total score of the columns and rows that voted for the quarter turn: a measure of how well
+    /// Total score of the columns and rows that voted on the quarter turn: a measure of how well
     /// their bits match the main sequence.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;

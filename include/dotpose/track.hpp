@@ -59,7 +59,7 @@ struct Sighting {
 };
 
 /// Converts a fix to a sighting in the pattern frame. The plane ID is the section of the fix. The
-/// fix must be ok, and its spacing must be known and at most 20 mm.
+/// fix must have the status ok, and its spacing must be known and at most 20 mm.
 Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits on the robot's motion, and criteria for accepting sightings.
@@ -238,7 +238,7 @@ class Tracker {
     /// the filter predicts, with the uncertainty of that pose. If `seen` is not accepted yet, the
     /// prediction is computed from `seen` and the earlier sightings that are consistent with it.
     ///
-    /// Returns Prediction::like(newest) if no prediction is possible:
+    /// Returns Prediction::like(newest) if no prediction is possible, that is, if:
     /// - `seen` is neither the newest sighting of the track nor the newest sighting that is
     ///   inconsistent with the track,
     /// - the robot will be considered lost at `time_us`,
@@ -255,7 +255,7 @@ class Tracker {
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    /// Returns the motion estimate whose newest sighting is `seen`. Returns null if there is none.
+    /// Returns the motion estimate whose newest sighting is `seen`, or null if there is none.
     const track::MotionEstimate* following(const Sighting& seen) const;
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion* motion);

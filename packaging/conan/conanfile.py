@@ -1,4 +1,4 @@
-"""Recipe of the core and the light libraries for Conan 2: `conan create packaging/conan`."""
+"""Conan 2 recipe for the core and the light libraries: `conan create packaging/conan`."""
 
 from conan import ConanFile
 from conan.tools.build import check_min_cppstd

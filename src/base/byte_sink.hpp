@@ -20,8 +20,8 @@ class ByteSink {
     virtual void write(const void* data, std::size_t size_bytes) noexcept = 0;
     void write(std::string_view text) noexcept { write(text.data(), text.size()); }
 
-    /// Throws Error with the system's reason if a write failed, for example because the disk is
-    /// full.
+    /// Throws Error with the system's error message if a write failed, for example because the disk
+    /// is full.
     virtual void require_good() const {}
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMaxCentre_px = 1000;
 /// Maximum distance of the reference point from the image centre. It is larger than any image side,
-/// but small enough for the fixed-point pose not to overflow.
+/// but small enough to keep the fixed-point pose from overflowing.
 constexpr double kMaxReference_px = 10'000;
 constexpr double kMaxFocal_px = 1e6;
 constexpr double kMinStretch = 0.5;

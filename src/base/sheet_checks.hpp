@@ -18,7 +18,7 @@ inline constexpr double kTolerance_mm = 1e-7;
 /// Throws BadArgument unless each side of a page is in (0, kMaxPage_mm].
 void validate_paper(double width_mm, double height_mm);
 
-/// Throws BadArgument if a length is not positive, if neighbouring dots may touch, or if the
+/// Throws BadArgument if a length is not positive, if neighbouring dots could touch, or if the
 /// section is invalid.
 void validate_pattern(const Pattern& pattern);
 

@@ -45,7 +45,7 @@ double wrapped(double angle_rad) {
     return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// Returns the pose covariance that results if the pose coordinates are multiplied by `factors`.
+/// Returns the covariance of a pose after its coordinates have been multiplied by `factors`.
 PoseCovariance scaled(const auto& covariance, const std::array<double, 3>& factors) {
     PoseCovariance result{};
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-/// Throws an Error with the operating system's reason for a failure.
+/// Throws an Error with the operating system's message about a failure.
 #pragma once
 
 #include <filesystem>

@@ -70,8 +70,8 @@ void validate(const CheckPrintOptions& options) {
     }
 }
 
-/// Returns the index of the sheet whose region contains the cell, or an empty optional if no sheet
-/// contains it.
+/// Returns the index of the sheet whose region contains the cell, or nullopt if there is no such
+/// sheet.
 std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section section, Cell cell) {
     Sheet place;
     place.pattern.code = options.pattern.code;
@@ -118,7 +118,7 @@ double spacing_px(const Field& field) {
     return count > 0 ? sum / count : 0;
 }
 
-/// Returns the resolution, or an empty optional if the spacing of the dots contradicts it.
+/// Returns the resolution, or nullopt if the spacing of the dots contradicts it.
 std::optional<Resolution> plausible_resolution(const std::optional<Resolution>& resolution,
                                                const Pattern& pattern, const Field& field) {
     if (!resolution) return std::nullopt;
@@ -221,7 +221,7 @@ std::vector<CollectedField> collect_fields(const ImageView& scan, const LocatedT
     return collected;
 }
 
-/// Returns the number of cells with a correct dot in both fields.
+/// Returns the number of cells whose dot is correct in both fields.
 int common_cells(const CellGrid& a, const CellGrid& b) {
     int count = 0;
     for (const SeenCell& cell : a.cells) {

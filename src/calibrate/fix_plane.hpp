@@ -1,4 +1,4 @@
-// The map of a fix, from pixels to the code plane or to the paper, with Eigen types.
+// The map from pixels to the code plane or to the paper that a fix defines, with Eigen types.
 #pragma once
 
 #include <Eigen/Core>

@@ -30,7 +30,7 @@ using namespace dotpose::calibrate;
 /// most this distance, in spacings.
 constexpr double kSamePlace = 1.5;
 
-/// Reads the frames given to `calibrate_lens`. Rejects frames of different sizes and detects
+/// Reads the frames given to `calibrate_lens`. Throws Error if their sizes differ, and detects
 /// duplicates.
 class Series {
   public:
@@ -78,8 +78,9 @@ class Series {
 };
 
 /// Fits a separate scale, shear and perspective to the residuals of one frame. Returns the
-/// resulting decrease in the sum of squares, in units of the residual variance. If height and tilt
-/// are the same in all frames, the expected decrease is 5, the number of additional parameters.
+/// resulting decrease in the sum of squares, in units of the residual variance. If the height and
+/// tilt are the same in all frames, the expected decrease is 5, the number of additional
+/// parameters.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,

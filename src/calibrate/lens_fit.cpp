@@ -154,8 +154,8 @@ Seen seen_of(const LocatedDot& dot, const LocatedFrame& frame, const FitSetting&
             mm / frame.spacing_px};
 }
 
-/// Returns the initial pose of a frame, which is the best-fitting similarity transform from
-/// undistorted px to mm. The elements are position (2), rotation, mm per px, and two tilts of 0.
+/// Returns the initial pose of a frame: the best-fitting similarity transform from undistorted px
+/// to mm. The elements are position (2), rotation, mm per px, and two tilts of 0.
 std::array<double, 6> first_pose(const LocatedFrame& frame, const FitSetting& setting,
                                  const SharedModel& camera) {
     using Complex = std::complex<double>;

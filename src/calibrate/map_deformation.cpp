@@ -51,7 +51,7 @@ MapDeformation::MapDeformation(const MapGrid& grid, const EarlierOffsets& earlie
     add_frames(grid, observations, solution, matrix);
     add_dots(grid, earlier, solution, matrix);
     add_smoothness(solution.field, matrix);
-    // The observations do not determine the shift and the turn of the whole page, so the matrix may
+    // The observations do not determine the shift and rotation of the whole page, so the matrix may
     // be singular. The added term makes it invertible.
     matrix.diagonal().array() += 1e-9 * matrix.diagonal().maxCoeff();
     equations_.compute(matrix);

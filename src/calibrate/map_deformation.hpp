@@ -1,8 +1,9 @@
-// The part of the preconditioner that handles slow deformations of the page, which vary little over
-// the width of a frame. A slow deformation moves all dots in a frame together, so a change in the
-// frame's pose nearly cancels the effect of the deformation on the residuals. If the preconditioner
-// consisted only of the diagonal blocks of single frames, slow deformations would need many
-// iterations to converge. This part therefore solves for the deformation and the poses together.
+// The part of the preconditioner that handles slow deformations of the page. A slow deformation
+// varies little over the width of a frame and moves all dots in the frame together, so a change in
+// the frame's pose nearly cancels the effect of the deformation on the residuals. If the
+// preconditioner consisted only of the diagonal blocks of single frames, slow deformations would
+// need many iterations to converge. This part therefore solves for the deformation and the poses
+// together.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +48,8 @@ class MapDeformation {
     using Following = Eigen::Matrix<float, kFrameTerms, Eigen::Dynamic>;
 
     /// Response of a frame to a deformation. `nodes` are the coarse nodes around the frame's dots.
-    /// Each column of `terms` belongs to one unknown of these nodes. The column contains the terms
-    /// that the frame has if this unknown is 1 and all other unknowns are 0.
+    /// Each column of `terms` contains the terms of the frame for a deformation in which one
+    /// unknown of these nodes is 1 and all other unknowns are 0.
     struct Follower {
         std::vector<std::uint32_t> nodes;
         Following terms;  ///< columns: shift x, shift y and displacement of each node

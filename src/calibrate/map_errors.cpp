@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 
-/// Number of terms of a similarity: shift along x and y, turn, and scale.
+/// Number of terms of a similarity: shift along x and y, rotation, and scale.
 constexpr int kSimilarityTerms = 4;
 using SimilarityBlock = Eigen::Matrix<double, kSimilarityTerms, kSimilarityTerms>;
 /// Derivatives of the terms of a similarity with respect to the shifts of all coarse nodes.

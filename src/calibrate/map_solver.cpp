@@ -175,11 +175,11 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
         std::sqrt(jitter / static_cast<double>(std::max<std::size_t>(seen, 1))), kMinJitter_mm);
 }
 
-/// Removes the mean shift, scale and turn from all offsets, because views of the page do not
-/// determine them. Fits a similarity (shift, scale and turn) to the offsets of the dots that were
-/// seen, and applies its inverse to the positions of all dots. The position of a dot includes its
-/// displacement and its offset, because both turn with the page. For example, a turn by 0.003 rad
-/// changes the 40 µm offsets of a feed wave by 0.13 µm, and moves a dot with a displacement of
+/// Removes the mean shift, scale and rotation from all offsets, because views of the page do not
+/// determine them. Fits a similarity (shift, scale and rotation) to the offsets of the observed
+/// dots, and applies its inverse to the positions of all dots. The position of a dot includes its
+/// displacement and its offset, because both rotate with the page. For example, a rotation by 0.003
+/// rad changes the 40 µm offsets of a feed wave by 0.13 µm, and moves a dot with a displacement of
 /// 85 µm by 0.26 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =

@@ -31,7 +31,7 @@ bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::
                   std::vector<MapSighting>& frames, std::vector<MapObservation>& observations);
 
 /// Converts the observations to positions on the paper in the camera frame, and adds the frames
-/// with their approximate poses to `solution`. The view that is used for the conversion is
+/// with their approximate poses to `solution`. The view used for the conversion is
 /// - the view in the camera file, if the file has one,
 /// - otherwise, if the camera was mounted, the median of the views of all frames,
 /// - otherwise, if the camera was hand-held, the view of each frame.

@@ -83,7 +83,7 @@ Correction correct(const FixPlane& plane, const std::vector<MapDot>& dots, doubl
     }
     const TermBlock inverse = normal.ldlt().solve(TermBlock::Identity());
     result.terms = inverse * right;
-    // Lower limit of the variance, which keeps the covariance invertible. With any real camera, the
+    // Lower limit of the variance. It keeps the covariance invertible. With any real camera, the
     // variance is much larger.
     constexpr double kExact = 1e-12;
     const double left = squares - result.terms.dot(right);

@@ -30,7 +30,7 @@ constexpr double kMinDrive_mm = 5;
 /// Maximum angle by which the robot may turn during a straight drive. This angle also determines
 /// how far the robot may be from the line of the drive (see require_straight).
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
-/// Probability of mistaking noise for a drift if the robot stays on the spot.
+/// Probability of mistaking noise for a drift if the robot does not drift.
 constexpr double kFalseDrift = 1e-3;
 /// Minimum number of frames required to distinguish a drift from noise.
 constexpr int kMinDriftFrames = 5;
@@ -171,7 +171,7 @@ void require_stations(std::size_t found, int least, int frames) {
 struct SpotTurn {
     Vector2d pivot;
     Vector2d offset;         ///< from the image centre to the pivot, along the image axes
-    Vector2d drift;          ///< 0 for a robot that stays on the spot
+    Vector2d drift;          ///< 0 if the pivot does not move
     double squares_mm2 = 0;  ///< sum of the squared residuals
     /// Variance of the offset, per axis, relative to the variance of a measured position.
     double offset_fraction = 0;
@@ -182,7 +182,7 @@ double time_of(std::size_t frame, const std::vector<Station>& stations) {
     return 2.0 * double(frame) / double(stations.size() - 1) - 1;
 }
 
-/// Returns the position that the turn predicts for a frame, minus the measured position.
+/// Returns the position predicted by the turn for a frame, minus the measured position.
 Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
                      const std::vector<Station>& stations) {
     const Station& station = stations[frame];
@@ -190,7 +190,7 @@ Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
            turned(station.theta_rad, spot_turn.offset) - station.place_mm;
 }
 
-/// Fits the turn of a robot that stays on the spot or, if `has_drift` is true, drifts.
+/// Fits the rotation of a robot that turns on the spot. If `has_drift` is true, also fits a drift.
 SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
     const std::size_t parameters = has_drift ? 6 : 4;  // pivot, offset, drift
     NormalEquations equations(static_cast<int>(parameters));

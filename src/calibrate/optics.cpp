@@ -54,8 +54,8 @@ void set_block(const Optics& o, OpticsReport& r) {
     r.block_diagonal_mm = std::numbers::sqrt2 * side_mm;
     // For any position of the grid, the centre of some block of 8 x 8 dots is at most half the
     // diagonal of a cell from the image centre. If the pattern is rotated by 45 degrees, this
-    // offset may be parallel to an image axis. The field must then extend farther by half the
-    // diagonal to both sides.
+    // offset can be parallel to an image axis. The field must then be larger by half the diagonal
+    // on each side.
     r.block_anywhere_mm = r.block_diagonal_mm + std::numbers::sqrt2 * o.spacing_mm;
     const double shorter_mm = std::min(r.field_width_mm, r.field_height_mm);
     r.block_fits = shorter_mm >= r.block_diagonal_mm;

@@ -18,8 +18,8 @@ namespace {
 constexpr double kMaxFocalError = 0.15;
 
 /// Difference between a measured view and the view of a tilted camera with square pixels. A view
-/// consists of the members of PaperScale, with the perspective multiplied by the reach, which is
-/// half the diagonal of the image.
+/// consists of the members of PaperScale, with the perspective multiplied by the reach (half the
+/// diagonal of the image).
 struct TiltResidual {
     std::array<double, 5> seen;
     Eigen::MatrixXd whitening;
@@ -97,7 +97,8 @@ CentrePose centre_pose(const Camera& camera, const Camera& other) {
     return {at.real(), at.imag(), std::arg(turn) + image_axis_rad(camera, centre)};
 }
 
-/// Returns the camera with one parameter of `LensFit::mounted_covariance` changed by `step`.
+/// Returns the camera with one of the parameters covered by `LensFit::mounted_covariance` changed
+/// by `step`.
 Camera with_moved(Camera camera, Eigen::Index parameter, double step, double reach_px) {
     PaperScale& paper = camera.paper.value();
     const std::array<double*, 8> values = {

@@ -30,16 +30,16 @@ struct PivotFit {
     /// Covariance of the tip and of the resting point. Frames that show the same dots have
     /// correlated errors, because the printing errors of these dots shift all poses. The covariance
     /// is therefore computed from the residuals of each dot in all frames. The covariance is
-    /// increased if the tip moved by more than the pose errors explain.
+    /// increased if the tip moved more than the pose errors can explain.
     Eigen::Matrix<double, 6, 6> covariance;
     std::vector<bool> is_used;  ///< indexed by view
     double residual_mm = 0;     ///< rms residual per axis
     double error_ratio = 1;  ///< rms residual, relative to the value expected from the pose errors
 };
 
-/// Returns the smallest rms change of direction, in rad, that any axis fixed to the camera
-/// undergoes between the views. The result is 0 if all rotations are about the same axis. The
-/// position of the tip along this axis is then not determined.
+/// Returns the minimum, over all axes fixed to the camera, of the rms change in the direction of
+/// the axis between the views, in rad. The result is 0 if all rotations are about the same axis. In
+/// that case, the position of the tip along this axis is not determined.
 double pivot_angle_rad(const std::vector<PivotView>& views);
 
 /// Fits the tip by weighted least squares. Views that contradict the majority are not used.

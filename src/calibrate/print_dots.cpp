@@ -27,8 +27,8 @@ constexpr double kReach = 1.0 / 3;
 /// darkness of a dot.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
-/// Displacement, in spacings, that is assumed when the grey levels are measured. An approximate
-/// value is sufficient.
+/// Displacement, in spacings, assumed for the measurement of the grey levels. An approximate value
+/// is sufficient.
 constexpr double kUsualDisplacement = 1.0 / 6;
 constexpr int kCentrings = 4;
 constexpr double kCentred_px = 0.01;

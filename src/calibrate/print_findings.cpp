@@ -285,7 +285,7 @@ class Findings {
                               field.dot_mm, field.pattern.dot_mm));
         }
         // Contrast is checked only at sufficient resolution. If pixels are as large as dots, all
-        // dots have a low contrast, and pale dots are detected from `dot_mm` instead.
+        // dots have low contrast, and pale dots are detected from `dot_mm` instead.
         if (field.spacing_px >= kCoarse_px && field.contrast < kMinContrast) {
             fault(FindingKind::pale,
                   fmt::format("the dots are only {} darker than the paper: print in black, "

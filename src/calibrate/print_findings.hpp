@@ -5,7 +5,7 @@
 
 namespace dotpose::calibrate {
 
-/// Sets `best_per_spacing`, `best` and `unread_patches` of a test page.
+/// For a test page, sets `best_per_spacing`, `best` and `unread_patches` of `check`.
 void rank_patches(CodeVariant code, PrintCheck& check);
 
 /// Sets `check.findings` from the measured fields. Faults come before remarks.

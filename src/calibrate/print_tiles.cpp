@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kTileCells = 24;
 constexpr int kMaxTile_px = 2048;
-/// Spacing in the scan below which tiles are magnified before they are located. Exceeds 6 px, the
-/// minimum spacing for `locate`, by a safety margin.
+/// Spacing in the scan below which tiles are magnified before they are located. Includes a safety
+/// margin above 6 px, the minimum spacing for `locate`.
 constexpr double kSmallSpacing_px = 9;
 /// Number of crops that suffice to determine the spacing or the code.
 constexpr std::size_t kEnoughProbes = 40;

@@ -38,7 +38,7 @@ class TileLocator {
     /// Locates all tiles. A tile has about 24 x 24 cells and is located together with a margin
     /// around it. If the whole scan has a fix but none of its tiles does, returns the scan as a
     /// single tile. Returns an empty optional if the pattern is found neither in the whole scan nor
-    /// in any of the crops that are searched for it.
+    /// in any of the searched crops.
     std::optional<LocatedTiles> locate();
 
     /// Locates a sample of the tiles again, without assuming a code. Returns the evidence for each

@@ -9,8 +9,8 @@
 
 namespace dotpose::calibrate {
 
-/// Returns the perspective and the lens distortion of an image if they are too strong for a scan.
-/// The image is then a photo. Returns nullopt if the image may be a scan.
+/// Returns the perspective and lens distortion of an image if they are so strong that the image
+/// must be a photo rather than a scan. Returns nullopt if the image may be a scan.
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Eigen::Vector2d& middle_px);
 

@@ -117,8 +117,8 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
     view.rows = 6;
 }
 
-/// Sets the place, axes and errors of `view` if the camera file contains no view of the paper. In
-/// this case, the fix determines only the position of the image centre and the direction of the
+/// Sets the place, axes and errors of `view` for a camera file that contains no view of the paper.
+/// In this case, the fix determines only the position of the image centre and the direction of the
 /// image x axis.
 void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,
                        SheetView& view) {

@@ -114,9 +114,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Returns a pose in the page frame of the sheet that `view` shows. The position of the pose is the
-/// point `in_camera` in the camera frame, and its direction is that of the x axis of the camera
-/// frame.
+/// Converts the point `in_camera` and the direction of the x axis from the camera frame to the page
+/// frame of the sheet that `view` shows.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -296,7 +295,7 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
         }
         if (i == fixed_ && !has_scale()) {
             // Fixes the aspect to its value in the sheet file. Views computed from parts of frames
-            // contain information about the aspect, but all of them have the same error, which
+            // contain information about the aspect, but they all have the same error, so the error
             // would not average out.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }

@@ -173,8 +173,8 @@ class NoiseModel {
         normalize(centre_);
     }
 
-    /// Finds the most likely fraction of the variance due to print errors, and sets the whitening
-    /// of the dots for this fraction.
+    /// Finds the most likely value of the fraction of the variance that is due to print errors, and
+    /// sets the whitening of the dots for this fraction.
     void whiten(std::vector<WeightedDot>& dots) const {
         const double fraction = likeliest_fraction();
         for (std::size_t i = 0; i < dots.size(); ++i) {
@@ -265,7 +265,7 @@ bool is_same(const SpaceState& a, const SpaceState& b) {
            kSame_rad;
 }
 
-/// Returns rough solutions, which are fitted to at most 300 of the dots to save time.
+/// Returns rough solutions, fitted to at most 300 of the dots to save time.
 Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
                           const std::vector<WeightedDot>& all, const Vector2d& focal_px) {
     constexpr std::size_t kDots = 300;

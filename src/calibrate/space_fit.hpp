@@ -34,9 +34,9 @@ struct SpaceFit {
     /// rotation * exp(vector).
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     std::vector<SpaceDot> used;  ///< dots that are not outliers
-    /// For each dot in `used`, the shift of the pose that its residual causes, in the same
-    /// coordinates as `covariance`. These shifts determine how the errors of frames that show the
-    /// same dots are correlated.
+    /// For each dot in `used`, the pose shift caused by its residual, in the same coordinates as
+    /// `covariance`. These shifts determine how the errors of frames that show the same dots are
+    /// correlated.
     std::vector<Eigen::Matrix<double, 6, 1>> influences;
     double residual_px = 0;  ///< rms residual of the dots in `used`, per axis
     std::optional<SpaceState> second;

@@ -35,9 +35,9 @@ CameraInSpace camera_of(const SpaceState& state, const Vector3d& origin_mm) {
     return {position.x(), position.y(), position.z(), quaternion_of(Quaterniond(state.rotation))};
 }
 
-/// Adds the map error in the view to the covariance of the pose. A map error that shifts and turns
-/// the dots in the view shifts and turns the camera by the same amount. `middle_mm` is the position
-/// of the fix, in the coordinates of `fit.state`.
+/// Adds the map error in the view to the covariance of the pose. A map error that shifts and
+/// rotates the dots in the view shifts and rotates the camera by the same amount. `middle_mm` is
+/// the position of the fix, in the coordinates of `fit.state`.
 void add_error_of_map(const MapPage& map, const Fix& fix, const Vector3d& spacing_mm,
                       const Vector3d& middle_mm, SpaceFit& fit) {
     const auto error = map.error_covariance({fix.cell, fix.section});

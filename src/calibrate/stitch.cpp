@@ -48,7 +48,7 @@ std::vector<SheetView> views_of(int frames, const FrameAt& frame_at,
     return all;
 }
 
-/// Compares each view with the view of the same frame that contains the most dots.
+/// For each frame, compares each view with the view that contains the most dots.
 void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph,
                     Stitching& result) {
     struct Sums {

@@ -101,8 +101,7 @@ void SourceList::put_in_order(Frame& frame) {
     constexpr double kDefaultRate = 30;
     frame.index += first_index_;
     frame.time_us += offset_us_;
-    // Times are no longer on the monotonic clock after they are shifted to follow the previous
-    // source.
+    // Times that are shifted to follow the previous source are no longer on the monotonic clock.
     if (offset_us_ != 0) frame.is_live = false;
     next_index_ = frame.index + 1;
     next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kDefaultRate);

@@ -14,8 +14,8 @@ int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32
 
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place) {
     // For each code, computes the contribution of a4 to the roll in the same way as `roll` does.
-    // kPeriods is a multiple of 63 that exceeds any contribution. Adding it keeps the difference of
-    // two contributions positive.
+    // kPeriods is a multiple of 63 that exceeds any contribution. Adding it keeps the difference
+    // between two contributions positive.
     constexpr std::uint32_t kPeriods = 512 * kSections;
     const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
     const auto by_a4 = [&](CodeVariant code) {

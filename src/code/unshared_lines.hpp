@@ -1,6 +1,6 @@
 // Unshared lines: the lines that distinguish two positions whose places differ in only one of the
 // four sequences. Two positions *share* a line at a given shift if their rolls for this line differ
-// by the shift. If the sections differ by the opposite amount, shared lines have the same bits at
+// by the shift. If the sections differ by the negated shift, shared lines have the same bits at
 // both positions. The tables contain minimum numbers of unshared lines.
 // tests/unit/code/unshared_lines_test.cpp recomputes the tables.
 #pragma once
@@ -116,9 +116,9 @@ constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) 
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
-/// Returns the minimum number of unshared lines among kUnsharedOf[row] lines if the shift may
-/// change once, at a border between two lines. The minimum is at least `row`, so the entry stores
-/// only the excess, in two bits.
+/// Returns the minimum number of unshared lines among kUnsharedOf[row] lines if the shift is
+/// allowed to change once, at a border between two lines. The minimum is at least `row`, so the
+/// entry stores only the excess, in two bits.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

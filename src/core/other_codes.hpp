@@ -17,10 +17,10 @@ struct OtherAxis {
     float elsewhere = 0;
     /// Largest ratio among the examined places, excluding the place that was read.
     float best = 0;
-    /// Position of the first compared line if the place with the ratio `best` is correct.
+    /// Position of the first compared line if the place with ratio `best` is correct.
     std::uint32_t position = 0;
-    /// Roll of the first compared line if the place with the ratio `best` is correct, minus the
-    /// roll that was read for this line, modulo 63.
+    /// Roll of the first compared line if the place with ratio `best` is correct, minus the roll
+    /// that was read for this line, modulo 63.
     std::uint8_t roll = 0;
 };
 

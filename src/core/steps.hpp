@@ -23,11 +23,12 @@ FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options);
 
 /// Returns ok if the options are valid and the workspace accepts frames of this size. Otherwise,
-/// returns the reason for the refusal. The second overload also refuses an image without pixels.
+/// returns the reason for rejecting the frame. The second overload also rejects an image without
+/// pixels.
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w);
 Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w);
 
-/// Refuses a frame before its first stage. Clears the previous results, sets the status of the fix
+/// Rejects a frame before its first stage. Clears the previous results, sets the status of the fix
 /// to `reason`, and returns the fix.
 const Fix& refuse(Status reason, Workspace& w);
 

@@ -40,7 +40,7 @@ struct Workspace {
     std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;
     std::span<BucketedSeed> buckets;  ///< size: number of seeds plus 1
-    /// Indices of the four nearest seeds, for each seed.
+    /// Indices of the four nearest neighbours of each seed.
     std::span<std::array<std::int16_t, 4>> neighbours;
     std::span<SeedEdge> edges;  ///< size: two per seed
     int edge_count = 0;

@@ -28,7 +28,7 @@ class Publisher {
     /// `robot` must be valid as part of a ROS topic name. Throws BadArgument if this program was
     /// built without DDS, and Error if DDS cannot be set up.
     Publisher(const std::string& robot, const PublisherOptions& options);
-    /// Waits up to 1 s until all subscribers have received the messages on reliable topics.
+    /// Waits up to 1 s for all subscribers to receive the messages on reliable topics.
     ~Publisher();
     Publisher(const Publisher&) = delete;
     Publisher& operator=(const Publisher&) = delete;

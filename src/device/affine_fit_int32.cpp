@@ -8,7 +8,7 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the number of bits by which `value` must be shifted right to fit in `bits` bits, or 0 if
-/// it fits already. `value` must not be negative.
+/// it already fits. `value` must not be negative.
 int excess_bits(std::int64_t value, int bits) {
     return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
 }

@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of dots in the sample from which the median displacement and the median residual
-/// are computed. The sampled dots are evenly spaced in the list of observations.
+/// Maximum number of dots sampled for the median displacement and the median residual. The sampled
+/// dots are evenly spaced in the list of observations.
 constexpr int kSample = 64;
 
 /// Returns, for each symbol, the vector of the given length in the direction of the symbol.

@@ -35,8 +35,8 @@ FixedVec start_q8(const Workspace& w) {
     return is_far ? mean_q8 : centre_q8;
 }
 
-/// Finds the grid of the dots, for a camera that looks straight at the paper. Errors: no_grid,
-/// no_displacement.
+/// Finds the grid of the dots. Assumes that the camera looks straight at the paper. Errors:
+/// no_grid, no_displacement.
 Status find_grid(const DeviceOptions& options, Workspace& w) {
     const FixedVec start = start_q8(w);
     const Status status = find_axes(start, kSeeds, w);
@@ -44,7 +44,7 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
     find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
     const Status grown = grow_grid(w.found_dots(), options.lattice, start, w.lattice,
                                    w.grid_from_image);  // paper, section II-B.3
-    // The later stages expect a map relative to the image centre.
+    // Later stages expect a map relative to the image centre.
     w.grid_from_image = affine_tangent(w.grid_from_image, image_centre_q8(w.threshold));
     return grown;
 }

@@ -87,8 +87,8 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
     const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
     const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
-    // `darkest` and `second` contain 4 * (sum of four pixels) + symbol, which keeps each sum
-    // together with its symbol.
+    // `darkest` and `second` contain 4 * (sum of four pixels) + symbol, to keep each sum together
+    // with its symbol.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
 #pragma GCC unroll 4

@@ -58,7 +58,7 @@ std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_p
     return static_cast<std::int32_t>(det_q24);
 }
 
-/// Sets `cells` to the inverse of a plane with the determinant `det_q24`.
+/// Sets `cells` to the inverse of a plane with determinant `det_q24`.
 void invert(const PlaneFromImage& plane, std::int32_t det_q24, CellMap& cells) {
     const FixedVec at_q16 = plane.at_centre_q16;
     const FixedVec du = plane.du_q24;
@@ -99,9 +99,9 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     }
 }
 
-/// Sets the members that depend on the spacing. Returns false if the memory or the frame has too
-/// few rows, or if the image must be cropped to less than `min_side_px` to make its cells fit in
-/// the memory.
+/// Sets the members that depend on the spacing. Returns false if the memory is too small, if the
+/// frame has too few rows, or if the image must be cropped to less than `min_side_px` to make its
+/// cells fit in the memory.
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;

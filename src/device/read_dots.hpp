@@ -11,8 +11,7 @@ namespace dotpose::core {
 bool begin_reading(Tracking& tracking);
 
 /// Reads all dots that have not been read yet and whose pixels have all arrived. If a dot agrees
-/// with the code, adds its offset from the predicted centre to the sums from which the pose is
-/// fitted.
+/// with the code, adds its offset from the predicted centre to the sums for the pose fit.
 void read_ready_dots(Tracking& tracking);
 
 }  // namespace dotpose::core

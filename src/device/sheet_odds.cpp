@@ -123,8 +123,8 @@ int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const Pla
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options) {
     // Maximum number of wrong bits to test. If a place with this number of wrong bits can still be
-    // certain, the view is large. The function then returns the total number of bits, which
-    // excludes no place.
+    // certain, the view is large. The function then returns the total number of bits, so no place
+    // is excluded.
     constexpr int kMaxTested = 8;
     const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);
     for (int wrong = 0; wrong <= std::min(kMaxTested, 2 * dots); ++wrong) {

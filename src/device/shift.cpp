@@ -100,8 +100,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor. The mean over a few dots may be large by chance. Sums over fewer than
-    // kMinDivisor dots are therefore divided by kMinDivisor, which makes the result smaller.
+    // Minimum divisor. The mean over a few dots may be large by chance. To reduce such means, sums
+    // over fewer than kMinDivisor dots are divided by kMinDivisor.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

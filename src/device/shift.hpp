@@ -17,8 +17,8 @@ class Shifts {
     explicit Shifts(const Tracking& tracking);
 
     /// Finds the shift with the largest mean darkness, except shifts that are within two steps of
-    /// an earlier result along both axes. Sets `shift_q8` to this shift, which is the vector from
-    /// the predicted to the measured position in 2^-8 px, and returns true. Returns false if the
+    /// an earlier result along both axes. Sets `shift_q8` to this shift (the vector from the
+    /// predicted to the measured position, in 2^-8 px), and returns true. Returns false if the
     /// darkness of all remaining shifts is 0.
     bool next(FixedVec& shift_q8);
 

@@ -12,8 +12,8 @@ namespace {
 
 /// Returns the right shift, in bits, that reduces the total mass to less than 2^16. The same shift
 /// is applied to the masses and to the mass-weighted sums. All sums are then less than 2^31: a dot
-/// is at most 16 cells from the middle, and its offset is at most an eighth of the maximum spacing
-/// of 14 px, which is 448/256 px.
+/// is at most 16 cells from the middle, and its offset is at most 448/256 px, an eighth of the
+/// maximum spacing of 14 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)
@@ -66,7 +66,7 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // A fit to only a few dots may be arbitrarily wrong, and give very small cells. These are
+    // A fit to only a few dots may be arbitrarily wrong, and give very small cells. Such cells are
     // rejected, because the slopes would overflow.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {

@@ -180,8 +180,7 @@ void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) 
     }
 }
 
-/// Updates the slopes of the plane, which is the inverse of the cell map, after a small change to
-/// the cells.
+/// Updates the slopes of the plane (the inverse of the cell map) after a small change to the cells.
 void turn_back(const Similarity& s, Tracking& tracking) {
     tracking.du_q20 = tracking.du_q20 - change(s, tracking.du_q20);
     tracking.dv_q20 = tracking.dv_q20 - change(s, tracking.dv_q20);

@@ -36,7 +36,7 @@ void draw_connections(const FrameView& view, Svg& svg) {
     svg.add(R"(<g class="connections" stroke="{}" stroke-width="{:.2f}" )"
             R"(stroke-linecap="round" stroke-opacity="0.85">)",
             colour::kEdge, 3.5 * view.stroke());
-    // The edges connect the dots as they were first measured, so they are not drawn if the dots
+    // The edges connect the dot centres of the first measurement, so no edges are drawn if the dots
     // were measured again.
     if (view.reached().edges && !trace.seeds.empty() && !view.is_dense()) {
         for (const SeedEdge& edge : trace.edges) {
@@ -96,8 +96,8 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
     svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
             colour::kEdge);
-    // Maximum number of edges to draw. If there are more, only every `step`-th edge is drawn, which
-    // shows the same clusters.
+    // Maximum number of edges to draw. If there are more, only every `step`-th edge is drawn. The
+    // clusters are still visible.
     constexpr std::size_t kMaxEdges = 1000;
     const std::span<const SeedEdge> edges = view.trace().edges;
     const std::size_t step = 1 + edges.size() / kMaxEdges;

@@ -68,8 +68,8 @@ Point Plane::image_point(Point plane_point) const {
     const Point d = 1 / area_ * (plane_point - at_centre_);
     const Point affine{d.x * dv_.y - d.y * dv_.x, d.y * du_.x - d.x * du_.y};
     Point p = affine;
-    // Solves p = divisor(p) * affine by iteration, which converges fast because the divisor varies
-    // little within a frame.
+    // Solves p = divisor(p) * affine by iteration. The iteration converges quickly, because the
+    // divisor varies little within a frame.
     for (int round = 0; round < 20; ++round)
         p = divisor(p) * affine;
     return centre_px_ + p;

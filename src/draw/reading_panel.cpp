@@ -71,7 +71,7 @@ class Reading {
     /// the same intersection has a higher quality.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
-    /// Draws a grid line as a polyline, because lens distortion may bend the line.
+    /// Draws a grid line as a polyline, because lens distortion can bend the line.
     void draw_grid_line(double i, double j, int steps, Point step) const;
 
     const FrameView& view_;
@@ -194,8 +194,8 @@ void Reading::draw_points() const {
 void Reading::draw_window() const {
     if (!view_.reached().window) return;
     const GridRegion& window = trace_.decoding.window;
-    // The outline is half a cell outside the outermost intersections. Lens distortion may bend it,
-    // so it has one segment per cell.
+    // The outline is half a cell outside the outermost intersections. Lens distortion can bend the
+    // outline, so it has one segment per cell.
     const double left = window.i0 - 0.5;
     const double top = window.j0 - 0.5;
     std::string path;

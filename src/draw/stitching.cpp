@@ -1,6 +1,6 @@
 // Draws the sheets before and after stitching, in two panels. For each frame that shows two sheets,
-// each sheet gives a position of the image centre. An arrow shows the difference between these two
-// positions.
+// the position of the image centre is computed from each sheet. An arrow shows the difference
+// between the two positions.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,8 +24,8 @@ constexpr double kMaxArrow = 70;
 /// differences are only noise.
 constexpr double kMinArrowScale_mm = 0.002;
 
-/// Image centre of one frame, and the difference between the two positions that the sheets give for
-/// it. Both members are in world coordinates, in mm, except that y points down.
+/// Image centre of one frame, and the difference between the positions computed from the two
+/// sheets. Both members are in world coordinates, in mm, except that y points down.
 struct Disagreement {
     Point at;
     Point off;

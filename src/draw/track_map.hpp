@@ -1,4 +1,4 @@
-// Draws a map, seen from above, of the sheets in a plane and the paths of robots.
+// Draws a top-view map of the sheets in a plane and the paths of the robots.
 #pragma once
 
 #include <array>
@@ -37,8 +37,8 @@ struct Map {
 };
 
 /// Removes the sheets that contain neither a point on a path nor the position of a robot, and adds
-/// a note with the numbers of remaining sheets and of all sheets. If this would remove all sheets,
-/// keeps all of them.
+/// a note with the number of remaining sheets and the total number of sheets. If no sheets would
+/// remain, keeps all of them.
 void keep_visited_sheets(Map& map);
 
 /// Returns the drawing. It is as large as the bounding box of its contents.

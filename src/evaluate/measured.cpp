@@ -93,8 +93,8 @@ double near_limit(std::span<const Pair> pairs, const Map& map) {
 }
 
 /// Fits a similarity transform to the pairs that are not outliers. Starts with the fit to all
-/// pairs, or with a fit to two pairs if its median residual is smaller. Then repeatedly fits a new
-/// transform to the pairs within the outlier limit of the previous transform.
+/// pairs, or with a fit to two of the pairs if that fit has a smaller median residual. Then
+/// repeatedly fits a new transform to the pairs within the outlier limit of the previous transform.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;

@@ -1,4 +1,4 @@
-// Repeats the experiment of the paper (section IV-A) with a simulated printer and camera.
+// Repeats the experiment in section IV-A of the paper with a simulated printer and camera.
 #include "evaluate/protocol.hpp"
 
 #include <algorithm>

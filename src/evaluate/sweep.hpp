@@ -13,8 +13,8 @@ std::span<const double> sweep_values(SweepKind kind);
 /// Returns frame `index` of the sweep, with the condition set to `value`.
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index);
 
-/// Darkens the fraction `fraction` of the image: all pixels on one side of a straight edge.
-/// `direction_rad` is the direction away from the dark side, as an angle from +u towards +v.
+/// Darkens a fraction of the image: all pixels on one side of a straight edge. `direction_rad` is
+/// the direction away from the dark side, as an angle from +u towards +v.
 void cover(GreyImage& image, double fraction, double direction_rad);
 
 }  // namespace dotpose::evaluate_detail

@@ -75,8 +75,7 @@ void draw_head(Svg& svg, const Sweep& sweep) {
     legend_entry(svg, {x, 39}, {style::kWindow, false, false, true}, "8 x 8 window (paper)");
 }
 
-/// Draws a red disc above each point that has wrong fixes. The disc contains the number of wrong
-/// fixes.
+/// Draws a red disc above each point with wrong fixes. The disc contains the number of wrong fixes.
 void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder) {
     for (const SweepPoint& point : sweep.points) {
         const Score& score = decoder == Decoder::window ? point.window : point.all;
@@ -120,7 +119,7 @@ void draw_sweep(std::ostream& out, const Sweep& sweep) {
     const Axes below(svg, {kLeft, 390, kPlotWidth, 220}, x, error_scale(sweep));
     below.draw_y("position error of the fixes, µm: median (solid) and 95 % (dashed)");
     below.draw_x(words.x_label);
-    // The curves of the decoder `window` are wider and drawn first, so they remain visible where
+    // The curves of the `window` decoder are wider and drawn first, so they remain visible where
     // both curves coincide.
     for (const Decoder decoder : kDecoders) {
         const bool is_window = decoder == Decoder::window;

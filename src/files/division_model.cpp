@@ -27,9 +27,9 @@ struct Pair {
     PixelPoint wanted;
 };
 
-/// Residual of a pair, and its derivatives. The distorted point is undistorted (paper, equation 2)
-/// and transformed by the affine map. The residual is the result minus the undistorted point of the
-/// pair.
+/// Residual of a pair, and its derivatives. The distorted point is undistorted (equation 2 of the
+/// paper) and transformed by the affine map. The residual is the result minus the undistorted point
+/// of the pair.
 struct Misfit {
     double u = 0;
     double v = 0;
@@ -88,7 +88,7 @@ Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters,
     return fit.solve();
 }
 
-/// Minimises the sum of squared residuals, until the steps are smaller than rounding errors.
+/// Minimises the sum of squared residuals. Stops when the steps are smaller than rounding errors.
 /// Returns the minimum.
 double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
     constexpr int kMaxSteps = 500;

@@ -1,4 +1,5 @@
-/// Converts the lens model of ROS and OpenCV to the nearest division model (paper, equation 2).
+/// Converts the lens model of ROS and OpenCV to the nearest division model (equation 2 of the
+/// paper).
 #pragma once
 
 #include "dotpose/files/camera.hpp"

@@ -49,7 +49,7 @@ void append(std::string& bytes, float number) {
     append(bytes, __builtin_bit_cast(std::uint32_t, number));
 }
 
-/// Reads numbers from the front of a byte string. Throws Error at the end of the string.
+/// Reads numbers from the front of a byte string. Throws Error on an attempt to read past the end.
 class Bytes {
   public:
     explicit Bytes(std::string_view text) : text_(text) {}

@@ -10,7 +10,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns true if a page of the print map is a print of this sheet.
+/// Returns true if this page of the print map is a print of the sheet.
 bool is_page(const MapPage& page, const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
     return page.code == sheet.pattern.code && page.section == sheet.pattern.section &&

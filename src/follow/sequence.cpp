@@ -33,7 +33,7 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
-    // If a fix is certain only with the prior, it is used only if the tracker accepted it.
+    // A fix that is certain only with the prior is used only if the tracker accepted it.
     const bool is_with_prior = result.track.verdict == Verdict::with_prior;
     const bool is_fix = strict.status == Status::ok || is_with_prior;
     if (is_fix) {
@@ -105,7 +105,7 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
     Fix fix = locate_near(image, options, expected);
     auto place = find_sheet(options_.sheets, options.code, fix);
     // A prediction keeps the fix on the same page, but another page may now be at the image centre.
-    // If the image centre is on no known page, locates the image again without the prediction.
+    // If the image centre is not on a known page, locates the image again without the prediction.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place &&
         !options_.sheets.empty()) {
         fix = locator(options).locate(image);

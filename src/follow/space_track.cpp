@@ -193,9 +193,9 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
 /// - If this fraction is small, the agility determines the gain of the filter. With the correct
 ///   gain, consecutive innovations have equal signs as often as opposite signs. Equal signs
 ///   therefore increase the agility, and opposite signs decrease it.
-/// - If the fraction is large, the gain is about 1 with any agility, and the agility determines
-///   only the covariance of predictions. With the correct covariance, the mean square of the
-///   normalised innovation is 1.
+/// - If the fraction is large, the gain is about 1 regardless of the agility, and the agility
+///   determines only the covariance of predictions. With the correct covariance, the mean square of
+///   the normalised innovation is 1.
 /// `noise` is the independent part of the sighting covariance.
 void adapt_agility(Motion& motion, const Vector6& innovation, const Matrix6& covariance,
                    const Matrix6& noise) {
@@ -259,8 +259,8 @@ void correct(Motion& motion, const CameraInSpace& camera, const Matrix6& noise) 
     covariance = (kept * covariance * kept.transpose() + gain * noise * gain.transpose()).eval();
 }
 
-/// Converts a motion to a SpaceTrack with the verdict `none`. The covariance of the pose includes
-/// the errors that are common to all sightings.
+/// Converts a motion to a SpaceTrack with verdict `none`. The covariance of the pose includes the
+/// errors that are common to all sightings.
 SpaceTrack track_of(const Motion& motion, std::uint32_t plane) {
     SpaceTrack track;
     track.is_lost = false;
@@ -377,8 +377,8 @@ bool SpaceTracker::take(const SpaceSighting& sighting) {
     return true;
 }
 
-/// Counts rejected sightings, each of which is consistent with the previous one. Starts a new track
-/// when `SpaceTrackOptions::confirmations` sightings have been counted.
+/// Counts successive rejected sightings that are each consistent with the previous one. Starts a
+/// new track when `SpaceTrackOptions::confirmations` sightings have been counted.
 void SpaceTracker::reject(const SpaceSighting& sighting) {
     update(sighting.time_us);
     track_.verdict = SpaceVerdict::rejected;

@@ -1,5 +1,5 @@
-// Reads uncompressed BMP files with OS/2 headers or Windows headers (versions 3 to 5). A pixel may
-// have 1, 4 or 8 bits, which are an index into a palette, or 16, 24 or 32 bits, which contain the
+// Reads uncompressed BMP files with OS/2 headers or Windows headers (versions 3 to 5). A pixel has
+// either 1, 4 or 8 bits, which are an index into a palette, or 16, 24 or 32 bits, which contain the
 // colour. Microsoft documents the layout under BITMAPV5HEADER.
 #include <algorithm>
 #include <array>

@@ -82,15 +82,16 @@ inline constexpr double kMetresPerInch = 0.0254;
 inline constexpr double kCentimetresPerInch = 2.54;
 
 /// Converts a resolution to dots per inch. Returns an empty optional if a value is not positive,
-/// which means that the resolution is unknown.
+/// that is, if the resolution is unknown.
 std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
 /// EXIF tags that are written by cameras but not by scanners (CIPA DC-008): exposure time,
 /// f-number, sensitivity and focal length.
 inline constexpr std::array<std::uint16_t, 4> kCameraTags{0x829A, 0x829D, 0x8827, 0x920A};
 
-/// Returns true if EXIF data contain one of kCameraTags. The name "Exif" may precede the TIFF
-/// header. Truncated or damaged data are treated as missing.
+/// Returns true if EXIF data contain one of kCameraTags. The data may begin with the identifier
+/// "Exif" or directly with the TIFF header. Entries that are truncated or damaged are treated as
+/// missing.
 bool is_of_camera(Bytes exif);
 
 }  // namespace dotpose::images

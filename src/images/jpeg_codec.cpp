@@ -23,7 +23,7 @@ constexpr int kExifMarker = JPEG_APP0 + 1;
 constexpr int kMaxScans = 100;
 
 /// Collects the messages from libjpeg. The error handler must not return to libjpeg, so it jumps to
-/// `leave`. Each call that may fail must follow setjmp(leave), and no objects with destructors may
+/// `leave`. Each call that can fail must follow setjmp(leave), and no objects with destructors may
 /// be created between setjmp and the call.
 struct Report : jpeg_error_mgr {
     std::jmp_buf leave;
@@ -151,8 +151,8 @@ class JpegReader {
     }
 
   private:
-    /// Returns the colour space in which libjpeg returns the pixels. For YCbCr files, this is grey,
-    /// so that the luma is returned without a conversion to RGB and back.
+    /// Returns the output colour space to request from libjpeg. For YCbCr files, this is grey, to
+    /// obtain the luma without a conversion to RGB and back.
     J_COLOR_SPACE output_space() const {
         switch (jpeg_.jpeg_color_space) {
             case JCS_GRAYSCALE:

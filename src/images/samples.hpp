@@ -22,7 +22,7 @@ GreyImage to_grey(Samples<std::uint8_t> samples);
 GreyImage to_grey(Samples<std::uint16_t> samples);
 
 /// Returns the white level of a 16-bit image whose maximum level is `max_level`. Many sensors store
-/// values of 8 to 12 bits in 16-bit samples. White is then the largest value that fits into these
+/// values of 8 to 12 bits in 16-bit samples. White is then the largest value that fits in these
 /// bits.
 std::uint32_t white_level(std::uint32_t max_level);
 

@@ -143,7 +143,7 @@ bool PacketReader::push(std::uint8_t byte) {
     }
     const std::size_t count = count_;
     count_ = 0;
-    if (count == 0) return false;  // there are no bytes between two end marks
+    if (count == 0) return false;  // two consecutive end marks
     Plain plain;
     if (count == bytes_.size() && link::unframe(bytes_, plain) && unpack(plain, packet_)) {
         return true;

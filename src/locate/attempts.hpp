@@ -26,8 +26,8 @@ namespace dotpose::core {
 /// - `device` locates the frame as a DeviceLocator does.
 enum class Step : std::uint8_t { first, complete_first, turning, second, resampled, device };
 
-/// Returns true if the status means that the image shows a grid of dots whose bits do not determine
-/// a reliable position in this code. An attempt in another code may succeed.
+/// Returns true if, according to the status, the image shows a grid of dots, but their bits do not
+/// determine a reliable position in this code. An attempt in another code may succeed.
 bool leaves_code_open(Status status);
 
 /// Makes attempts to locate one frame. The results of the last attempt are in the workspace.

@@ -36,9 +36,9 @@ CodeEvidence::LogOdds CodeEvidence::sum() const {
     if (frames_here_ == 0) return sum;
     // The factor of a code in one frame is the odds of the most likely code in this frame, divided
     // by the odds of the code in question. By Markov's inequality, the mean factor of the true code
-    // over the frames at one place is m or more with a probability of at most 1/m, even if the
-    // frames are not independent. The odds of a code with the mean factor m are therefore
-    // multiplied by 1/m.
+    // over the frames at one place is at least m with a probability of at most 1/m, even if the
+    // frames are not independent. The odds of a code with mean factor m are therefore multiplied by
+    // 1/m.
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=

@@ -82,10 +82,10 @@ bool is_too_small_for_second(const Frame& frame, const Hypothesis& hypothesis) {
     return !frame.known.any() && has_fewer_cells(frame, hypothesis, tuned::kMinCellsForSecond);
 }
 
-/// Returns true if all dots seen were read without a wrong bit. In small views, `is_clean` is
-/// sufficient, because a few unread or misread dots make little difference and further attempts
-/// take a long time. In small views with too few cells for a second attempt, any bits are accepted
-/// as clear.
+/// Returns true if all dots seen were read, and none of their bits is wrong. In small views,
+/// `is_clean` is sufficient, because a few unread or misread dots make little difference and
+/// further attempts take a long time. In small views with too few cells for a second attempt, any
+/// bits are accepted as clear.
 bool are_clear(const Frame& frame, const Hypothesis& hypothesis, const BitsRead& bits) {
     if (hypothesis.is_small_view)
         return is_clean(bits) || is_too_small_for_second(frame, hypothesis);

@@ -1,5 +1,5 @@
-// Hypothesis: a plane and a place in the code that an attempt tests. Also determines the cells in
-// view.
+// Hypothesis: a plane and a place in the code, to be tested by an attempt. This file also declares
+// the functions that determine the cells in view.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct Hypothesis {
     /// True if the bits are also read from dots that are cut off by the image border. Such dots are
     /// not used to fit the pose.
     bool reads_cut_dots = false;
-    /// True if the pattern may cover only the part of the image around `from_centre`.
+    /// True if the pattern may cover only a part of the image, around `from_centre`.
     bool is_partial_view = false;
     /// True if the image is small and shows few cells. The effort spent on testing the place is
     /// then limited (see `PlaceEvidence::work`).

@@ -1,5 +1,5 @@
-// On sheets: finds and verifies places on known sheets. The place of a view with few cells may be
-// certain among the known sheets, although it would not be certain among all places of the code.
+// On sheets: finds and verifies places on known sheets. If a view has few cells, its place can be
+// certain on the known sheets even if it would not be certain in the whole code.
 #pragma once
 
 #include <optional>

@@ -41,7 +41,7 @@ bool is_certain_together(const PlaceEvidence& evidence, const Place& place,
                          const FloatPlane& grid_from_image, const BitBlock& block, Fix& fix) {
     const auto& [kernels, options, known, earlier, line_scores, others, work] = evidence;
     // There are two possible errors: a wrong match of the grids and a wrong place. The probability
-    // of each error may be at most half of the limit for the fix.
+    // of each error must be at most half of the limit for the fix.
     DeviceOptions half = options;
     --half.integrity.max_p_wrong_log2;
     const auto joined = earlier.join(block, grid_from_image);

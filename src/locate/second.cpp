@@ -58,8 +58,8 @@ bool may_be_biased(const Fix& fix, const PlaneFromImage& plane, const ImageView&
 
 }  // namespace
 
-/// Finds the grid of the detected dots. Allows for perspective, and for lens distortion that the
-/// dot centres still contain.
+/// Finds the grid of the detected dots. Allows for perspective, and for lens distortion that
+/// remains in the dot centres.
 Status SecondAttempt::find_grid(const LatticeOptions& options, FixedVec centre_q8) {
     Status status = find_axes(centre_q8, kMaxSeeds, w_);
     if (status != Status::ok) return status;
@@ -113,7 +113,7 @@ Status SecondAttempt::read_filtered(const Frame& frame) {
     return status;
 }
 
-/// Finds the position from the bits, and verifies the position with the bits of all dots.
+/// Finds the position from the bits, and verifies it against the bits of all dots.
 Status SecondAttempt::read_position(const PlaceEvidence& evidence) {
     const auto& [kernels, options, known, earlier, line_scores, others, work] = evidence;
     const Grid& grid = w_.grid;
@@ -148,8 +148,8 @@ bool SecondAttempt::fit_pattern(const Frame& frame, const Nominal& nominal, Pose
     return refine_pose({w_.found_dots(), w_.grid, nominal, &w_.smoothing.paper}, plane, fit);
 }
 
-/// Reads the bits again, with a grid fitted to the dots of a doubtful position. If the position is
-/// correct, more bits are clear in the new grid.
+/// Reads the bits again, using a grid fitted to the dots that the code predicts at a doubtful
+/// position. If the position is correct, more bits are clear in the new grid.
 Status SecondAttempt::resample(const Frame& frame, const PlaceEvidence& evidence) {
     const DeviceOptions& options = frame.options;
     PoseFit fit;

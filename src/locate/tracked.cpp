@@ -48,7 +48,7 @@ int max_shift_px(const Prediction& prediction, float spacing_px) {
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane with the centroids of the listed dots. Returns false if fewer than kMinNear
+/// Corrects the plane, using the centroids of the listed dots. Returns false if fewer than kMinNear
 /// of the listed dots, or fewer than three quarters of them, have offsets of at most kMaxOffset_px.
 bool correct_by_centroids(const Frame& frame, CellsInView view, FloatPlane& plane,
                           MeasuredDots& dots) {
@@ -72,8 +72,8 @@ bool correct_by_centroids(const Frame& frame, CellsInView view, FloatPlane& plan
     return true;
 }
 
-/// Corrects the hypothesis with the dots near its `from_centre`. Returns false if the dots are not
-/// found.
+/// Corrects the hypothesis, using the dots near its `from_centre`. Returns false if the dots are
+/// not found.
 bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
                      const RollMemory& rolls, MeasuredDots& dots) {
     const Kernels& kernels = frame.kernels;
@@ -115,8 +115,8 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
            fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }
 
-/// Corrects the hypothesis with the dots near the image point `from`, which is in px relative to
-/// the image centre. Returns false if the dots are not found.
+/// Corrects the hypothesis, using the dots near `from`, an image point in px relative to the image
+/// centre. Returns false if the dots are not found.
 bool correct(const Frame& frame, FloatVec from, int max_px, Hypothesis& hypothesis,
              const RollMemory& rolls, MeasuredDots& dots) {
     hypothesis.from_centre = from;
@@ -158,8 +158,8 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Fr
     return hypothesis;
 }
 
-/// For each of the image points kPoints in turn, corrects the hypothesis with the dots near the
-/// point, and tests the corrected hypothesis (see `confirm`). Returns true as soon as a corrected
+/// Tries the image points kPoints in turn: corrects the hypothesis, using the dots near the point,
+/// and tests the corrected hypothesis (see `confirm`). Returns true as soon as a corrected
 /// hypothesis is confirmed.
 bool confirm_corrected(const Frame& frame, const Hypothesis& hypothesis, int max_px,
                        const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {

@@ -66,16 +66,16 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F, 0.85F, 0.65F};
 
 /// Search for a rotation of the scene during the readout (locate/turning).
 namespace turning {
-/// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum number of rows
-/// by which the rotation moves a point at the left or right image border down while one row is
-/// read.
+/// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum distance, in
+/// rows, by which the rotation moves a point at the left or right image border downwards while one
+/// row is read.
 inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
 /// Maximum drift of the scene while a row is read, in rows.
 inline constexpr float kMaxDrift = 0.9F;
-/// kStep is the first step of the search for the rotation, expressed as the distance, in spacings,
-/// by which it moves the dots in the corners of the patch. The search ends when the step has been
-/// reduced to kStep / kStepParts.
+/// kStep is the first step of the search for the rotation, expressed as the displacement of the
+/// dots in the corners of the patch, in spacings. The search ends when the step has been reduced to
+/// kStep / kStepParts.
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
 /// A grid replaces the best grid so far if its agreement exceeds this multiple of the best
@@ -91,8 +91,8 @@ inline constexpr float kMinGain = 3;
 /// Maximum number of grids for which the search looks for a place in the code. If none of these
 /// grids has a place, the search ends, because further rotations usually lead to the same grids.
 inline constexpr int kMaxClimbs = 3;
-/// The correction of the rotation moves the dots in the image corners. If it moves them by at least
-/// kSettled_px, the image is measured again. Smaller corrections are applied to the measured dots.
+/// If a correction of the rotation moves the dots in the image corners by at least kSettled_px, the
+/// image is measured again. A smaller correction is applied to the dots already measured.
 /// kMaxRounds is the maximum number of measurements.
 inline constexpr float kSettled_px = 0.5F;
 inline constexpr int kMaxRounds = 5;
@@ -206,8 +206,8 @@ inline constexpr float kFacing = 0.55F;
 /// phases in view are uniformly distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// The pixel bias is corrected only if the sub-pixel phases of the dots of a row or column change
-/// by less than this distance across the view. The correction is restricted in this way because it
-/// takes several times as long as all other steps together.
+/// by less than this distance across the view. This limit keeps corrections rare, because a
+/// correction takes several times as long as all other steps combined.
 inline constexpr float kDriftInView_px = 0.35F;
 /// The pixel bias is not significant if the variance of the mean dot centre along one axis exceeds
 /// this limit, because other errors are then larger than the bias.
@@ -219,16 +219,17 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// If the image contains fewer than this number of cells, bits are also read from dots that are cut
 /// off by the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels in a small view. In small views, the effort spent on testing a place is
-/// limited. A view is small only if it also contains fewer than kMaxCellsWithCutDots cells. Larger
-/// images rarely contain so few cells, except if a rolling shutter stretches the cells.
+/// Maximum number of pixels in a small view. A view is small if it also contains fewer than
+/// kMaxCellsWithCutDots cells. The effort spent on testing a place in a small view is limited.
+/// Images with more pixels rarely contain so few cells unless a rolling shutter stretches the
+/// cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Minimum number of cells in a small view for which a second attempt is made. Of 241 frames of 72
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,
 /// "Small frames", contains the numbers for other sizes.
 inline constexpr float kMinCellsForSecond = 70;
-/// Maximum distance, in spacings, of an intersection outside the image whose dot may still be
-/// partly visible.
+/// Maximum distance of a listed intersection beyond the image border, in spacings. The dot of such
+/// an intersection may still be partly visible.
 inline constexpr float kBeyondBorder = 0.2F;
 /// Minimum number of dots that `DotReader::find_centres` must find to fit a plane to them.
 inline constexpr int kMinFound = 8;
@@ -311,9 +312,9 @@ namespace cascade {
 /// The frame is read again in another code if the odds of that code, relative to the code of the
 /// fix, exceed this number.
 inline constexpr float kBetterOdds = 2;
-/// A place in another code is reported only if at most one bit is wrong per this number of dots.
-/// This is an error rate of 1 %, because a dot has two bits. Misread bits can cause such an error
-/// rate even if the place is correct.
+/// Minimum number of dots per wrong bit for a place in another code to be reported. A dot has two
+/// bits, so the maximum error rate is 1 %. Misread bits can cause this error rate even if the place
+/// is correct.
 inline constexpr int kMinDotsPerBitError = 50;
 /// A different place in another code is also reported if its likelihood is at least this fraction
 /// of the likelihood of the fix.

@@ -94,8 +94,8 @@ class TurnSearch {
         for (float step = step_; step > finest;) {
             if (!improves(step) && !improves(-step) && !improves(0)) step /= 2;
         }
-        // Removes the best rotation from the dots of the patch, because the last rotation tried may
-        // be a different one.
+        // Derotates the dots of the patch by the best rotation, because the last rotation tried may
+        // not be the best.
         PatchGrid last;
         return fits(turn_, last);
     }

@@ -22,8 +22,8 @@
 namespace dotpose::core {
 
 /// Memory of a Locator, and results of its attempts. Only the entry points and the attempts access
-/// the whole workspace. They pass parts of it to the stages. The base class, which is the memory of
-/// a DeviceLocator, is used by the attempt of `Effort::device`.
+/// the whole workspace. They pass parts of it to the stages. The base class is the memory of a
+/// DeviceLocator. Attempts with `Effort::device` also use it.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;   ///< used by the first attempt and the search for a rotation
     Smoothing smoothing;      ///< used by the second attempt
@@ -129,7 +129,7 @@ class WorkspaceOf : public DesktopWorkspace {
     // `MaxWidth`, for example 188 x 188 px for the paper's sensor, but at most 1280 x 1024 px.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
-    // Maximum number of columns, and of rows, that are read in one view.
+    // Maximum number of columns and maximum number of rows read in one view.
     static constexpr std::size_t kRolls = 1024;
 
     Patch patch_;

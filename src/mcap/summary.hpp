@@ -20,7 +20,7 @@ struct Contents {
 /// before `place`.
 void append_end(Bytes& out, std::uint64_t place, const Contents& contents, const Crc32& data);
 
-/// Appends the eight magic bytes, which are at the beginning and at the end of a file.
+/// Appends the eight magic bytes that begin and end every file.
 void append_magic(Bytes& out);
 
 }  // namespace dotpose::mcap

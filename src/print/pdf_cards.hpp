@@ -10,8 +10,8 @@
 
 namespace dotpose::print {
 
-/// Grid of cards, centred on a page. Adjacent cards touch. The margin around the grid has space for
-/// cut marks.
+/// Grid of cards, centred on a page. Adjacent cards touch. The margin around the grid leaves room
+/// for cut marks.
 struct CardGrid {
     Paper paper;  ///< rotated by 90 degrees if more cards fit that way
     Paper card;

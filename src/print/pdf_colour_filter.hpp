@@ -13,10 +13,10 @@ namespace dotpose::print {
 
 class ColourFilter : public QPDFObjectHandle::TokenFilter {
   public:
-    /// `spaces` contains the kind of each colour space that the operators `cs` and `CS` may select
-    /// by name. `starts_black` must be true for pages, where the initial colours are black. The
-    /// filter then first writes operators that set the fill and stroke colours to the converted
-    /// black. If `starts_black` is false, the initial colours are inherited.
+    /// `spaces` contains the kind of each colour space that the operators `cs` and `CS` can select
+    /// by name. `starts_black` must be true for pages, where the initial colours are black. In this
+    /// case, the filter first writes operators that set the fill and stroke colours to the
+    /// converted black. If `starts_black` is false, the initial colours are inherited.
     ColourFilter(InkChange change, std::map<std::string, ColourKind> spaces, bool starts_black);
 
     void handleToken(QPDFTokenizer::Token const& token) override;

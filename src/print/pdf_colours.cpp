@@ -84,8 +84,8 @@ bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle s
 }
 
 /// Replaces the grey colour space of an image with a palette of converted colours, so the pixel
-/// data need not be changed or decompressed. If the number of bits per pixel is missing or not
-/// from 1 to 8, returns false and changes nothing.
+/// data need not be changed or decompressed. If the number of bits per pixel is missing or not in
+/// the range 1 to 8, returns false and changes nothing.
 bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     QPDFObjectHandle depth = dict.getKey("/BitsPerComponent");
     if (!depth.isInteger() || depth.getIntValue() > 8 || depth.getIntValue() < 1) return false;

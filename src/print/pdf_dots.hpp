@@ -46,11 +46,11 @@ DotDrawing resolve_drawing(DotDrawing asked, const Pattern& pattern, double dpi)
 /// in memory. The memory needed is therefore independent of the size of the page.
 class DotContent {
   public:
-    /// `pdf` must outlive this object. `rows` counts the rows that all streams write.
+    /// `pdf` must outlive this object. `rows` counts the rows written by all streams.
     DotContent(QPDF& pdf, double dpi, DotDrawing asked, std::shared_ptr<RowCount> rows);
 
-    /// Returns the dots of the sheet as content streams that are independent of each other. Throws
-    /// the same errors as `resolve_drawing`.
+    /// Returns the dots of the sheet as independent content streams. Throws the same errors as
+    /// `resolve_drawing`.
     std::vector<QPDFObjectHandle> streams(const Sheet& sheet);
 
     /// Returns the resource dictionary of the content streams. It may be empty.

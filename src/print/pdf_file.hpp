@@ -24,8 +24,8 @@ class FilePipeline : public Pipeline {
     base::OutputFile& file_;
 };
 
-/// Writes `pdf` into `file` without committing it. Throws the exception stored in `rows`, or Error
-/// if the file cannot be written or qpdf fails.
+/// Writes `pdf` to `file` without committing the file. Throws the exception stored in `rows`, or
+/// Error if the file cannot be written or qpdf fails.
 void write_document(QPDF& pdf, const RowCount& rows, base::OutputFile& file);
 
 }  // namespace dotpose::print

@@ -26,7 +26,7 @@ std::size_t components(ColourKind kind);
 /// [/ICCBased stream], or a name that is defined in the resources `spaces`, which may be null.
 ColourKind kind_of_space(QPDFObjectHandle space, QPDFObjectHandle spaces);
 
-/// Returns the amount of black ink, 0 to 1, with which a colour is printed. For grey and RGB, which
+/// Returns the amount of black ink, from 0 to 1, used to print a colour. For grey and RGB, which
 /// the printer converts, returns the amount of black that the usual conversion yields. Returns 0
 /// for `ColourKind::other`.
 double black_of(ColourKind kind, std::span<const double> colour);

@@ -246,8 +246,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     }
     const double dots_begin_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
     // Returns true if a tick or number from `from_mm` to `to_mm` would cross the other ruler or its
-    // arrow. The marks of the other ruler that could be crossed are at least `nearest_mm` away from
-    // the dots.
+    // arrow. `nearest_mm` is the minimum distance between the dots and the marks of the other ruler
+    // that could be crossed.
     const auto is_crossed = [&](double from_mm, double to_mm, double nearest_mm) {
         return to_mm > crossing_mm && from_mm < dots_begin_mm - nearest_mm;
     };
@@ -267,7 +267,7 @@ std::string ruler_content(const Sheet& sheet, Side side) {
         const double length_mm = width_mm(number, kNumber_pt);
         const double from_mm = mm == 0 ? kEdge_mm : mm - length_mm / 2;
         if (is_crossed(from_mm, from_mm + length_mm, kNumberAway_mm)) continue;
-        // The numbers of the left ruler are written upwards, so their tops are on the left.
+        // The numbers on the left ruler read upwards, so their tops face left.
         numbers +=
             fmt::format("{} {} Tm {} Tj\n", is_top ? "1 0 0 1" : "0 1 -1 0",
                         at(is_top ? from_mm : from_mm + length_mm, kNumberAway_mm), shown(number));

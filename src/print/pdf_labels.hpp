@@ -16,9 +16,9 @@ struct PageNumber {
 
 /// Returns the labels as PDF content, in points from the bottom left corner of the page. The page
 /// must define Helvetica as the font resource /Label. Lines of text with letters that Helvetica
-/// lacks are drawn by the forms of `script`, which the page resources must also contain. Labels
-/// that do not fit into the margins are omitted, so no label touches a dot. The command line is
-/// the first to be omitted.
+/// lacks are drawn by the forms of `script`. The page resources must also contain these forms.
+/// Labels that do not fit in the margins are omitted, so no label touches a dot. The command line
+/// is the first to be omitted.
 std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                           ScriptText& script);
 

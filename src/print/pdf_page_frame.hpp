@@ -21,7 +21,7 @@ struct PageFrame {
 
 /// Computes the frame from /Rotate, /UserUnit and the boxes, which may be inherited. Throws Error
 /// if the area of the page is 0. Also throws Error if the rotation is not a multiple of 90 degrees,
-/// because viewers differ in how they show such a page.
+/// because viewers differ in how they display such pages.
 PageFrame page_frame(QPDFPageObjectHelper page);
 
 /// Replaces a /Rotate that is a real number, such as 90.0, with an integer, because some viewers

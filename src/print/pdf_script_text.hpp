@@ -1,5 +1,5 @@
 /// Typesets labels in any script for a PDF page. Helvetica, which is not embedded, has only Latin
-/// letters, so other letters are drawn with the fonts that are installed on the computer.
+/// letters, so other letters are drawn with fonts installed on the computer.
 #pragma once
 
 #include <map>

@@ -158,7 +158,7 @@ void validate_resolution(const Sheet& sheet, double dpi) {
             std::ceil(print::kInch_mm / sheet.pattern.displacement_mm - print::kTie_px)));
     }
     // The position of each dot is rounded to whole pixels independently, so the gap between two
-    // dots may become up to one pixel narrower.
+    // dots can be up to one pixel narrower.
     const int dot_px = print::diameter_px(sheet, dpi);
     const double closest_px = sheet.pattern.spacing_mm * px_per_mm - 2 * displacement_px;
     if (closest_px < dot_px + 1 - print::kTie_px) {

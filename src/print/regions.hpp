@@ -7,8 +7,9 @@
 
 namespace dotpose::print {
 
-/// Allocates regions side by side, from `start` to the right. A region that would extend past the
-/// right end of the plane is placed in a new row, below all regions of the current row.
+/// Allocates regions side by side, from left to right, beginning at `start`. A region that would
+/// extend past the right end of the plane is placed in a new row, below all regions of the current
+/// row.
 class Regions {
   public:
     explicit Regions(Cell start) : start_(start), next_(start) {}

@@ -31,7 +31,7 @@ std::string head(double width_mm, double height_mm, const std::string& title) {
         width_mm, height_mm, to_units(width_mm), to_units(height_mm), title);
 }
 
-/// Writes one path per row of dots. A dot is a line of length zero with round ends, which is drawn
+/// Writes one path per row of dots. Each dot is a line of length zero with round ends. It appears
 /// as a disc and takes only a dozen bytes.
 void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done,
                 base::ByteSink& file) {

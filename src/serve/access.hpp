@@ -33,7 +33,7 @@ struct RequestHead {
     std::string origin;         ///< Origin header, which browsers add to requests from scripts
     std::string cookie;         ///< Cookie header
     std::string authorization;  ///< Authorization header
-    std::string token;          ///< URL parameter `token`
+    std::string token;          ///< `token` parameter of the URL
     bool is_get = false;        ///< true if the method is GET
 };
 

@@ -8,7 +8,7 @@
 
 namespace dotpose::serve {
 
-/// An address of this computer and a port.
+/// An IP address of this computer, and a port.
 struct Address {
     std::string ip = "127.0.0.1";  ///< IPv4 or IPv6 address; 0.0.0.0 and :: mean all interfaces
     std::uint16_t port = 0;        ///< 0 to let the system choose a free port

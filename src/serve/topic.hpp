@@ -48,7 +48,7 @@ class Topic {
 
     const std::string& name() const { return name_; }
     bool is_binary() const { return is_binary_; }
-    /// Returns the number of values that were published.
+    /// Returns the number of values published so far.
     std::uint64_t version() const;
     /// Returns the message with the newest value: the name of the topic, a line break, and the
     /// value. Sets `version` to the number of the value. The topic must have a value.
@@ -94,10 +94,10 @@ struct Subscription {
     void acknowledge() { unacknowledged -= unacknowledged > 0 ? 1 : 0; }
     /// Returns true if the client may receive a value.
     bool is_open() const { return is_on && unacknowledged < kMaxUnacknowledged; }
-    /// Returns true if the client should receive the value with the number `version`. A client that
-    /// has changed its request receives the same value again, encoded for the new request, but only
-    /// after it has acknowledged all messages. Without this condition, a client that keeps changing
-    /// its request would receive no newer values.
+    /// Returns true if the client should receive value number `version`. A client that has changed
+    /// its request receives the same value again, encoded for the new request, but only after it
+    /// has acknowledged all messages. Without this condition, a client that keeps changing its
+    /// request would receive no newer values.
     bool is_due(std::uint64_t version) const {
         const bool is_answer_due = is_on && is_changed && unacknowledged == 0 && version > 0;
         return is_answer_due || (is_open() && seen < version);

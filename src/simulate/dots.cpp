@@ -51,8 +51,8 @@ Vec2 shift_of(const Page& page, Cell cell) {
 }
 
 /// Returns the reflectance of a dot. If `palest_ink` is less than 1, the reflectance depends on the
-/// direction in which the dot is displaced. From the darkest to the palest dots, the order is
-/// right, down, left, up.
+/// direction of the dot's displacement: dots displaced to the right are the darkest, followed by
+/// down, left and up.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
     const double paleness = displacement.x > 0   ? 0
                             : displacement.y > 0 ? 1

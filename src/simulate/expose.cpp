@@ -20,8 +20,8 @@ namespace {
 constexpr std::size_t kLanes = 4;
 
 // Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. To
-// save time, the absorbed light is computed by convolving only the sub-pixels with ink, a few
-// percent of all sub-pixels, with the kernel.
+// save time, only the sub-pixels that contain ink, a few percent of all sub-pixels, are convolved
+// with the kernel.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)
@@ -267,7 +267,7 @@ class ImageRows {
     }
 
     float darkness_at(Vec2 offset_mm) const {
-        // The centre of the first pixel has the coordinate 0, so half a pixel is subtracted.
+        // The centre of the first pixel is at coordinate 0, so half a pixel is subtracted.
         const double u = (page_.centre_mm.x + offset_mm.x) / page_.mm_per_px - 0.5;
         const double v = (page_.centre_mm.y + offset_mm.y) / page_.mm_per_px - 0.5;
         if (!(u > -1 && v > -1 && u < page_.image.width_px && v < page_.image.height_px)) return 0;

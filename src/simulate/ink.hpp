@@ -1,4 +1,4 @@
-/// Ink shapes in the sharp image, before blur and motion are applied. Functions that create the
+/// Ink shapes in the sharp image, before blur and motion are applied, and functions that create the
 /// shapes and expose frames.
 #pragma once
 
@@ -93,7 +93,7 @@ void add_graphics(Ink& ink, const View& view, const Imperfections& imperfections
 void add_dirt(Ink& ink, const View& view, double dot_mm, const Imperfections& imperfections,
               Rng& rng);
 
-/// Throws BadArgument if a value is out of its range.
+/// Throws BadArgument if a value is out of range.
 void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
            const Imperfections& imperfections);
 

@@ -54,8 +54,8 @@ double endless(const Shot& shot) {
     return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
 }
 
-/// Returns a random sheet whose edge or corner is in view. The sheet covers the fraction `fraction`
-/// of the view.
+/// Returns a random sheet whose edge or corner is in view. `fraction` is the fraction of the view
+/// that the sheet covers.
 PageArea edge_of_sheet(const Shot& shot, double fraction, Rng& rng) {
     const std::vector<Vec2> points = sample_points(shot);
     const double size = endless(shot);

@@ -28,7 +28,7 @@ struct Place {
 };
 
 /// A state of a robot. Strings must be valid UTF-8 without null characters. `robot` is the name of
-/// the robot. Many states may share the objects to which `robot` and `place` point.
+/// the robot. Many states can share the objects that `robot` and `place` point to.
 struct State {
     std::shared_ptr<const std::string> robot;
     std::shared_ptr<const Place> place;

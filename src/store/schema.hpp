@@ -13,7 +13,7 @@ namespace dotpose::store {
 
 inline constexpr std::int64_t kDay_us = 86'400'000'000;
 
-/// Version of the tables, stored in the table `version`.
+/// Version of the tables, stored in the `version` table.
 inline constexpr int kVersion = 1;
 
 /// Parts of the SQL statements that differ between databases.
@@ -27,7 +27,7 @@ struct Dialect {
 /// Returns statements that create the missing tables and the view, separated by semicolons.
 std::string schema_of(const Dialect& dialect);
 
-/// Columns of the table `states` in the order of its definition.
+/// Columns of the `states` table, in the order of its definition.
 inline constexpr std::string_view kColumns =
     "time_us, number, x_nm, y_nm, robot, place, delay_us, theta_urad, deviation_nm, vx_um_s, "
     "vy_um_s, omega_urad_s, state, reason";
@@ -42,7 +42,7 @@ using Integers = std::array<std::optional<std::int64_t>, kIntegerCount>;
 
 Integers integers_of(const State& state, std::int64_t robot_id, std::int64_t place_id);
 
-/// Returns the text of the column `reason`.
+/// Returns the text of the `reason` column.
 std::string_view reason_text(Status reason);
 
 /// Returns the state stored in a row, without `robot` and `place`.

@@ -7,7 +7,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// windows.h must be included before shellapi.h, which needs its types.
+// shellapi.h uses types from windows.h, so windows.h must be included first.
 #include <shellapi.h>
 
 #include "system/process.hpp"

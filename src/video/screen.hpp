@@ -1,5 +1,5 @@
 // Shows the live picture of `dotpose watch` or `dotpose calibrate --live` in a window, records it
-// in a video file, or both.
+// in a video file, or does both.
 #pragma once
 
 #include <cstdint>
@@ -61,8 +61,7 @@ struct ScreenOptions {
     bool has_window = false;
     std::string record;  ///< path of the video file, or empty for none
     double fps = 30;     ///< frame rate of the video file
-    /// Called with a message for the user if H.264 is not available, in which case the file is
-    /// larger.
+    /// Called with a message for the user if H.264 is not available. The file is then larger.
     std::function<void(const std::string&)> notify = [](const std::string&) {};
 };
 
@@ -71,7 +70,7 @@ struct ScreenOptions {
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;
-    /// Each of these functions implements the function of Screen that has the same name.
+    /// Each of these functions implements the function of the same name in Screen.
     virtual bool show(const Scene& scene) = 0;
     virtual void finish() = 0;
     virtual bool is_wanted() = 0;

@@ -20,7 +20,7 @@ using testing::AnyOf;
 using testing::HasSubstr;
 
 /// Positions modulo 241, the period of the sequence a4. Between positions 222 and 238, the digits
-/// of a4 in the code anoto equal those in the code libdots, shifted by one position
+/// of a4 in the `anoto` code equal those in the `libdots` code, shifted by one position
 /// (docs/position-code.md). A view centred on kShifted therefore occurs in both codes, but at
 /// different positions. A view centred on kCommon occurs in both codes at the same position. A view
 /// centred on kBorder occurs in only one code.

@@ -13,8 +13,8 @@ using testing::HasSubstr;
 
 class CalibrateCommand : public ToolCommand {
   protected:
-    /// Simulates frames with the lens distortion that the camera in the paper has, and writes them
-    /// to a folder.
+    /// Simulates frames with the lens distortion of the camera in the paper, and writes them to a
+    /// folder.
     void simulate(const std::string& folder, int frames, const std::string& more = "") {
         ASSERT_EQ(run("simulate -o " + folder + " --seed 91 --k -8.7e-6 --frames " +
                       std::to_string(frames) + " " + more),

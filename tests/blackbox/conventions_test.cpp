@@ -30,7 +30,8 @@ class Conventions : public ToolCommand {
 
     void put_frame() { write_pgm(directory_ / "a.pgm", render(shot(1)).view()); }
 
-    /// Expects that the directory contains exactly these files, sorted by name.
+    /// Expects that the directory contains exactly the files in `names`. The names must be sorted,
+    /// and each must be followed by a space.
     void expect_files(const std::string& names) {
         shell("ls -A | tr '\\n' ' '");
         EXPECT_EQ(output_, names);

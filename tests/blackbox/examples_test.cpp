@@ -42,8 +42,8 @@ TEST_F(Examples, LocateOneTellsWhereAnImageLooks) {
 }
 
 TEST_F(Examples, FollowGoesWithTheRobot) {
-    // A camera that takes 200 frames per second observes a robot. The robot drives at 300 mm/s and
-    // is then lifted.
+    // The robot's camera takes 200 frames per second. The robot drives at 300 mm/s and is then
+    // lifted.
     const Drive drive;
     const DriveCamera camera(188, 120);
     const int first = static_cast<int>(drive.plan().lift * kDriveFps) - 12;

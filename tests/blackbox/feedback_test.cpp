@@ -1,5 +1,5 @@
 // Tests the output of long operations on a terminal: progress with the estimated remaining time,
-// colour, and partial results after Ctrl-C. The program `script` runs the tool on a
+// colour, and partial results after Ctrl-C. The `script` program runs the tool on a
 // pseudo-terminal.
 #include <cstdint>
 #include <filesystem>
@@ -94,9 +94,9 @@ TEST_F(Feedback, CtrlCKeepsTheUnreadableFramesOfEvaluate) {
     for (int i = 0; i < 30'000; ++i)
         list << "frames/frame_000001.pgm\n";
     list.close();
-    // Interrupts the tool after 1.5 s of processor time (150 clock ticks). At this time, the tool
-    // has located only some of the frames, because reading the list takes up to 0.5 s, and locating
-    // all frames takes about 6 s.
+    // Interrupts the tool after 1.5 s of CPU time (150 clock ticks). By then, the tool has
+    // located some of the frames, but not all: reading the list takes up to 0.5 s, and locating all
+    // frames takes about 6 s.
     EXPECT_EQ(interrupt(std::string("exec ") + kTool + "evaluate --list list --format json",
                         "[ \"$(cut -d ' ' -f 14 /proc/$(cat pid)/stat)\" -gt 150 ]"),
               1);

@@ -117,8 +117,8 @@ Shot wide_shot() {
     return draw_shot(setup, 0);
 }
 
-// The image has an odd width and an odd height. Its last column and row are therefore omitted when
-// it is reduced to half its size, which moves the image centre.
+// The image has an odd width and an odd height. When it is reduced to half its size, its last
+// column and last row are therefore omitted, so the image centre moves.
 TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     const Shot wide = wide_shot();
     write_pgm(directory_ / "wide.pgm", render(wide).view());
@@ -159,7 +159,7 @@ TEST_F(LocateCommand, a_mirrored_view_says_how_to_go_on_and_is_located_flipped) 
           "centre_px: [93.5, 59.5], flip: true}");
     run("straight.pgm");
     const json straight = records().at(0);
-    // Mirroring can be set with the option --flip, in the camera file, or in both ways.
+    // Mirroring can be set with --flip, in the camera file, or both.
     for (const char* how : {"--flip ", "--camera camera.yaml ", "--flip --camera camera.yaml "}) {
         run(how + std::string("mirrored.pgm"));
         const json record = records().at(0);

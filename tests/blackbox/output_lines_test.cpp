@@ -100,8 +100,8 @@ class OutputLines : public ToolCommand {
     }
 
     static constexpr double kYaw_rad = 0.4;
-    /// Index of the first frame that the test uses. The robot drives through a curve at 300 mm/s at
-    /// this time.
+    /// Index of the first frame that the test uses. In this frame, the robot drives through a curve
+    /// at 300 mm/s.
     static constexpr int kFirst = 320;
     const Drive drive_;
     const JsonSchema schema_{

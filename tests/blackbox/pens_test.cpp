@@ -130,7 +130,7 @@ TEST_F(Pens, InkIsDrawnFromLogsAndLines) {
     EXPECT_EQ(run("ink locate.json --fps 200 -o d.svg"), 0) << errors_;
 }
 
-/// CSV header with the columns that `ink` reads. The column `sheet` contains the name of the page.
+/// CSV header with the columns that `ink` reads. The `sheet` column contains the name of the page.
 constexpr const char* kInkHeader =
     "t_s,sheet,tip_x_sheet_mm,tip_y_sheet_mm,tip_height_mm,sigma_tip_x_mm,sigma_tip_y_mm,"
     "sigma_tip_height_mm\n";

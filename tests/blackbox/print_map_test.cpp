@@ -1,5 +1,5 @@
-// Tests print maps: `calibrate --print-map` creates them, and the option --print-map of `locate`
-// and `watch` uses them.
+// Tests print maps. `calibrate --print-map` creates them, and `locate --print-map` and `watch
+// --print-map` use them.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -51,9 +51,9 @@ class PrintMaps : public ToolCommand {
         return records;
     }
 
-    /// Returns the rms of the position errors after subtraction of the mean error. The mean error
-    /// is subtracted because a map does not contain the mean offset of the dots, which is 0.2 µm on
-    /// a page of this size.
+    /// Returns the rms of the position errors after subtracting the mean error. The mean error is
+    /// subtracted because a map does not contain the mean offset of the dots, which is 0.2 µm on a
+    /// page of this size.
     double error_um(const std::vector<json>& records, std::uint64_t series) const {
         const Sheet& sheet = print_.entry().sheet;
         const auto count = static_cast<double>(records.size());

@@ -1,5 +1,5 @@
-// Tests `locate` with a real photo of a real print. The photo may not be published, so it is stored
-// outside the project.
+// Tests `locate` with a real photo of a real print. The photo must not be published, so it is
+// stored outside the project.
 #include <cmath>
 #include <filesystem>
 #include <memory>

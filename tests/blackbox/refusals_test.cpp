@@ -25,8 +25,8 @@ Shot shot_of(Preset preset, Size size, std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Expects that `locate` refuses the frame because of its contents. A status that reports invalid
-/// arguments is a failure.
+/// Expects that `locate` refuses the frame because of its contents, not because of invalid
+/// arguments.
 void expect_refusal(const GreyImage& image, LargeMemory& memory, const std::string& what) {
     const Fix fix = Locator(memory, DeviceOptions{}).locate(image.view());
     switch (fix.status) {

@@ -93,8 +93,8 @@ TEST_F(SheetFileWriting, no_page_is_written_where_its_entry_cannot_be) {
 }
 
 TEST_F(SheetFileWriting, a_page_that_cannot_be_written_leaves_no_entry) {
-    // Files are limited to 4 blocks of 512 bytes. This is enough for the entry in the sheet file,
-    // which has about 700 bytes, but not for the page.
+    // Files are limited to 4 blocks of 512 bytes. This is enough for the entry in the sheet file
+    // (about 700 bytes), but not for the page.
     EXPECT_EQ(
         shell("trap '' XFSZ; ulimit -f 4; $T print -o a.svg --paper 40x40 --sheets sheets.json "
               "--name a"),

@@ -86,7 +86,7 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     ASSERT_EQ(print("-o table.svg --paper 80x60 --sheets sheets.json --name table"), 0) << errors_;
     json sheet = sheets().at(0);
     const GreyImage frame = frame_of(sheet, 40, 30, 0.3, 1);
-    // Cuts out the middle of the frame, which is 6.5 cells wide. This is enough to determine a
+    // Cuts a region 6.5 cells wide out of the middle of the frame. This is enough to determine a
     // position only if the sheets are known.
     constexpr int kSide_px = 72;
     const ImageView whole = frame.view();

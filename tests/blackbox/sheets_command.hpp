@@ -10,8 +10,7 @@
 namespace dotpose::test {
 
 /// Returns a nominal frame centred on a position on the page, in mm from the page's upper left
-/// corner. `sheet` is the page's entry in the sheet file, which determines the cell at this
-/// position.
+/// corner. `sheet`, the page's entry in the sheet file, determines the cell at this position.
 inline GreyImage frame_of(const json& sheet, double x_mm, double y_mm, double theta_rad,
                           std::uint64_t seed) {
     Setup setup;

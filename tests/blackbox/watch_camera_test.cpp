@@ -22,8 +22,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kFrames = 8;
-/// Index of the first frame that the test uses. The robot is driving on the first sheet at this
-/// time.
+/// Index of the first frame that the test uses. In this frame, the robot is driving on the first
+/// sheet.
 constexpr int kMoving = 220;
 
 class WatchCamera : public ToolCommand {

@@ -158,7 +158,7 @@ TEST_F(Watch, WritesLogMapPacketsAndVideo) {
     EXPECT_EQ(packets, 60);
     EXPECT_EQ(reader.packet().sequence, 59);
     EXPECT_EQ(reader.packet().time_us, 295'000U);
-    // The recording shows the frame, 800 px wide, and a panel that is 400 px wide.
+    // The recording shows the frame (800 px wide) and, beside it, a panel (400 px wide).
     shell(
         "ffprobe -v error -count_frames -select_streams v -show_entries "
         "stream=codec_name,nb_read_frames,width -of csv=p=0 run.mp4 > probe");
@@ -277,7 +277,7 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     encode("-c:v mjpeg -q:v 2", "whole.mkv");
     encode("-c:v mjpeg -q:v 2", "whole.avi");
     for (const std::string name : {"hole.mp4", "hole.mkv", "hole.avi"}) {
-        // Overwrites a section in the middle of the file, 2 % of its size. The index of AVI and MP4
+        // Overwrites 2 % of the file with zeros, beginning in the middle. The index of AVI and MP4
         // files is at the end and remains intact.
         std::string video = file("whole" + name.substr(4));
         std::fill_n(video.begin() + static_cast<std::ptrdiff_t>(video.size() / 2),
@@ -295,7 +295,7 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
                                                  : " has gaps, from damage or from its ")));
         EXPECT_THAT(errors_, HasSubstr(" of 60 frames were read\n"));
     }
-    // Removes bytes from an AVI file, so the offsets in its index are wrong.
+    // Removes bytes from the middle of an AVI file. The offsets in its index are then wrong.
     std::string video = file("whole.avi");
     video.erase(video.size() / 2, video.size() / 50);
     std::ofstream(directory_ / "lacking.avi", std::ios::binary) << video;

@@ -100,9 +100,8 @@ class Printer : public DataReaderListener {
     std::atomic<bool> has_gone_ = false;
 };
 
-/// If ROS_AUTOMATIC_DISCOVERY_RANGE is set, regardless of its value, searches for participants as
-/// ROS nodes do with the value LOCALHOST: without multicast, and only at the ports of this
-/// computer.
+/// If ROS_AUTOMATIC_DISCOVERY_RANGE is set to any value, searches for participants as ROS nodes do
+/// if the value is LOCALHOST: without multicast, and only at the ports of this computer.
 DomainParticipantQos participant_quality() {
     DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
     if (std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE") == nullptr) return qos;

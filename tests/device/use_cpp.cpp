@@ -1,5 +1,5 @@
 // A C++ program that uses only the exported folder. It locates a uniform frame, which shows no
-// dots. The receiver of the packet must get the status no_contrast.
+// dots. The receiver of the packet must get the `no_contrast` status.
 #include <cstdint>
 #include <cstdio>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Locates a uniform frame, using a locator with memory for exactly this frame size.
+/// Locates a uniform frame with a locator whose memory is exactly large enough for this frame size.
 template <int Width, int Height>
 Fix locate_black() {
     static DeviceMemoryFor<Width, Height> memory;

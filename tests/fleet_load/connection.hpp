@@ -48,7 +48,7 @@ class Connection {
     std::string incoming_;
     std::int64_t published_ = 0;
     std::int64_t answered_ = 0;
-    /// True after a connect acknowledgement or a subscribe request has been received.
+    /// True once a connect acknowledgement or a subscribe request has been received.
     bool is_ready_ = false;
 };
 

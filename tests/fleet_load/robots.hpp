@@ -8,7 +8,7 @@
 namespace dotpose::test {
 
 /// Robots that drive in circles. Their names are robot0, robot1, and so on. The message texts are
-/// prepared in advance, because sending a state must take little time.
+/// prepared in advance, so that sending a state takes little time.
 class Robots {
   public:
     Robots(int first, int count);

@@ -67,7 +67,7 @@ inline DeviceOptions options_of(const LocateHeader& header) {
     return options;
 }
 
-/// If the flag `own_prediction` is set and the frame has a fix, returns this fix, displaced by up
+/// If the `own_prediction` flag is set and the frame has a fix, returns this fix, displaced by up
 /// to 2 spacings and rotated by up to 11 degrees. Otherwise, returns an arbitrary prediction, which
 /// is read from the last bytes of the input. These bytes also serve as pixels.
 inline Prediction prediction_of(const LocateHeader& header, std::span<const std::uint8_t> rest,
@@ -141,7 +141,7 @@ inline void draw_dots(const LocateHeader& header, std::span<const std::uint8_t> 
     }
 }
 
-/// Returns the image of a fuzz input. If the flag `drawn` is set, `rest` contains the symbols of a
+/// Returns the image of a fuzz input. If the `drawn` flag is set, `rest` contains the symbols of a
 /// pattern to draw. Otherwise, `rest` contains grey values, row by row, and is repeated until the
 /// image is full. If `rest` is empty, the image is blank paper.
 inline Pixels pixels_of(const LocateHeader& header, std::span<const std::uint8_t> rest) {

@@ -1,6 +1,6 @@
 // Fuzzes `parse_print_map`, which must either return a valid map or throw Error. The fuzz target
-// appends the correct checksum to each input, because almost all random checksums would be
-// rejected.
+// appends the correct checksum to each input, because almost all inputs with random checksums would
+// be rejected.
 #include <cstdlib>
 #include <string>
 

@@ -59,7 +59,7 @@ std::vector<capture::Frame> frames_of_sheet() {
     return frames;
 }
 
-/// Starts the step `lens`, and offers each frame to the guide until the guide accepts it.
+/// Starts the `lens` step, and offers each frame to the guide until the guide accepts it.
 void collect(CalibrationGuide& guide, const std::vector<capture::Frame>& frames) {
     // The guide ignores a command while eight other commands are pending. `collect` therefore first
     // waits until all earlier commands have been executed.
@@ -107,7 +107,7 @@ TEST(CalibrationGuide, TakesNewSheetsWhileCommandsWait) {
     EXPECT_NEAR(second.paper->mm_per_px_x, 1.02 * first->paper->mm_per_px_x, 1e-6);
 }
 
-/// A guide in the step `readout`, and a camera that moves by 2 spacings from frame to frame.
+/// A guide in the `readout` step, and a camera that moves by 2 spacings from frame to frame.
 class FastDrive {
   public:
     explicit FastDrive(const test::TemporaryDirectory& folder) : guide_(options_in(folder)) {

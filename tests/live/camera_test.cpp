@@ -214,7 +214,7 @@ TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {
                     "wait $watch"),
               0)
         << errors_ << file("told");
-    // The window shows the frame, 800 px wide, and a panel beside it that is 400 px wide.
+    // The window shows the frame (800 px wide) and, beside it, a panel (400 px wide).
     EXPECT_THAT(output_, HasSubstr("Geometry: 1200x"));
 }
 

@@ -34,8 +34,8 @@ class FleetScale : public Mqtt {
         return directory_ / name;
     }
 
-    /// Publishes `states` states of each of `robots` robots, at a rate of 20 states per second and
-    /// robot. Returns when the broker has received all states.
+    /// Publishes `states` states of each of `robots` robots. Each robot publishes 20 states per
+    /// second. Returns when the broker has received all states.
     void publish(const Broker& broker, int robots, int states, int first = 0) {
         const ShellOutcome outcome = run_shell(fmt::format(
             "'{}' --port {} --robots {} --hz 20 --seconds {} --first {}",

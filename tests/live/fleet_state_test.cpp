@@ -98,7 +98,7 @@ TEST(FleetConditions, AClockThatIsSetBackOrDriftsDoesNotSilenceARobot) {
     r.pass(0.1);
     r.receive({.robot = "anna"}, 0, -3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::moving);
-    // The clock is slow by 1 %, so it falls behind by 18 s in half an hour.
+    // The clock runs 1 % slow, so it falls behind by 18 s in half an hour.
     Receiver slow;
     for (int i = 0; i < 1800; ++i) {
         slow.receive({.robot = "anna"}, 0, -i * kSecond / 100);
@@ -128,7 +128,7 @@ TEST(FleetConditions, AnEmptyConnectionMessageRemovesTheRobot) {
     EXPECT_EQ(r.fleet.bad(), 0);
 }
 
-/// Returns the changes of the robots' conditions as text, such as "anna lost (moving)".
+/// Returns the changes in the robots' conditions as text, such as "anna lost (moving)".
 std::vector<std::string> words(AlertWatch& watch, const Receiver& r) {
     std::vector<std::string> words;
     for (const auto& alert : watch.changes(r.fleet.robots(r.now()), r.now())) {

@@ -194,7 +194,7 @@ TEST(FleetMapValues, PositionsInTheWindow) {
     EXPECT_FLOAT_EQ(message.at<float>(24), 0);
     EXPECT_EQ(message.at<std::int16_t>(28), 0);
     EXPECT_EQ(message.at<std::uint8_t>(30), 0);  // moving
-    EXPECT_EQ(message.at<std::uint8_t>(31), 1);  // has a heading (1), is on a known sheet (not 2)
+    EXPECT_EQ(message.at<std::uint8_t>(31), 1);  // flags: 1 for a heading, 2 for an unknown sheet
     EXPECT_EQ(MapMessage(positions_value(snapshot_of(r), {}, {})).head["count"], 5);
 }
 

@@ -112,8 +112,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     shell("mkfifo frames");
     std::thread camera([&] {
         const GreyImage image = DriveCamera(188, 120).frame(Drive(), 0);
-        // The mode "e" closes the pipe on exec. Otherwise, the broker, which is restarted in the
-        // meantime, would keep the pipe open.
+        // The "e" mode closes the pipe on exec. Otherwise, the broker that is restarted in the
+        // meantime would keep the pipe open.
         std::FILE* pipe = std::fopen((directory_ / "frames").c_str(), "wbe");
         const auto begun = std::chrono::steady_clock::now();
         for (int i = 1; i <= kFrames; ++i) {

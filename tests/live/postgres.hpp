@@ -15,7 +15,7 @@
 namespace dotpose::test {
 
 /// A PostgreSQL cluster. PostgreSQL refuses to run as root. If the test runs as root, the cluster
-/// therefore belongs to the user `postgres`, which Debian's package creates.
+/// therefore belongs to the `postgres` user, which the Debian package creates.
 class Postgres {
   public:
     Postgres() : port_(free_port()) {

@@ -241,8 +241,8 @@ TEST_P(Databases, TwoProgramsWriteAtTheSameTime) {
                 try {
                     database->write(states);
                 } catch (const Error& error) {
-                    // If two transactions wait for each other, PostgreSQL aborts one of them, so
-                    // the states are written again.
+                    // If two transactions wait for each other, PostgreSQL aborts one of them. Its
+                    // states are then written again.
                     ++failures;
                     database->write(states);
                 }

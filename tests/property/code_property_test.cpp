@@ -1,5 +1,5 @@
-// Checks that decoding inverts encoding for random windows, upright and turned. The nightly test
-// checks a million windows.
+// Checks that decoding inverts encoding for random upright windows, and that turned windows are
+// refused unless the code contains them too. The nightly test checks a million windows.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -50,8 +50,7 @@ Draw random_draw(std::uint64_t seed) {
     draw.place = random_place(rng);
     draw.place.cell = {random_position(rng), random_position(rng)};
     draw.quarter_turns = random_int(rng, 0, 3);
-    // Windows smaller than 8 x 8 may be ambiguous in the code variant `libdots`: see
-    // decode_test.cpp.
+    // Windows smaller than 8 x 8 can be ambiguous in the `libdots` code. See decode_test.cpp.
     const int smallest = draw.code == CodeVariant::libdots ? 8 : 6;
     const int kind = random_int(rng, 0, 15);
     draw.columns = draw.rows = kind < 8 ? smallest : 8;

@@ -64,7 +64,7 @@ let differ = false;
 for (const { name, definition, hash } of JSON.parse(await readFile("/dev/stdin", "utf8"))) {
   const type = name.replace("/msg/", "/");
   const parts = parse(definition, { ros2: true });
-  // Readers do not need the definition of the type Time, but files written by ROS contain it.
+  // Readers do not need the definition of the Time type, but files written by ROS contain it.
   const time = parts.find((part) => part.name === "builtin_interfaces/Time");
   if (members(time) !== "int32 sec, uint32 nanosec") {
     console.log(`${name}: a time is ${members(time)}`);

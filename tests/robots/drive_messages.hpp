@@ -1,5 +1,5 @@
 /// Compares messages with the JSON lines that `dotpose watch --units ros` writes in the same run.
-/// Independent readers have decoded the messages (npm_readers.hpp).
+/// The messages are decoded by independent readers (npm_readers.hpp).
 #pragma once
 
 #include <array>
@@ -106,9 +106,9 @@ inline void expect_messages_of(const std::vector<nlohmann::json>& lines,
     EXPECT_EQ(next, odometry.size());
 }
 
-/// Expects that the transforms from map to odom and from odom to base_link multiply to the pose
-/// reported by the tracker. Also expects that the transform from odom to base_link is continuous
-/// even when the robot jumps.
+/// Expects that the product of the transforms from map to odom and from odom to base_link equals
+/// the pose reported by the tracker. Also expects that the transform from odom to base_link is
+/// continuous even when the robot jumps.
 inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
                                const std::vector<nlohmann::json>& messages,
                                const std::string& robot) {

@@ -114,9 +114,9 @@ TEST_F(Mcap, TheIndexStaysSmallerThanTheData) {
     McapFile file(path_, {.chunk_ns = 1});
     write(file, 20'000);
     file.finish();
-    // The index, which has an entry for each chunk, is part of the end of the file. A chunk ends
-    // only when it is at least as large as the end of the file, so there are few chunks, and the
-    // index stays smaller than the data.
+    // The index at the end of the file has an entry for each chunk. A chunk ends only when it is at
+    // least as large as the end of the file, so there are few chunks, and the index stays smaller
+    // than the data.
     constexpr std::size_t kRecord = 420;  // bytes per pose: headers (9 + 22) and CDR data (4 + 384)
     EXPECT_LT(std::filesystem::file_size(path_), 20'000 * kRecord * 3 / 2);
 }

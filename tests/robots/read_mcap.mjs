@@ -1,6 +1,6 @@
 // Reads an MCAP file with independent readers, and prints every message as a line of JSON: topic, type, time, quality
 // of service and content. The stream reader and the indexed reader must agree, and all checksums must be correct.
-// Otherwise prints the fault and exits with 1.
+// Otherwise, the program prints the fault and exits with 1.
 //
 //   node read_mcap.mjs FILE [--stream]
 //

@@ -280,8 +280,8 @@ TEST(RobotUpdates, TheCameraIsInTheMap) {
     EXPECT_DOUBLE_EQ(pose.position.z, 0.02);
     // The z axis of the optical frame points down, so the rotation is half a turn about x.
     EXPECT_DOUBLE_EQ(std::abs(pose.orientation.x), 1);
-    // The y and z axes of the camera and of the pattern are opposite to the y and z axes of the
-    // map.
+    // The y and z axes of the camera and of the pattern point in the opposite direction to those of
+    // the map.
     const ros::Covariance36& covariance = messages.camera->pose.covariance;
     EXPECT_DOUBLE_EQ(covariance[0], 4e-6);
     EXPECT_DOUBLE_EQ(covariance[1], -1e-6);

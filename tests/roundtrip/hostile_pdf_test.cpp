@@ -204,7 +204,7 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
         with_cross_reference_stream("/Filter [/FlateDecode /FlateDecode]", packed(zeros, 2));
     write("junk in front\n" + twice);
     expect(too_much);
-    // The limit also applies to an older cross-reference stream, to which a table refers.
+    // The limit also applies to an older cross-reference stream that a table points to.
     for (const char* key : {"Prev", "XRefStm"}) {
         const std::size_t place = twice.find("2 0 obj");
         write(twice + fmt::format("xref\n0 1\n0000000000 65535 f \ntrailer\n<< /Size 3 /Root 1 0 R "

@@ -7,7 +7,7 @@
 
 namespace dotpose::roundtrip {
 
-/// Writes a document with the objects 1, 2, ..., which are given as text without "obj" and
+/// Writes a PDF document. `objects` contains the text of the objects 1, 2, ..., without "obj" and
 /// "endobj". The first object is the catalogue.
 void write_pdf(const std::filesystem::path& path, const std::vector<std::string>& objects);
 

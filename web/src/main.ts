@@ -1,4 +1,4 @@
-// Starts the page. The address after '#' selects one of its three views.
+// Starts the page. The part of the address after '#' selects one of the three views.
 import { Engine } from "./engine/engine.js";
 import { LookView } from "./look/look.js";
 import { element, show } from "./page/dom.js";
@@ -35,7 +35,7 @@ function route(): void {
         if (link.dataset["view"] === name) link.setAttribute("aria-current", "page");
         else link.removeAttribute("aria-current");
     }
-    // Moves the focus of keyboards and screen readers to the content, except when the page is first
+    // Moves the keyboard and screen reader focus to the content, except when the page is first
     // opened.
     if (current !== "") element("content", HTMLElement).focus({ preventScroll: true });
     if (current !== "") scrollTo(0, 0);

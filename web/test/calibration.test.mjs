@@ -1,4 +1,4 @@
-// Tests the page /calibration of `dotpose watch --web`: a simulated camera on a simulated robot is
+// Tests the /calibration page of `dotpose watch --web`: a simulated camera on a simulated robot is
 // calibrated step by step, and the camera file is compared with the simulated camera.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
@@ -42,7 +42,7 @@ function pixelsOf(file, pixels = kWidth_px * kHeight_px) {
     return readFileSync(file).subarray(-pixels);
 }
 
-/** Rotates a vector about a unit axis (Rodrigues). */
+/** Rotates a vector about a unit axis, using Rodrigues' formula. */
 function rotated(v, axis, angle) {
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     const dot = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];

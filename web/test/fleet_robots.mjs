@@ -12,7 +12,7 @@ import { kTool, launch } from "./browser.mjs";
 
 export const kLoad = join(dirname(kTool), "dotpose_fleet_load");
 export const kSilentAfter_s = 3;
-/** Maximum delay until the page shows a condition, after the time limit of the condition itself has expired. */
+/** Maximum delay, after the time limit of a condition has expired, until the page shows the condition. */
 export const kShown_s = 2;
 
 export let folder;

@@ -1,5 +1,5 @@
-// Tests the view "Look" with a fake camera that plays a clip of frames with known poses. Tests both methods of reading
-// the luma: straight from the camera, and by means of a canvas.
+// Tests the "Look" view with a fake camera that plays a clip of frames with known poses. Tests both methods of reading
+// the luma: directly from the camera, and through a canvas.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -194,7 +194,7 @@ test("a small view is located on a known sheet, and only there", async () => {
     assert.deepEqual([line.prior, line.sheet], ["only_sheets", "table"]);
     assert.ok(Math.abs(line.x_sheet_mm - expected_mm[0]) < 0.02 && Math.abs(line.y_sheet_mm - expected_mm[1]) < 0.02);
 
-    // The view "Print" lists the sheet. After the user removes it there, it is no longer known.
+    // The "Print" view lists the sheet. After the user removes it there, it is no longer known.
     await page.click("nav [data-view=print]");
     await page.click("[aria-label='Forget the sheet table']");
     await page.click("nav [data-view=look]");

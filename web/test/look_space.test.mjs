@@ -1,4 +1,4 @@
-// Tests the panel that shows the pose of the camera in space in the view "Look". Simulates frames from a tilted camera,
+// Tests the panel of the "Look" view that shows the pose of the camera in space. Simulates frames from a tilted camera,
 // and compares the poses on the page with the true poses and with the output of the command-line tool.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

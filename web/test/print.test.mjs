@@ -1,4 +1,4 @@
-// Tests the view "Print": the rendered PDF must show the same dots as the PDF from the command-line tool.
+// Tests the "Print" view: the rendered PDF must show the same dots as the PDF from the command-line tool.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";

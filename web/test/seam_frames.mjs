@@ -31,7 +31,7 @@ function render(folder, sheet, { x_mm, y_mm }, theta_rad, seed) {
     return readFileSync(join(name, "frame_000000.pgm")).subarray(-kWidth_px * kHeight_px);
 }
 
-/** Converts a point on the left page to a point on the right page. */
+/** Converts coordinates on the left page to coordinates on the right page. */
 function onRight({ x_mm, y_mm }) {
     const [c, s] = [Math.cos(kRight.turn_rad), Math.sin(kRight.turn_rad)];
     const [x, y] = [x_mm - kRight.x_mm, y_mm - kRight.y_mm];

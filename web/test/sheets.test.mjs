@@ -1,4 +1,4 @@
-// Tests the view "Sheets" on the page of `dotpose watch --web`. The tests read the sheet file with the command-line
+// Tests the "Sheets" view on the page of `dotpose watch --web`. The tests read the sheet file with the command-line
 // tool, and also change it with the tool while the page is open.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";

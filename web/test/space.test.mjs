@@ -83,7 +83,7 @@ test("the page shows height, tilt, azimuth and turn, and draws the camera", asyn
         await requireAccessible(page);
         return shownIn(page);
     });
-    // The distance from the camera to the paper decreases along the image x axis, so the camera leans in this
+    // The distance from the camera to the paper decreases along the image x axis, so the camera leans in that
     // direction.
     near(shown, "height_mm", kHeight_mm, 0.05);
     near(shown, "tilt_deg", kTilt_deg, 0.1);

@@ -1,4 +1,4 @@
-// Tests the view "Try": the simulated camera must be located after the user has moved it, and after its frames have
+// Tests the "Try" view: the simulated camera must be located after the user has moved it, and after its frames have
 // been degraded.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";

@@ -12,7 +12,7 @@ const kForms = [
     ["phone-dark", kPhone, "dark"],
 ];
 
-/** Reduces a PNG file to 128 colours. The file is then less than half as large. */
+/** Reduces a PNG file to 128 colours, which more than halves the file size. */
 function reduce(from, to) {
     const palette = "[0]split[a][b];[a]palettegen=max_colors=128[p];[b][p]paletteuse=dither=none";
     execFileSync("ffmpeg", ["-loglevel", "error", "-y", "-i", from, "-filter_complex", palette, "-pred", "mixed", to]);

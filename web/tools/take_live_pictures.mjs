@@ -16,8 +16,8 @@ const kPictures = fileURLToPath(new URL("../../docs/pictures/", import.meta.url)
 const folder = mkdtempSync(join(tmpdir(), "dotpose-pictures-"));
 const browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 const programs = [];
-// Changes to the folder of the files. The pages show file names exactly as given on the command line, and the
-// screenshots should not contain the path of the folder.
+// Changes to the folder that contains the files. The pages show file names exactly as given on the command line, and
+// the screenshots should not contain the path of the folder.
 process.chdir(folder);
 
 function pause(seconds) {

@@ -1,5 +1,5 @@
-// Functions that device locators do not support: detection of the code, and access to the dots of
-// the last frame.
+// Functions that device locators do not support: code detection, and access to the dots of the last
+// frame.
 #include <algorithm>
 #include <cstddef>
 #include <cstring>

@@ -486,7 +486,7 @@ typedef struct dotpose_dot {
 
 /* Writes up to `capacity` dots of the last frame to `dots`. Sets `count` to the total number of
  * dots, which may exceed `capacity`. `dots` may be null if `capacity` is 0. Some attempts store
- * their dots only if the option show_stages is set. Without this option, `count` may be 0. Returns
+ * their dots only if the show_stages option is set. Without this option, `count` can be 0. Returns
  * WRONG_KIND for device locators. */
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
@@ -527,7 +527,7 @@ dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* p
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
 /* Sets `code` to the most likely code, and `p_wrong` to the probability that the sheet is printed
- * in another code. Without evidence, all codes are equally probable: the result is anoto, and
+ * in a different code. Without evidence, all codes are equally probable: the result is anoto, and
  * `p_wrong` is 2/3. */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
@@ -632,7 +632,7 @@ typedef struct dotpose_track {
 /* Sets the default options. `bytes` is the caller's sizeof(dotpose_track_options). */
 dotpose_status dotpose_track_options_init(dotpose_track_options* options, size_t bytes);
 
-/* Sets up a tracker in the state `lost`. If `options` is null, uses the defaults. */
+/* Sets up a tracker in the `lost` state. If `options` is null, uses the defaults. */
 dotpose_status dotpose_tracker_init(dotpose_tracker* tracker, const dotpose_track_options* options);
 
 /* Converts a fix to a sighting in the pattern frame. Returns NO_FIX if the fix is not ok, and
@@ -647,8 +647,8 @@ dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
 /* Like dotpose_tracker_update, but also uses the measured motion of the robot since the previous
- * update. The motion's `right_mm` is the displacement along the image x axis, whose angle is the
- * theta of the sightings. If `sighting` is null, only the motion changes the pose. */
+ * update. The motion's `right_mm` is the displacement along the image x axis. The theta of a
+ * sighting is the angle of this axis. If `sighting` is null, only the motion changes the pose. */
 dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
                                             const dotpose_sighting* sighting,
                                             const dotpose_measured_motion* motion,
@@ -691,7 +691,7 @@ dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t 
 
 /* Writes the DOTPOSE_PACKET_BYTES bytes of a packet. `capacity` is the size of `bytes`. Returns
  * TOO_LITTLE_MEMORY if `capacity` is less than DOTPOSE_PACKET_BYTES, and BAD_VALUE if a member of
- * the packet is out of its range. */
+ * the packet is out of range. */
 dotpose_status dotpose_packet_encode(const dotpose_packet* packet, uint8_t* bytes, size_t capacity);
 
 /* Extracts packets from a byte stream that may contain other data. The contents are private. */

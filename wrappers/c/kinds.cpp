@@ -19,7 +19,7 @@ constexpr Kind kind_of() {
     return {c::bytes_of<Made>(), c::init<Made>};
 }
 
-/// Properties of the locator kinds. The index is the value of DOTPOSE_KIND_.
+/// Properties of the locator kinds, indexed by DOTPOSE_KIND_.
 constexpr std::array<Kind, DOTPOSE_KIND_DEVICE_36X36 + 1> kKinds{
     kind_of<DeviceMemory, DeviceLocator>(),
     kind_of<SmallMemory, Locator>(),

@@ -20,8 +20,7 @@ void drop_frame(dotpose_locator& locator) {
 dotpose_status read_image(const std::uint8_t* pixels, std::int32_t width_px, std::int32_t height_px,
                           std::ptrdiff_t stride_bytes, Frame& frame) {
     if (pixels == nullptr) return DOTPOSE_NULL_POINTER;
-    // The stride matters only if there are several rows. Images without pixels are refused by the
-    // core.
+    // The stride matters only if there are several rows. The core refuses images without pixels.
     const bool has_rows = width_px > 0 && height_px > 1;
     if (has_rows && stride_bytes > -width_px && stride_bytes < width_px) return DOTPOSE_BAD_STRIDE;
     frame.image = {pixels, width_px, height_px, stride_bytes};

@@ -4,7 +4,7 @@
 //   dotpose_golden_files DIRECTORY [TIMES]
 //
 // Writes two files for each set. The sets are `nominal` (200 frames), `hard` (150 frames) and `vga`
-// (40 frames). TIMES multiplies these numbers of frames.
+// (40 frames). The numbers of frames are multiplied by TIMES (default: 1).
 //
 //   SET.frames  a sequence of binary PGM images, two for each frame: the frame, and the frame after
 //               a small motion of the camera, for the tracked attempt

@@ -94,7 +94,7 @@ struct Camera {
     /// Focal length. None if the calibration did not determine it.
     std::optional<double> focal_px;
     /// Pinhole model of a camera whose pixels are not square, or whose optical axis does not pass
-    /// through `centre_px`. ROS camera_info files may describe such cameras. None for other
+    /// through `centre_px`. ROS camera_info files can describe such cameras. None for other
     /// cameras: `pinhole_of` derives their model from `focal_px`.
     std::optional<Pinhole> pinhole;
     /// Tilt of a mounted camera. None if the calibration did not determine the tilt.
@@ -148,7 +148,7 @@ void validate(const Camera& camera);
 
 /// Returns the undistorted pixel that corresponds to `pixel` (paper, equations 1 and 2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Inverse of the function `undistorted`. If k is positive, points far from the distortion centre
+/// Inverse of `undistorted`. If k is positive, points far from the distortion centre
 /// have no distorted pixel. For such a point, returns the pixel in the same direction from the
 /// distortion centre, at twice the distance.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);

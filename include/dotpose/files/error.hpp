@@ -18,7 +18,7 @@ class Error : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown if an argument is invalid, as opposed to a failure of a file or device. Examples are a
+/// Thrown for an invalid argument, as opposed to a failure of a file or device. Examples are a
 /// margin wider than the page and an unknown paper size. `what()` contains the invalid value and
 /// the permitted values.
 class BadArgument : public Error {

@@ -60,7 +60,7 @@ struct WorldPose {
 /// again.
 struct SheetPrint {
     std::string title;          ///< first label of the page, and title of the document
-    int pages = 1;              ///< number of pages in the document that have dots
+    int pages = 1;              ///< number of pages with dots in the document
     double dpi = 600;           ///< resolution of the printer
     std::string dots = "auto";  ///< method of drawing dots in a PDF: "auto", "glyphs" or "strokes"
     bool has_labels = true;     ///< true if the PDF has text and rulers in the margins
@@ -74,7 +74,7 @@ struct SheetEntry {
     int page = 1;      ///< number of the page within its print job, starting at 1
     Sheet sheet;
     /// Ratio of the printed to the nominal length, 0.5 to 2. The page is scaled about the first
-    /// intersection, which is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.
+    /// intersection, which is at (sheet.origin_x_mm, sheet.origin_y_mm) whatever the scale.
     double print_scale_x = 1;
     double print_scale_y = 1;
     AxisScale print_scale() const { return {print_scale_x, print_scale_y}; }
@@ -187,8 +187,8 @@ class SheetFile {
 };
 
 /// Adds sheets to a sheet file before their pages are written. The sheets are marked as reserved,
-/// and keep their regions even if this program is killed. `confirm` removes the mark. Other
-/// programs may change the file in the meantime.
+/// and keep their regions even if this program is killed. `confirm` removes the mark. The file is
+/// not locked in the meantime, so other programs can change it.
 class SheetReservation {
   public:
     /// Calls `enter` to add the sheets, and saves the file. Throws Error if the file cannot be
@@ -203,7 +203,7 @@ class SheetReservation {
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
-    /// Removes the marks of the reserved sheets. Must be called after the pages have been written.
+    /// Removes the marks from the reserved sheets. Call this after the pages have been written.
     /// If another program has removed the sheets in the meantime, adds them again. Throws Error if
     /// the file cannot be changed, or if another program has assigned the names or cells of the
     /// reserved sheets to other sheets. After an Error, the file is unchanged.

@@ -16,7 +16,7 @@ namespace dotpose {
 /// target is not a regular file or cannot be written.
 void write_file(const std::filesystem::path& target, std::string_view contents);
 
-/// Checks that a file can be written. Throws the same Error as `write_file` otherwise. Intended for
+/// Checks that a file can be written. If not, throws the same Error as `write_file`. Intended for
 /// use before a long computation whose result is written to the file.
 void require_writable(const std::filesystem::path& target);
 

@@ -15,8 +15,8 @@
 /// If the frames are insufficient for a result, the functions throw Error with advice for the user.
 /// Standard deviations are computed from the residuals of the fit.
 ///
-/// The functions request frames by index and do not store them. They may request a frame several
-/// times. There is no shared state.
+/// The functions request frames by index and do not store them. They can request the same frame
+/// several times. There is no shared state.
 #pragma once
 
 #include <functional>

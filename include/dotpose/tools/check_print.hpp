@@ -13,7 +13,7 @@
 /// in the image. The scale, rotation and skew of the print are computed from the measured and
 /// nominal positions of the dots.
 ///
-/// A page may contain several fields: patches of a test page (test_page.hpp), or sheets side by
+/// A page can contain several fields: patches of a test page (test_page.hpp), or sheets side by
 /// side. Functions share no state, and throw Error or BadArgument.
 ///
 /// Coordinate frames, both with x right and y DOWN: *pattern* (mm, as printed), *scan* (px,
@@ -50,8 +50,8 @@ struct CheckPrintOptions {
     std::vector<Sheet> sheets;
     /// Resolution of the scan. If no resolution is given, or if the image shows the perspective or
     /// lens distortion of a camera, the image is treated as a photo. The check of a photo allows
-    /// for perspective and lens distortion, and does not judge the scale. If the resolution
-    /// contradicts the spacing, the check reports a fault.
+    /// for perspective and lens distortion, and does not check the absolute scale. If the
+    /// resolution contradicts the spacing, the check reports a fault.
     std::optional<Resolution> resolution;
     /// True if the metadata in the image file indicate that the image was taken with a camera. In
     /// this case, the resolution is ignored.
@@ -121,8 +121,8 @@ struct PrintField {
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< length of the largest deviation in `distortion`
 
-    /// Number of cells covered by other print, such as text. These cells are not counted in
-    /// `cells`.
+    /// Number of cells covered by other printed content, such as text. These cells are not counted
+    /// in `cells`.
     int covered = 0;
     int cells = 0;       ///< number of cells in the region that are in view and not covered
     int missing = 0;     ///< number of cells without a dot
@@ -167,7 +167,7 @@ enum class FindingKind {
     swollen,       ///< dots are too large or run together
     thin,          ///< dots are too small or too pale
     missing,       ///< dots are missing
-    covered,       ///< other print covers some of the dots
+    covered,       ///< other printed content covers some of the dots
     /// Many bits are wrong. Either dots are too far from their nominal positions, or the page was
     /// printed in another code variant.
     bits_wrong,

@@ -127,8 +127,8 @@ void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 /// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the outline of the scan and, on an enlarged scale, the deviations of the dots in all
-/// fields (`PrintField::distortion`).
+/// Draws the outline of the scan, and the deviations of the dots in all fields
+/// (`PrintField::distortion`) at an enlarged scale.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

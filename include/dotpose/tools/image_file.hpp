@@ -33,7 +33,7 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Limits for images that can be read: the maximum side length, the maximum number of pixels, and
-/// the default for the parameter `max_pixels` of `read_image`.
+/// the default value of the `max_pixels` parameter of `read_image`.
 inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
 inline constexpr int kDefaultImagePixels = 100'000'000;
@@ -65,8 +65,8 @@ GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::str
                      int page = 1);
 
 /// Returns the number of pages in a file. Only TIFF files can have more than one page. Returns 1
-/// for a file that is not regular, such as a pipe, without reading it. Throws Error if the file
-/// cannot be read (see `read_image`).
+/// for anything other than a regular file, such as a pipe, without reading it. Throws Error if the
+/// file cannot be read (see `read_image`).
 int count_pages(const std::filesystem::path& path);
 
 /// Pixels per inch along both axes.
@@ -77,7 +77,7 @@ struct Resolution {
 
 /// Origin of an image, according to the metadata in its file.
 struct ImageOrigin {
-    /// True if the image is from a camera: its EXIF data (JPEG, PNG, TIFF, WebP, HEIC) contain
+    /// True if the image is from a camera: its EXIF data (JPEG, PNG, TIFF, WebP, HEIC) contain an
     /// exposure time, f-number, sensitivity or focal length.
     bool is_photo = false;
     /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if the image is

@@ -4,7 +4,7 @@
 ///     for (const InkPage& page : pages)
 ///         write_file(page.name + ".svg", ink_svg(page));
 ///
-/// `ink_of` is in the library dotpose::follow. `ink_svg` and `ink_ml`, which return the contents of
+/// `ink_of` is in the dotpose::follow library. `ink_svg` and `ink_ml`, which return the contents of
 /// files, are in dotpose::draw. All functions are pure and thread-safe.
 #pragma once
 
@@ -61,14 +61,14 @@ inline constexpr double kMaxInkGap_s = 0.1;
 /// Returns the strokes on each page. The pages are ordered by their first strokes. `samples` must
 /// be ordered by time.
 ///
-/// The path is estimated by a fixed-interval smoother (Rauch, Tung and Striebel 1965). The motion
-/// model is an acceleration driven by white noise, with the noise power that maximises the
+/// The path is estimated by a fixed-interval smoother (Rauch, Tung and Striebel 1965). In its
+/// motion model, the acceleration is driven by white noise, whose power is chosen to maximise the
 /// likelihood of the samples. PenContact detects when the pen is lifted from the paper. PenContact
 /// reports the start of a lift late and the end early, so each lift is extended to the adjacent
 /// samples whose smoothed heights are clearly above the paper.
 std::vector<InkPage> ink_of(std::span<const InkSample> samples);
 
-/// Returns the page as SVG, in mm, with the size of the page.
+/// Returns the page as SVG. The image has the size of the page, and its unit is mm.
 std::string ink_svg(const InkPage& page);
 
 /// Returns the page as W3C InkML, with the channels X and Y (in mm from the top left corner), T (in

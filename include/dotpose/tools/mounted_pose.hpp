@@ -1,5 +1,5 @@
-/// Mounted pose: the fix of a camera with a constant view of the paper, for example a camera on a
-/// robot.
+/// Mounted pose: the fix of a camera whose view of the paper does not change, for example a camera
+/// on a robot.
 ///
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///     locator.set_options(options);
@@ -60,7 +60,7 @@ struct MovingFix {
 MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
                                    const AxisScale& print = {});
 
-/// A MovingFix, corrected with a map of the print if `map_use` is MapUse::used.
+/// A MovingFix that has been corrected with a map of the print if `map_use` is MapUse::used.
 struct MappedMovingFix {
     Fix fix;
     std::optional<ReadoutVelocity> velocity;

@@ -38,7 +38,7 @@ struct Paper {
 };
 
 /// Returns the page size for a name (A0 to A6, Letter, Legal or Tabloid, in upper or lower case) or
-/// for a size WIDTHxHEIGHT in mm, for example "100x62.5". Named sizes are in portrait orientation.
+/// for dimensions WIDTHxHEIGHT in mm, such as "100x62.5". Named sizes are in portrait orientation.
 /// Throws BadArgument for any other text, and for sizes outside (0, kMaxPage_mm].
 Paper paper_by_name(std::string_view name);
 
@@ -66,17 +66,17 @@ struct SheetOptions {
 /// end of the code plane.
 Sheet make_sheet(const SheetOptions& options);
 
-/// Lays out `pages` sheets with adjacent regions that do not overlap. Each region begins to the
-/// right of the previous region. When the right edge of the plane is reached, the next region is
-/// below, at `options.origin.x`.
+/// Lays out `pages` sheets with adjacent regions that do not overlap. Regions are placed from left
+/// to right. A region that would extend past the right edge of the plane starts a new row of
+/// regions below, at column `options.origin.x`.
 ///
 /// Throws BadArgument in the cases listed for `make_sheet`, and if `pages` is outside [1,
 /// kMaxPages].
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
 /// Checks that a printer with this resolution can print the pattern. The resolution must be above 0
-/// and at most kMaxResolution_dpi. The displacement must be at least one printer pixel, and at
-/// least one white pixel must be between any two dots. Throws BadArgument otherwise.
+/// and at most kMaxResolution_dpi. The displacement must be at least one printer pixel, and there
+/// must be at least one white pixel between any two dots. Throws BadArgument otherwise.
 void validate_resolution(const Sheet& sheet, double dpi);
 
 /// File formats of printed sheets.
@@ -160,7 +160,7 @@ struct InkRectangle {
     double height_mm = 0;
 };
 
-/// A page that may contain several regions of the code, and other marks. There must be at least one
+/// A page that can contain several regions of the code, and other marks. There must be at least one
 /// sheet. Each sheet must have the width and height of the page.
 struct PrintPage {
     double width_mm = 0;

@@ -99,7 +99,7 @@ class PrintMapping {
     std::unique_ptr<State> state_;
 };
 
-/// A fix, corrected with a map if `use` is MapUse::used.
+/// A fix that has been corrected with a map if `use` is MapUse::used.
 struct MappedFix {
     Fix fix;
     MapUse use = MapUse::no_map;

@@ -20,7 +20,7 @@ constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
     return bits ^ (bits >> 31);
 }
 
-/// The generator splitmix64. Seeding is fast, so every frame and every printed dot can have its own
+/// The splitmix64 generator. Seeding is fast, so every frame and every printed dot can have its own
 /// generator.
 class Rng {
   public:

@@ -72,7 +72,7 @@ struct PlanarMotion {
     std::array<std::array<double, 6>, 6> covariance{};
 };
 
-/// Results for one image, in the coordinate frame `map`.
+/// Results for one image, in the `map` coordinate frame.
 struct RobotUpdate {
     std::int64_t time_ns = 0;  ///< middle of the exposure
     /// None if there is no fix, or if the place of the fix is unknown.
@@ -93,7 +93,7 @@ struct RobotUpdate {
     std::vector<KeyValue> facts;  ///< additional values for the diagnostics of the image
 };
 
-/// Returns the results for an image. `is_in_world` is Follower::is_in_world.
+/// Returns the results for an image. `is_in_world` is the result of Follower::is_in_world.
 RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t time_ns);
 
 /// Names of the coordinate frames.

@@ -27,7 +27,7 @@ struct Time {
     std::uint32_t nanosec = 0;
 };
 
-/// Converts nanoseconds since 1970, or since any other epoch, to a Time message. Times out of range
+/// Converts nanoseconds since 1970, or since any other epoch, to a Time message. Out-of-range times
 /// are clamped.
 Time ros_time(std::int64_t time_ns);
 
@@ -151,7 +151,7 @@ std::vector<std::uint8_t> to_cdr(const CompressedImage& message);
 /// can decode the messages.
 struct MessageType {
     std::string name;  ///< such as "geometry_msgs/msg/PoseWithCovarianceStamped"
-    /// The .msg definitions of the type and of all types that it contains, in the format ros2msg.
+    /// The .msg definitions of the type and of all types that it contains, in `ros2msg` format.
     std::string definition;
     std::string hash;  ///< "RIHS01_" and 64 hexadecimal digits (ROS REP 2011)
 };

@@ -4,7 +4,7 @@
 /// ink, light, blur, motion, integration over the area of each pixel, noise, clipping, rounding.
 /// The centroid of a dot is accurate to 0.003 px (tested in tests/unit/simulate).
 ///
-/// Usage: fill a `Setup`, then render frame i:
+/// Usage: fill in a `Setup`, then render frame i:
 ///
 ///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
 ///     const GreyImage image = render(shot);
@@ -87,16 +87,16 @@ struct CameraPose {
 double x_grid(const CameraPose& pose);
 double y_grid(const CameraPose& pose);
 
-/// Effects of the printer, paper, light and sensor on a frame. The defaults are those of the preset
-/// `clean`, in which all of these effects are absent. Fractions and reflectances are in [0, 1].
+/// Effects of the printer, paper, light and sensor on a frame. The defaults are those of the
+/// `clean` preset, which has none of these effects. Fractions and reflectances are in [0, 1].
 /// Sigmas, lengths and counts must not be negative.
 struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
     double ink_reflectance = 0.15;  ///< reflectance relative to paper
     double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
     /// Contrast of the palest ink relative to the darkest ink. Each of the four directions of
-    /// displacement has its own ink. The darkest ink has `ink_reflectance`. The contrasts of the
-    /// four inks are evenly spaced.
+    /// displacement has its own ink. The reflectance of the darkest ink is `ink_reflectance`. The
+    /// contrasts of the four inks are evenly spaced.
     double palest_ink = 1;
     /// Relative loss of light in the image corners. The loss is proportional to the square of the
     /// distance from the image centre.
@@ -196,10 +196,10 @@ class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// Returns the pixel that shows the point at an offset. If the camera cannot see the point,
-    /// returns (1e9, 1e9), which is far outside the image.
+    /// Returns the pixel at which the point with this offset appears. If the camera cannot see the
+    /// point, returns (1e9, 1e9), which is far outside the image.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
-    /// Returns the offset in mm of the point that a pixel shows.
+    /// Returns the offset, in mm, of the point that appears at this pixel.
     Vec2 offset_from_pixel(Vec2 pixel) const;
     /// Computes `offset_from_pixel` for adjacent pixels of a row, starting at `first_pixel` and
     /// proceeding to the right.
@@ -231,7 +231,7 @@ class Projection {
 GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// Variant of `render` for a page that contains the whole plane and has the seed 1.
+/// Variant of `render` for a page that contains the whole plane and whose seed is 1.
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
@@ -242,8 +242,8 @@ struct PageImage {
     /// extends indefinitely.
     ImageView image;
     double mm_per_px = 25.4 / 1200;
-    /// Point under the image centre, relative to the upper left corner of the image: x right, y
-    /// down.
+    /// Point of the page under the centre of the rendered image, relative to the upper left corner
+    /// of `image`: x right, y down.
     Vec2 centre_mm;
 };
 

@@ -1,4 +1,4 @@
-/// Pose in space: position and rotation of a camera over the paper, in six degrees of freedom. The
+/// Pose in space: position and rotation of a camera over the paper (six degrees of freedom). The
 /// camera file must contain the focal length.
 ///
 ///     use_camera(camera, image.width_px, image.height_px, options);

@@ -149,15 +149,16 @@ class SpaceTracker {
 
     /// Processes the sighting of a frame. A sighting starts a new track in these cases:
     /// - The camera is lost, or no sighting was accepted for more than `lost_after_us`.
-    /// - The sighting is in another plane than the track, or is not later than the previous frame.
-    /// If the sighting is ambiguous in these cases, it starts no track, and the camera is lost.
+    /// - The sighting is in a different plane from the track, or not later than the previous frame.
+    /// If the sighting is ambiguous in one of these cases, it starts no track, and the camera is
+    /// lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
-    /// Processes a frame without a sighting. The camera is lost if the frame is earlier than the
-    /// previous frame, or too late (see `lost_after_us`).
+    /// Processes a frame without a sighting. The camera becomes lost if the frame is earlier than
+    /// the previous frame, or more than `lost_after_us` later than the last accepted sighting.
     const SpaceTrack& update(std::int64_t time_us);
 
-    /// Predicts the track at a time after the last accepted sighting. The verdict is `none`.
-    /// Returns nullopt while the camera is lost, or if the time is before that sighting.
+    /// Predicts the track at a time after the last accepted sighting. The verdict of the result is
+    /// `none`. Returns nullopt while the camera is lost, or if the time is before that sighting.
     std::optional<SpaceTrack> predict(std::int64_t time_us) const;
 
     const SpaceTrack& track() const { return track_; }

@@ -65,8 +65,8 @@ struct Sweep {
     std::vector<SweepPoint> points;
 };
 
-/// Simulates and locates the frames of all values. Throws BadArgument if there are no frames per
-/// value, and Error if `progress` returns false before all frames of two values are done.
+/// Simulates and locates the frames for all values. Throws BadArgument if `frames_per_value` is
+/// below 1, and Error if `progress` returns false before all frames for two values are done.
 Sweep run_sweep(SweepKind kind, const SweepOptions& options);
 /// Writes one line for each combination of value and decoder.
 void write_sweep_csv(std::ostream& out, const Sweep& sweep);

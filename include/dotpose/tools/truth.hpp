@@ -52,7 +52,7 @@ struct TruthRow {
 };
 
 /// Reads a truth.csv file written by `dotpose simulate`, or a file with poses measured on a sheet
-/// or in the world. Columns are identified by name and may be in any order. The column `file` and
+/// or in the world. Columns are identified by name and may be in any order. The `file` column and
 /// one of these groups of columns are required:
 ///   - x_grid, y_grid or x_mm, y_mm (grid units take precedence), and theta_deg;
 ///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;

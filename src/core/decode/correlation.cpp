@@ -19,8 +19,7 @@ using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
 /// Strings of kGroup bits in the main sequence, by start index. The first bit is the lowest bit.
-/// The strings are stored as byte offsets into Sums, which saves a multiplication on small
-/// processors.
+/// The strings are stored as byte offsets into Sums, to save a multiplication on small processors.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
     for (std::size_t i = 0; i < strings.size(); ++i) {

@@ -298,8 +298,8 @@ class Ink {
         // the square of the paper level.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // The weight is clamped, because errors in bits with high contrast are mostly not caused by
-        // noise. Even more contrast does not make such bits more reliable.
+        // The weight is clamped, because errors in high-contrast bits are rarely caused by noise.
+        // Even more contrast does not make such bits more reliable.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);

@@ -44,8 +44,8 @@ inline constexpr int kReliabilityCovered_q4 = 10;
 /// kNearGraphics_5ths / 5 of the limit above which a dot position is considered to be under
 /// graphics.
 inline constexpr int kNearGraphics_5ths = 3;
-/// Reliability of a cell near graphics, in units of 1/16. The number of located frames is 1,993
-/// with a value of 3, and 1,994 with a value of 14.
+/// Reliability of a cell near graphics, in units of 1/16. 1,993 frames are located with a value of
+/// 3, and 1,994 with a value of 14.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
 /// Limit for the darkness of the darkest dot position in a cell, in units of 1/10 of the darkness
 /// of a typical dot. Above this limit, the dot position may contain dirt instead of a dot.
@@ -59,8 +59,8 @@ inline constexpr int kTooDark_10ths = 16;
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Bit weight per unit of contrast, before clamping to 127. The contrast of a bit is the difference
 /// in darkness between the dot positions for bit values 1 and 0, relative to a typical dot. A
-/// contrast of 0.42 is enough for the maximum weight. The number of located frames is 1,994 with a
-/// value of 150, and 1,992 with a value of 600.
+/// contrast of 0.42 is enough for the maximum weight. 1,994 frames are located with a value of 150,
+/// and 1,992 with a value of 600.
 inline constexpr int kGain = 300;
 /// Maximum ratio of the paper level at a cell to the paper level at the image centre, in units of
 /// 1/256. Larger ratios are clamped to this value.

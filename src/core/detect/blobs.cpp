@@ -10,8 +10,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum area and bounding box side of a dot. A blurred dot with a diameter of 0.35 spacings fits
-/// these limits at a spacing of up to 60 px.
+/// Maximum area of a dot, and maximum side of its bounding box. A blurred dot with a diameter of
+/// 0.35 spacings fits these limits at a spacing of up to 60 px.
 constexpr int kMaxDotArea_px = 1024;
 constexpr int kMaxDotSide_px = 48;
 constexpr std::uint32_t kMaxMass = 65535;
@@ -145,7 +145,7 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     other.last_v = kNoRow;
 }
 
-/// Returns the blob that contains `blob` after all merges. Returns null if `blob` is null.
+/// Returns the blob that contains `blob` after all merges, or null if `blob` is null.
 OpenBlob* whole(OpenBlob* blob) {
     while (blob != nullptr && blob->part_of != nullptr)
         blob = blob->part_of;

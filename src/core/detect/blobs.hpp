@@ -16,8 +16,8 @@ namespace dotpose::core {
 
 /// A blob that may continue in the next row, stored as sums over its pixels. The weight of a pixel
 /// is the low threshold minus its grey level. The sums may wrap modulo 2^32. The centroid is still
-/// exact, because it is computed from sums relative to the corner of the blob, which do not wrap if
-/// the blob is small enough to be a dot.
+/// exact, because it is computed from sums relative to the corner of the blob. These sums do not
+/// wrap if the blob is small enough to be a dot.
 struct OpenBlob {
     std::uint32_t sum_x = 0;  ///< sum of weight times u
     std::uint32_t sum_y = 0;  ///< sum of weight times v

@@ -13,8 +13,8 @@ constexpr int kStep_px = 16;
 /// Factor that converts px to the unit of source points, 2^-8 px.
 constexpr float kUnit = 256;
 
-/// Returns the grey level at the point (u, v), interpolated linearly. u and v are in units of 2^-8
-/// px from the first pixel.
+/// Returns the grey level at the point (u, v), interpolated linearly. u and v are measured from the
+/// first pixel, in units of 2^-8 px.
 std::uint8_t level_at(const ImageView& image, int u_q8, int v_q8) {
     const std::uint8_t* upper = image.row(v_q8 >> 8) + (u_q8 >> 8);
     const std::uint8_t* lower = upper + image.stride_bytes;

@@ -21,7 +21,7 @@ struct Run {
     OpenBlob* blob = nullptr;  ///< blob that contains the run, or null if there were too many blobs
 };
 
-/// Number of pixels that the search for dark pixels tests together. These pixels have the same low
+/// Number of pixels that the search for dark pixels tests at a time. These pixels have the same low
 /// threshold.
 inline constexpr std::size_t kGroup_px = 8;
 static_assert(kTileWidth_px % kGroup_px == 0);

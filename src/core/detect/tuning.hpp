@@ -17,8 +17,8 @@ namespace paper {
 inline constexpr int kBlockPart = 10;
 /// Number of pixels sampled along each block side.
 inline constexpr int kSamplesPerSide = 12;
-/// The paper level of a block is the highest level at which at most this fraction of the block's
-/// pixels, in thirds, is darker. Dots cover a much smaller fraction.
+/// Maximum fraction of a block's pixels that are darker than its paper level, in thirds. The paper
+/// level is the highest level that satisfies this limit. Dots cover a much smaller fraction.
 inline constexpr int kDarker_3rds = 2;
 /// Minimum level of a block, in quarters of the level of its brightest neighbour. A darker block is
 /// assumed to be under graphics, and its level is replaced with the level of the neighbour. Light
@@ -37,7 +37,7 @@ inline constexpr int kMinHalf_px = 4;
 /// frames are located.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are clamped to this
-/// level, so they are not darker than a weak dot. Otherwise, the required contrast near dark
+/// level, so they are no darker than a pale dot. Otherwise, the required contrast near dark
 /// graphics would exceed the contrast of dots. With a value of 2, only 1,937 frames are located.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth

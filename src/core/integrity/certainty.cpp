@@ -151,7 +151,7 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 
 /// Returns an upper bound on the summed odds of all alternatives except seam alternatives. If the
 /// bound exceeds `limit` even without the single alternatives that share a line, omits these single
-/// alternatives, because the caller rejects such a bound anyway.
+/// alternatives, because the caller rejects the position anyway.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     const float sum = far_alternatives(kernels, ratios) + sharing_none(ratios);

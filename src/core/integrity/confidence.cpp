@@ -66,7 +66,7 @@ int odds_per_bit_q8(const Confidence& confidence) {
     }
     const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
     int odds_q8 = 0;
-    // Finds the odds by bisection, which is possible because the expected weight of wrong bits
+    // Finds the odds by bisection. This is possible because the expected weight of wrong bits
     // decreases as the odds increase.
     for (int step_q8 = 8 * 256; step_q8 >= 8; step_q8 /= 2) {
         std::uint64_t expected_q16 = 0;

@@ -22,8 +22,8 @@ constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 /// for such alternatives would take too long (see `kMaxPairs`).
 constexpr int kLargeOdds_log2 = -36;
 
-/// Set of anchors, which are the lines with the most information. Bit n represents anchor n.
-/// Anchors are numbered in the order of the lines.
+/// Set of anchors (the lines with the most information). Bit n represents anchor n. Anchors are
+/// numbered in the order of the lines.
 using Anchors = std::uint32_t;
 
 /// A vector with one byte per anchor. The vector fits in one register.
@@ -149,7 +149,7 @@ struct Opposite {
 };
 
 /// The places in one sequence except the place of the reading, sorted into buckets by the
-/// difference of their offsets at two anchors, modulo 63.
+/// difference between their offsets at two anchors, modulo 63.
 class Buckets {
   public:
     Buckets(const AnchorOffsets& offsets, std::size_t sequence, std::uint32_t length,

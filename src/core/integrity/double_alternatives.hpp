@@ -18,7 +18,7 @@ namespace dotpose::core {
 /// expected part is at most 4 * `negligible`. If this would require k < 4, an expected part of up
 /// to `max_odds` / 8 is accepted instead, and k is at least 2. If the expected part exceeds
 /// `max_odds` even then, the function returns the expected part without evaluating any pairs,
-/// because the caller refuses the fix.
+/// because the caller then rejects the fix.
 float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& lines, float expected,
                                  float negligible, float max_odds);
 

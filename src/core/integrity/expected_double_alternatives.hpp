@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Maximum number of anchors. Anchors are the lines with the most information, which have the
+/// Maximum number of anchors. Anchors are the lines with the most information, that is, with the
 /// lowest ranks.
 inline constexpr int kMaxAnchors = 12;
 /// Maximum index n in the result of `expected_double_alternatives`. Element n covers the

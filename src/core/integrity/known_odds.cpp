@@ -91,11 +91,11 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability of a match by chance: a view that shows no known sheet
-/// agrees with at least one known place at least as well as the bits that were read. The bits of
-/// such a view are assumed to be random. `bits` is the number of bits per axis, and `wrong` is the
-/// number of wrong bits on each axis. `lines` is the number of columns or rows, whichever is
-/// larger.
+/// Returns an upper bound on the probability of a chance match. In a chance match, a view that
+/// shows no known sheet agrees with at least one known place at least as well as the bits that were
+/// read. The bits of such a view are assumed to be random. `bits` is the number of bits per axis,
+/// and `wrong` is the number of wrong bits on each axis. `lines` is the number of columns or rows,
+/// whichever is larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -165,7 +165,7 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
 
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place) {
-    // Number of bits per axis, which is equal for x and y.
+    // Number of bits per axis. The number is the same for x and y.
     const int bits = number_of_bits(block.columns);
     const ScoredTurn upright(kernels, block);
     const CornerPlace best{code, moved(code, place, upright.columns_range.first - BitBlock::kMiddle,

@@ -33,7 +33,7 @@
 
 namespace dotpose::core {
 
-/// Maximum number of adjacent lines that two positions can share in the code `libdots`, whose
+/// Maximum number of adjacent lines that two positions can share in the `libdots` code, whose
 /// sequence a4 is misprinted. In the other codes, the maximum is `code::kOrder`.
 inline constexpr int kMaxShared = 7;
 

@@ -31,7 +31,7 @@ class PossibleCodes {
     /// Allows all codes, weighted by their odds from earlier frames.
     explicit PossibleCodes(const CodeEvidence& evidence);
 
-    /// Returns the codes that earlier frames do not rule out, by decreasing odds.
+    /// Returns the codes that earlier frames do not rule out, in order of decreasing odds.
     std::span<const CodeVariant> in_order() const { return std::span(order_).first(count_); }
     CodeVariant likeliest() const { return order_[0]; }
     bool is_known() const { return is_known_; }

@@ -102,8 +102,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 /// least the sum of all minimum losses except the seven largest. The bound is the product of these
 /// factors:
 /// - the odds at this loss,
-/// - four times the number of alternatives in the largest set, which exceeds the number in all sets
-///   together,
+/// - four times the number of alternatives in the largest set, which is more than the total number
+///   of alternatives in all sets,
 /// - the number of possible rolls of the first line,
 /// - the safety factor `kUnevenness`, once per line,
 /// - 2^lines, which bounds the number of ways to choose the shared lines.

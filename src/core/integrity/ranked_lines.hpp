@@ -1,6 +1,6 @@
 // Ranked lines: ranks the lines in view by decreasing information, and tabulates the losses and
-// odds of alternatives in each line. The information of a line is higher if alternatives that do
-// not share the line have smaller odds. likelihood_ratios.hpp defines the terms.
+// odds of alternatives in each line. A line contains more information if alternatives that do not
+// share the line have smaller odds. likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -39,7 +39,7 @@ class RankedLines {
 
     std::array<std::uint8_t, kMaxLines> ranks_{};
     std::array<OddsByOffset, kMaxLines> odds_;
-    /// Losses, indexed by line and by `further`.
+    /// Losses, indexed by line and by the second argument of `loss`.
     std::array<std::array<std::int16_t, 256>, kMaxLines> losses_;
 };
 

@@ -108,7 +108,7 @@ class QuickTest {
     /// Returns true if the alternative can share all required lines. The required lines are those
     /// whose minimum loss is at least the limit, so the odds of an alternative are negligible if it
     /// does not share one of them. The alternative has one shift before its border and another
-    /// shift after it. The roll offset may therefore change at most once from one required line to
+    /// shift after it. The roll offset can therefore change at most once from one required line to
     /// the next.
     bool shares_required(const RollOffsets& offsets) const {
         int changes = 0;

@@ -38,7 +38,7 @@ class SetPlan {
     float rest(std::size_t n) const { return rests_[n]; }
     /// Returns the number of sets that must be searched to reduce the rest to at most `max_rest`.
     /// The result includes all required sets. If the rest cannot be reduced to `max_rest`, returns
-    /// the number of all sets.
+    /// the total number of sets.
     std::size_t count_for(float max_rest) const;
     /// Returns the total cost of searching the first n sets, in processor instructions. Covered
     /// sets are not searched and cost nothing.

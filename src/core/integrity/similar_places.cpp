@@ -73,7 +73,7 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
         std::uint8_t parts = 0;
         for (int lost = lost_at(step); lost >= part; lost -= part)
             ++parts;
-        // Ignores a loss of a single part, because counting it would exclude only few additional
+        // Ignores a loss of a single part, because counting it would exclude only a few additional
         // places.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;

@@ -88,7 +88,7 @@ bool list_similar(const Kernels& kernels, const RankedLines& lines, const Coarse
 }
 
 /// Returns an upper bound on the summed odds of the alternatives at places that are not listed. For
-/// each of these places and each line, the bound contains the odds at a loss of `skipped_bits`.
+/// each of these places and each line, the bound includes the odds at a loss of `skipped_bits`.
 float sum_of_skipped(const RankedLines& lines, int skipped_bits) {
     constexpr float kPlaces =
         code::kA1.size() + code::kA2.size() + code::kA3.size() + code::kA4Restored.size();

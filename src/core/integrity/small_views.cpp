@@ -42,9 +42,9 @@ class SmallView {
         const float fraction = 1 / static_cast<float>(n + 1);
         planned_work_ += work_of_planned_alternatives(plan, fraction * left_ / factor_);
         if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
-        // The last axis is searched first. On each axis, the sets that are not searched may have
-        // total expected odds of at most `fraction` times the remaining probability `left_`. The
-        // earlier axes need the rest of it.
+        // The last axis is searched first. On each axis, the total expected odds of the sets that
+        // are not searched must be at most `fraction` times the remaining probability `left_`. The
+        // rest is reserved for the axes that are searched later.
         const auto far = sum_of_planned_alternatives(lines, plan, fraction, left_ / factor_, work_);
         return far && spend(factor_ * *far);
     }

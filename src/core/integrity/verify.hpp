@@ -15,7 +15,7 @@
 namespace dotpose::core {
 
 /// Verifies a decoded position. Sets `fix.bit_errors`, `fix.p_wrong_log2`, `decoding.bits` and
-/// `decoding.p_wrong_log2_q8`. The probability includes chance matches, alternatives and seams
+/// `decoding.p_wrong_log2_q8`. The probability accounts for chance matches, alternatives and seams
 /// between sections.
 /// - `others` contains log2 of the number of possible codes (`log2_in_question_q8`). May be null if
 ///   the code is given.

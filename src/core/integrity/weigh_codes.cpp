@@ -243,7 +243,7 @@ class OtherPlaces {
     const std::size_t count_;
     const code::Secondary& theirs_;
     const int shift_here_;
-    const RollOffsets here_;  ///< roll offsets at the same place in the a4 of the other code
+    const RollOffsets here_;  ///< roll offsets at the *same place*, in the other code
     /// True if the place of the reading has the same rolls in both codes, for all lines in view.
     bool has_same_rolls_ = true;
     std::uint32_t best_place_ = 0;

@@ -335,14 +335,14 @@ struct Kernels {
     /// displacement. `dot_contrast_q8` is the contrast of a typical dot, in 1/256 of the paper
     /// level. Compares the bits with the code, and adds them to `columns` and `rows`, as
     /// `read_bits` does. Drops dots that are not read or have a wrong bit. Sets `projected` and
-    /// `squares` to 0. Reads no bits if stride_bytes * height_px of the image may exceed INT32_MAX.
+    /// `squares` to 0. Reads no bits if stride_bytes * height_px of the image exceeds INT32_MAX.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int dot_contrast_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
     /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot along an axis is
-    /// `weight_px` times the first moment of its window along this axis, divided by the weight of
-    /// the window. If `weight_px` is 0, this factor is estimated from dots in the middle of the
-    /// list. Returns the sums of `DotOffsets` over the remaining dots.
+    /// `weight_px` times the first moment of its window along this axis, divided by the weighted
+    /// darkness sum of the window. If `weight_px` is 0, the factor is estimated from dots in the
+    /// middle of the list. Returns the sums of `DotOffsets` over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
@@ -359,8 +359,8 @@ struct Kernels {
     /// each direction. Dots outside the grid are added to the nearest block.
     BlockSums (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                             float limit, float reach_px, int side);
-    /// Returns the places in a sequence where an alternative may lose less than the loss limit,
-    /// which is StepLosses::kLimitParts parts. The result excludes `own`, the place of the reading.
+    /// Returns the places in a sequence where an alternative may lose less than the loss limit
+    /// (StepLosses::kLimitParts parts). The result excludes `own`, the place of the reading.
     /// `steps` contains a lower bound on the loss at each step.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
@@ -385,10 +385,10 @@ struct Kernels {
     /// 16 elements. Negative losses are treated as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
     /// Combines each of the 32 combinations in a batch with one combination of places in the other
-    /// sequences. Returns one bit per resulting alternative, which is 1 if the alternative may lose
-    /// less than `limit` (at most 255). `losses[i]` is the loss if line i is not shared.
-    /// `opposite[i]` is the negated roll offset of the other combination in line i. The line is
-    /// shared if this number equals the offset in the batch.
+    /// sequences. Returns one bit per resulting alternative: 1 if the alternative may lose less
+    /// than `limit` (at most 255). `losses[i]` is the loss if line i is not shared. `opposite[i]`
+    /// is the negated roll offset of the other combination in line i. The line is shared if this
+    /// number equals the offset in the batch.
     std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
                                       std::span<const std::uint8_t> losses, int limit);
     /// Returns the expected total odds of the alternatives that differ from the reading in the

@@ -1,7 +1,7 @@
 // Neighbours: the nearest neighbours of each seed, and the symmetric edges between seeds (paper,
 // section II-B.2). *Seeds* are the dots nearest the image centre, at most kMaxSeeds. The paper
-// connects all dots. dotpose connects only the seeds and fits the first grid to them, which limits
-// the processing time for every image. Later stages extend the grid outwards (device/grow.hpp,
+// connects all dots. To limit the processing time, dotpose connects only the seeds, and fits the
+// first grid to them. Later stages extend the grid outwards (device/grow.hpp,
 // lattice/refine_grid.hpp).
 #pragma once
 

@@ -220,8 +220,7 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
         const float reach_2 = squared_reach_of_nearest(dots, candidate);
         if (reach_2 >= min_reach_2) continue;
         min_reach_2 = reach_2;
-        // Uses whole pixels, because a plane can then be moved to this origin without rounding
-        // errors.
+        // Uses whole pixels, so a plane can be moved to this origin without rounding errors.
         from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {

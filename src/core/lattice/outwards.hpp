@@ -42,11 +42,10 @@ struct PatchView {
 /// Returns the search parameters for a patch that is completely covered with dots.
 PatchView whole_view(const Patch& patch);
 
-/// Moves the origin of the dot coordinates to the densest part of the patch, for patches that the
-/// pattern covers only partly. The density around a dot is measured by the distance to its 20th
-/// nearest neighbour. Sets `view`, and sets `from_middle_px` to the new origin relative to the
-/// middle of the patch, in whole px. Returns false and changes nothing if there are fewer than
-/// kMinDots dots.
+/// Moves the origin of the dot coordinates to the densest part of a patch that the pattern covers
+/// only partly. The density around a dot is measured by the distance to its 20th nearest neighbour.
+/// Sets `view`, and sets `from_middle_px` to the new origin relative to the middle of the patch, in
+/// whole px. Returns false and changes nothing if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, if the dots do not

@@ -39,9 +39,10 @@ inline constexpr int kPlaceRounds = 2;
 /// Periodogram search for the first grid in the second attempt (lattice/periodogram_search).
 namespace periodogram_search {
 /// Half-width of the central square whose dots contribute to the periodogram, in spacings. Raster
-/// searches use kNear_cells, because the periodogram of a small square has a wide peak, which a
-/// coarse raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is
-/// more precise. The number of located frames is 1,964 if kNear_cells is 3, and 1,993 if it is 10.
+/// searches use kNear_cells, because the periodogram of a small square has a peak so wide that a
+/// coarse raster cannot miss it. The ascent uses kWider_cells, because the peak of a larger square
+/// is more precise. The number of located frames is 1,964 if kNear_cells is 3, and 1,993 if it is
+/// 10.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Raster of the first search. kTurn_deg is the direction step. kStretchPart is the ratio of the

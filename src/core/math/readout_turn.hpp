@@ -46,7 +46,8 @@ struct ReadoutTurn {
     FloatVec axis;   ///< point around which the scene rotates, at time 0
     FloatVec drift;  ///< velocity of `axis` at time 0, in px per row, with y < 1
 
-    /// Returns the point that shows the same scene point as `seen`, in the image without rotation.
+    /// Returns the image point at which the scene point seen at `seen` would appear without
+    /// rotation.
     FloatVec without_turn(FloatVec seen) const {
         const float row = seen.y;
         const FloatVec moved = displacement(row);
@@ -56,10 +57,10 @@ struct ReadoutTurn {
         return {p.x + axis.x + still_row * drift.x, still_row};
     }
 
-    /// Inverse of `without_turn`: returns the point that shows the same scene point as `still`, in
-    /// the image with rotation. Uses `steps` steps of Newton's method. `row` is the approximate row
-    /// of the result. The result is correct only where the scene moves down by less than one row
-    /// while a row is read. Otherwise, several rows or none may show the scene point.
+    /// Inverse of `without_turn`: returns the image point at which a scene point appears that would
+    /// be at `still` without rotation. Uses `steps` steps of Newton's method. `row` is the
+    /// approximate row of the result. The result is correct only where the scene moves down by less
+    /// than one row while a row is read. Otherwise, several rows or none may show the scene point.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
         constexpr float kMaxRow = 4096;  // larger than any row number
@@ -87,9 +88,8 @@ struct ReadoutTurn {
     }
 };
 
-/// Computes the drift from a plane, for a camera that looks straight at the paper. For such a
-/// camera, only the motion of the scene can shear the image of a square grid or stretch it
-/// vertically.
+/// Computes the drift from a plane. Assumes that the camera looks straight at the paper. Only the
+/// motion of the scene can then shear the image of a square grid or stretch it vertically.
 inline FloatVec drift_of(const FloatPlane& plane) {
     const float square = plane.du_x * plane.du_x + plane.du_y * plane.du_y;
     return {-(plane.dv_x * plane.du_x + plane.dv_y * plane.du_y) / square,

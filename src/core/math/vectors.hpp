@@ -1,5 +1,5 @@
-// Vectors: arithmetic on four numbers at a time. Compilers use vector instructions where the
-// processor has them.
+// Vectors: arithmetic on four numbers at a time. Compiled to vector instructions if the processor
+// has them.
 #pragma once
 
 #include <cstdint>

@@ -79,8 +79,8 @@ DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     Terms result = terms;
     for (std::size_t i = 0; i < Term::count; ++i)
         result[i] += step[i];
-    // Semi-axes and blur must remain positive, so a step may reduce each of these terms at most to
-    // a quarter of its value, and never below kMin_px2.
+    // Semi-axes and blur must remain positive, so a step cannot reduce any of these terms to less
+    // than a quarter of its value, or below kMin_px2.
     for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
         result[i] = std::max({result[i], terms[i] / 4, tuned::kMin_px2});
     return result;

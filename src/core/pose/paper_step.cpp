@@ -339,9 +339,9 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // Refines the direction of the line only if its gain is at least kPossible / 2. To reach
-    // kPossible, a smaller gain would have to more than double, which a small rotation of the line
-    // rarely achieves.
+    // Refines the direction of the line only if its gain is at least kPossible / 2. A smaller gain
+    // would have to more than double to reach kPossible, and a small rotation of the line rarely
+    // changes it that much.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

@@ -17,7 +17,8 @@ struct PaperStep {
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 
-    FloatVec direction{1, 0};  ///< unit normal of the line, towards the part beyond the line
+    /// Unit normal of the line. It points to the part of the sheet that is called "beyond the line".
+    FloatVec direction{1, 0};
     /// Distance from the reference point to the line, in spacings. Negative if the reference point
     /// is beyond the line.
     float distance = 0;

@@ -6,7 +6,7 @@
 namespace dotpose::core {
 
 /// Restricts fits to one side of a line during the lifetime of the object. The constructor moves
-/// the cells of all other dots far away, which makes these dots outliers. The destructor moves the
+/// the cells of all other dots far away, to make these dots outliers. The destructor moves the
 /// cells back. Dots near the line belong to neither side.
 class HalfPlane {
   public:
@@ -39,8 +39,8 @@ struct SplitFit {
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 
-/// Fits a plane to the dots beyond the line. Returns false if too few of these dots have a common
-/// displacement, or if the dots do not determine a plane.
+/// Fits a plane to the dots beyond the line. Returns false if too few of these dots share a common
+/// residual relative to the plane of this side, or if the dots do not determine a plane.
 bool fit_far_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                   const SplitFit& split, FloatPlane& beyond);
 

@@ -35,7 +35,7 @@ inline constexpr int kSettled_q8 = 4;
 /// Maximum mass of a dot, in units of half the typical mass. The minimum is half the typical mass.
 /// These limits reject dirt, graphics, and bare paper where a dot is missing.
 inline constexpr int kTooDark_halves = 3;
-/// Maximum number of dots in the sample whose median mass is the typical mass.
+/// Maximum number of dots sampled for the typical mass, which is the median of their masses.
 inline constexpr int kMedianSample = 256;
 }  // namespace measure
 

@@ -124,8 +124,8 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
                 normal[i][j] += changes[i].x * changes[j].x + changes[i].y * changes[j].y;
         }
     }
-    // The drift computed from the plane is an additional observation. Its standard deviation is
-    // kDrift, because the computed drift is inaccurate if the camera is tilted.
+    // The drift computed from the plane is an additional observation. Its standard deviation,
+    // kDrift, accounts for the error that a camera tilt causes.
     const FloatVec expected = drift_of(plane);
     const float weight =
         fit.variance * tuned::kDriftStep * tuned::kDriftStep / (tuned::kDrift * tuned::kDrift);

@@ -21,10 +21,10 @@ struct TurnFit {
 
 /// Fits rotation and drift by least squares, corrects the dots for the fitted rotation, and fits
 /// the plane to the corrected dots. `turn` is the rotation that was removed from the image in which
-/// the dots were measured. The drift (see ReadoutTurn) is determined by the curvature that drift
-/// and rotation cause together, and by the plane, from which `drift_of` computes an approximate
-/// drift. Returns false if the dots do not determine the rotation. In this case, `dots`, `plane`
-/// and `fit` may have changed and must not be used.
+/// the dots were measured. Two observations determine the drift (see ReadoutTurn): the curvature
+/// that drift and rotation cause together, and the approximate drift that `drift_of` computes from
+/// the plane. Returns false if the dots do not determine the rotation. In this case, `dots`,
+/// `plane` and `fit` may have changed and must not be used.
 bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec reference_px,
               MeasuredDots& dots, FloatPlane& plane, PoseFit& fit, TurnFit& result);
 

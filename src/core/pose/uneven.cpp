@@ -171,9 +171,9 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
 
 /// Returns the limit on `GroupScatter::excess` above which the second attempt searches for a line.
 /// The limit increases with the number of dots, because with many dots, even the small block
-/// residuals of a flat sheet are significant, for example residuals due to pixel bias. The
-/// residuals at a dividing line also become more significant with the number of dots, so they still
-/// exceed the limit.
+/// residuals of a flat sheet (for example, due to pixel bias) are significant. The residuals at a
+/// dividing line also become more significant with the number of dots, so they still exceed the
+/// limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));

@@ -11,8 +11,8 @@
 
 namespace dotpose::dds {
 
-// The structs contain pointers into the messages and must not outlive them. DDS does not modify the
-// messages.
+// The structs returned by `idl` contain pointers into the messages and must not outlive them. DDS
+// does not modify the messages.
 
 inline char* idl(const std::string& text) {
     return const_cast<char*>(text.c_str());

@@ -63,7 +63,7 @@ class PostgresConnection {
     std::unique_ptr<PGconn, decltype(&PQfinish)> connection_;
 };
 
-/// Returns the host and the database of a URL, but not the user and the password. Throws
+/// Returns the host and the database name in a URL, without the user and the password. Throws
 /// BadArgument if the URL is invalid.
 std::string label_of(const std::string& url);
 

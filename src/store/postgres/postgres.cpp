@@ -1,4 +1,4 @@
-// Stores states in a PostgreSQL database, in the schema `dotpose`. The states of each day are in a
+// Stores states in a PostgreSQL database, in the `dotpose` schema. The states of each day are in a
 // separate partition.
 #include <charconv>
 #include <map>

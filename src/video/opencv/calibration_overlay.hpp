@@ -12,7 +12,7 @@ namespace dotpose::video {
 /// was added to the calibration. `frame` is the region of the picture that contains the image.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
-/// Draws the gauges. Below them, draws a compass that shows which directions have been covered so
+/// Draws the gauges and, below them, a compass that shows which directions have been covered so
 /// far.
 void draw_gauges(const CalibrationScene& scene, cv::Mat panel);
 

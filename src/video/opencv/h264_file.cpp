@@ -99,9 +99,9 @@ class H264File::Encoder {
         if ((file_->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
             encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
         }
-        // Uses a fast preset, because the encoder must not slow down the locator. Encoding then
-        // takes a third of the time that it takes with the default preset, and the files are only
-        // slightly larger.
+        // Uses a fast preset, because the encoder must not slow down the locator. Compared with the
+        // default preset, encoding takes a third of the time, and the files are only slightly
+        // larger.
         AVDictionary* options = nullptr;
         av_dict_set(&options, "preset", "veryfast", 0);
         av_dict_set(&options, "crf", "23", 0);

@@ -20,7 +20,7 @@ class Recording : public GreyVideo {
     /// user.
     Recording(std::string path, double fps, Tell notify);
 
-    /// Appends a BGR or a grey picture. Throws Error on failure, for example if the disk is full or
+    /// Appends a BGR or grey picture. Throws Error on failure, for example if the disk is full or
     /// the size differs from that of the previous pictures.
     void write(const cv::Mat& picture);
     void write(ImageView image) override;

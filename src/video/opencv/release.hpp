@@ -8,8 +8,8 @@ extern "C" {
 
 namespace dotpose::video {
 
-/// Deleter for objects that are used for reading and for writing. Derived classes add an overload
-/// that closes files.
+/// Deleter for FFmpeg objects that are used both for reading and for writing. Derived classes add
+/// an overload that closes files.
 struct Release {
     void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
     void operator()(AVPacket* packet) const { av_packet_free(&packet); }

@@ -134,8 +134,8 @@ class VideoFile : public capture::FrameSource {
         const std::string url = "file:" + name_;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
-        // The index is checked here because reading packets adds entries to it.
-        // avformat_find_stream_info reads packets.
+        // The index is checked before the call of avformat_find_stream_info, because that function
+        // reads packets, which adds entries to the index.
         for (unsigned i = 0; i < file->nb_streams; ++i) {
             const int entries = avformat_index_get_entries_count(file->streams[i]);
             has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);

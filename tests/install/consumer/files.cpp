@@ -45,7 +45,7 @@ bool keep_camera(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// Uses only the component `files`, so it must link without the libraries for printing and
+// Uses only the `files` component, so it must link without the libraries for printing and
 // calibration.
 int main() {
     const std::filesystem::path folder = "consumer-out";

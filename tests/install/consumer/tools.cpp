@@ -46,7 +46,7 @@ bool calibrate(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// Uses each library on which the tools depend, to check that it is found, links and runs.
+// Uses each library that the tools depend on, to check that it is found, links and runs.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

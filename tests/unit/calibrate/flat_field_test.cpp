@@ -24,8 +24,8 @@ double light_at(double u, double v) {
     return (1 - 0.2 * (x * x + y * y)) * (0.95 - 0.05 * x);
 }
 
-/// Returns an image of white paper with the lighting `light_at`. A tenth of the pixels, chosen at
-/// random, are dark.
+/// Returns an image of white paper, with the brightness given by `light_at`. A tenth of the pixels,
+/// chosen at random, are dark.
 GreyImage dots_at_random(int index) {
     std::mt19937 random(kDotSeed + static_cast<std::uint32_t>(index));
     GreyImage image{{}, kColumns, kRows};

@@ -208,8 +208,8 @@ FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     };
 }
 
-// A robot that drives and slowly turns does not turn on the spot, even if its frames fit an arc
-// about a distant point well.
+// A robot that turns slowly while it drives does not turn on the spot, even if its frames fit an
+// arc around a distant point well.
 TEST(CalibrateSpin, RefusesADrive) {
     const CameraModel model;
     EXPECT_THAT(

@@ -21,7 +21,7 @@ struct RollingFrame {
     Vec2 velocity_mm_s;  ///< velocity of the camera, along the axes of the pattern
 };
 
-/// Draws a frame whose scene moves during the readout by `motion` times the height of the image.
+/// Returns a shot whose scene moves during the readout by `motion` times the height of the image.
 /// The direction depends on the index, and is never downwards in the image.
 RollingFrame draw_rolling(const CameraModel& camera, double motion, int index) {
     Setup setup;

@@ -190,8 +190,8 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         return text.str();
     };
     EXPECT_THAT(picture(), HasSubstr("not all of these sheets had a world pose"));
-    // Before the stitching, sheet b is 1 mm to the right of its true position. The error is 1 mm
-    // along x and 0 along y, which is 0.71 mm rms per axis.
+    // Before stitching, sheet b is 1 mm to the right of its true position. The error is 1 mm along
+    // x and 0 along y, which is 0.71 mm rms per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
     EXPECT_THAT(picture(), testing::AllOf(HasSubstr(">Before<"), HasSubstr(">After<"),

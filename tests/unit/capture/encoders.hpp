@@ -55,7 +55,7 @@ Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette = 
 
 /// Encodes a baseline JPEG. Each 8-bit sample becomes a flat block of 8 x 8 px, which JPEG
 /// reproduces exactly. One channel is grey. Three channels are Y, Cb and Cr. Four channels are
-/// CMYK, stored inverted as Adobe's programs do.
+/// CMYK, stored inverted as in Adobe programs.
 Bytes encode_jpeg(const Raster& raster);
 
 }  // namespace dotpose::test

@@ -35,7 +35,7 @@ std::string error_of(const Bytes& file) {
     return "";
 }
 
-/// Returns a BMP of 2 x 1 px with a header of 124 bytes, which contains the masks of four channels.
+/// Returns a BMP of 2 x 1 px with a 124-byte header that contains the four channel masks.
 Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
                      std::initializer_list<std::uint64_t> masks,
                      std::initializer_list<std::uint64_t> pixels, std::int32_t height = 1) {

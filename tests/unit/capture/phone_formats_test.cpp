@@ -17,7 +17,7 @@
 #include "dotpose/tools/image_file.hpp"
 #include "encoders.hpp"
 
-// Suppresses reports about the AVIF decoder dav1d 1.0, which leaks memory when it refuses damaged
+// Suppresses leak reports for the AVIF decoder. dav1d 1.0 leaks memory when it rejects damaged
 // data.
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libdav1d";

@@ -22,7 +22,7 @@ constexpr std::uint32_t kSeed = 7998798;
 /// Initial value of the output `place`. If a window is refused, `place` must not change.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
-/// Indices (modulo 241) in the sequence a4 of libdots. The 5-digit string that starts at each of
+/// Indices (modulo 241) in the `libdots` sequence a4. The 5-digit string that starts at each of
 /// these indices also occurs elsewhere in the sequence.
 const std::set<std::uint32_t> kTwinPlaces{82,  238, 170, 236, 177, 237,
                                           195, 217, 198, 218, 199, 219};
@@ -145,7 +145,7 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     };
     for (const CodeVariant code : kCodeVariants) {
         for (const Size size : {Size{6, 32}, Size{32, 6}, Size{7, 9}, Size{32, 32}, Size{6, 6}}) {
-            // In the sequence a4 of libdots, the 5-digit strings starting at indices 100 and 59 are
+            // In the `libdots` sequence a4, the 5-digit strings starting at indices 100 and 59 are
             // unique, so no window is ambiguous.
             const Place truth{{241 * 1000 + 100, 241 * 77 + 59}, {5, 60}};
             const Grid grid = reference_window(code, truth, size.columns, size.rows);
@@ -157,7 +157,7 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     }
 }
 
-/// Returns the indices in the sequence a4 of libdots at which a window is rejected as ambiguous.
+/// Returns the indices in the `libdots` sequence a4 at which a window is rejected as ambiguous.
 /// Expects that the windows at all other indices are decoded.
 std::set<std::uint32_t> ambiguous_places(int columns, int rows, bool along_x) {
     std::set<std::uint32_t> result;
@@ -330,7 +330,7 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// If a window is decoded in the wrong code variant, the result may be a wrong place. The expected
+// If a window is decoded with the wrong code variant, the result may be a wrong place. The expected
 // numbers of windows were computed from the sequences by a program in another language.
 TEST(Decode, AnotherVariantReadsSomeWindowsWrong) {
     using Pair = std::pair<CodeVariant, CodeVariant>;

@@ -1,4 +1,4 @@
-// Tests lookup tables against results of divisions and against the digits of the sequences.
+// Tests lookup tables against divisions and against the digits of the sequences.
 #include "code/tables.hpp"
 
 #include <gtest/gtest.h>

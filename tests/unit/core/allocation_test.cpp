@@ -69,8 +69,8 @@ std::vector<GreyImage> frames_of(int width_px, int height_px) {
     return frames;
 }
 
-/// Locates all frames with all combinations of options. Returns the number of allocations, and
-/// increases `fixes` by the number of fixes.
+/// Locates all frames with all combinations of options. Returns the number of allocations, and adds
+/// the number of fixes to `fixes`.
 int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& fixes) {
     int counted = 0;
     for (const GreyImage& frame : frames) {

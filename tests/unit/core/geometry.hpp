@@ -144,8 +144,8 @@ struct View {
         m.origin = centre_px() - at_centre.x * m.u - at_centre.y * m.v;
         return m;
     }
-    /// Returns the grid of `mesh` in another orientation, as a stage may find it. `turn` maps steps
-    /// of the returned grid to steps of the pattern. Cell (0, 0) of the returned grid is the
+    /// Returns the grid of `mesh` in another orientation, as a stage might find it. `turn` maps
+    /// steps of the returned grid to steps of the pattern. Cell (0, 0) of the returned grid is the
     /// intersection `zero` of the pattern.
     Mesh mesh_turned(QuarterTurn turn, FixedVec zero) const {
         const Mesh m = mesh();

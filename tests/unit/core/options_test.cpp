@@ -67,8 +67,8 @@ const Range kRanges[] = {
     [[maybe_unused]] const auto& [max_p_wrong, max_bit_error] = integrity;
 }
 
-/// Expects that all functions that locate a frame refuse the options if `is_refused` is true, and
-/// accept them otherwise.
+/// Expects every function that locates a frame to reject the options if `is_refused` is true, and
+/// to accept them otherwise.
 void expect_refusal(const DeviceOptions& options, bool is_refused, const char* field, int value) {
     static const auto kMemory = std::make_unique<LargeMemory>();
     static const GreyImage kFrame = a_frame();

@@ -1,4 +1,4 @@
-// Makes the grid that the decoder receives for an ideal view of the pattern.
+// Builds the grid that the decoder receives for an ideal view of the pattern.
 #pragma once
 
 #include <array>

@@ -190,9 +190,9 @@ TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(bits, plane));
         // Rounding a target to `bits` fractional bits causes an rms error of 0.29 units in the last
-        // bit. The error of the mean of 400 targets is 1/20 of this, and the error of the plane at
-        // the image edges is up to 3/20 of this. The tolerance is five standard deviations of the
-        // mean.
+        // place. The error of the mean of 400 targets is 1/20 of this, and the error of the plane
+        // at the image edges is up to 3/20 of this. The tolerance is five standard deviations of
+        // the mean.
         const double tolerance = std::ldexp(5 * 0.29 / 20, -bits) + 1e-4;
         const Vec2 zero = mesh.inverse({0, 0});
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, zero.x, tolerance);

@@ -1,4 +1,5 @@
-// Compares the pose computed in integers with the true pose of a camera of known geometry.
+// Compares the pose computed in integer arithmetic with the true pose of a camera of known
+// geometry.
 #include "device/affine_pose.hpp"
 
 #include <gtest/gtest.h>

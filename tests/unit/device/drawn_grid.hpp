@@ -1,4 +1,4 @@
-// Draws a rectangle of the code plane as a grid, in any orientation.
+// Builds a grid, as read by the decoder, from a rectangle of the code plane in any orientation.
 #pragma once
 
 #include <cstdint>

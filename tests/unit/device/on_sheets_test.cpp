@@ -52,7 +52,7 @@ class DeviceOnSheets : public testing::Test {
             locator_.push_row(image.view().row(v));
         return locator_.finish();
     }
-    /// Locates the first `rows` rows of an image without a prediction.
+    /// Locates the first `rows` rows of an image, without a prediction.
     Fix fresh(const GreyImage& image, int rows) {
         static_cast<void>(locator_.begin(image.width_px, image.height_px));
         for (int v = 0; v < rows; ++v)

@@ -69,8 +69,8 @@ TEST(sheet_map, shows_every_sheet_where_it_lies_with_y_up) {
     const auto& [straight, turned] = std::array{found[0], found[1]};
     const double per_m = (straight[1][0] - straight[0][0]) / 0.1;
     EXPECT_GT(per_m, 1000);
-    // The corners are in clockwise order, starting at the top left, so the steps are right, down
-    // and left.
+    // The corners are in clockwise order, starting at the top left, so the steps go right, down and
+    // left.
     expect_step(straight[0], straight[1], 0.1 * per_m, 0);
     expect_step(straight[1], straight[2], 0, 0.05 * per_m);
     expect_step(straight[2], straight[3], -0.1 * per_m, 0);

@@ -407,7 +407,8 @@ TEST(PartOf, SeesTheSamePaper) {
     // By default, the reference point is the centre of the whole image.
     EXPECT_NEAR(part.reference_px.value().u, 319.5 - 100, 1e-12);
     EXPECT_NEAR(part.reference_px.value().v, 239.5 - 50, 1e-12);
-    // The heading is relative to the image x axis at the image centre, in the camera frame.
+    // In the camera frame, the heading is relative to the direction of the image x axis at the
+    // image centre.
     const double heading_rad = image_axis_rad(camera, {319.5, 239.5}) + camera.theta_offset_rad;
     EXPECT_NEAR(image_axis_rad(part, {199.5, 149.5}) + part.theta_offset_rad, heading_rad, 1e-12);
     EXPECT_THROW(part_of(camera, 300, 50, 400, 300), BadArgument);

@@ -16,8 +16,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 /// Returns a sheet of 20 x 10 cells with a spacing of 0.5 mm. The first cell is at (4, 3) mm from
-/// the corner of the page, so the last cell is at (13.5, 7.5) mm. The margins to the right and
-/// below are 6.5 and 2.5 mm wide.
+/// the corner of the page, so the last cell is at (13.5, 7.5) mm. The right and bottom margins are
+/// 6.5 mm and 2.5 mm wide.
 SheetEntry small_entry(Cell origin) {
     SheetEntry entry;
     entry.name = "small";

@@ -58,7 +58,7 @@ TEST_F(SheetReservations, that_are_given_up_leave_the_file_as_it_was) {
     write_file(path_, by_hand);
     { const SheetReservation reservation(path_, enter_a); }
     EXPECT_EQ(read_file(path_), by_hand);
-    // If a reservation is not confirmed, its destructor removes it. The changes by other programs
+    // If a reservation is not confirmed, its destructor removes it. Changes made by other programs
     // are kept.
     {
         const SheetReservation reservation(path_, enter_a);

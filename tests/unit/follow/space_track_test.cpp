@@ -330,7 +330,7 @@ TEST(SpaceTrack, RejectsOutliersAndFollowsAJump) {
     EXPECT_NEAR(tracker.track().camera.x_mm, hand_at(2.02).x_mm + 500, 0.5);
 }
 
-/// The track of a camera over a page that is turned in the world must agree with `in_world`.
+/// The track of a camera over a page that is rotated in the world must agree with `in_world`.
 TEST(SpaceTrack, IsInTheWorldOfTheSheet) {
     SheetEntry entry;
     entry.sheet = make_sheet({});

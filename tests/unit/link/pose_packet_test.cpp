@@ -108,9 +108,9 @@ TEST(PosePacket, CrcIsThatOfTheCatalogue) {
 }
 
 TEST(PosePacket, NoFourBitsCancelInTheCrc) {
-    // The CRC is linear, so an error of several bits changes the CRC by the XOR of the changes that
-    // the single bits cause. If no two pairs of single-bit changes have the same XOR, an error of
-    // up to four bits always changes the CRC.
+    // The CRC is linear, so an error of several bits changes the CRC by the XOR of the changes
+    // caused by the individual bits. If no two pairs of single-bit changes have the same XOR, an
+    // error of up to four bits always changes the CRC.
     Bytes coded(link::kCodedBytes, 0);
     const unsigned none = link::crc16(coded);
     std::vector<unsigned> changes;

@@ -1,5 +1,5 @@
-// Tests locating frames without giving the code variant. The fixes must be the same as with the
-// given code variant.
+// Tests locating frames in an unknown code variant. The fixes must be the same as those found if
+// the code variant is given.
 #include <memory>
 
 #include <gtest/gtest.h>

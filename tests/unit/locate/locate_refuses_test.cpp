@@ -39,7 +39,7 @@ TEST(LocateRefuses, SizesOutOfRangeAreRefused) {
 }
 
 TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
-    // The content of the picture determines which stages may reject it.
+    // The content of the picture determines which stages can reject it.
     const std::map<Scene, std::set<Status>> allowed{
         {Scene::black, {Status::no_contrast, Status::too_few_dots}},
         {Scene::white, {Status::no_contrast, Status::too_few_dots}},
@@ -101,7 +101,7 @@ TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
 }
 
 TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
-    // A single dark corner provides contrast, but forms a blob that is too large for a dot.
+    // A single dark corner provides contrast, but forms a blob that is too large to be a dot.
     GreyImage image{std::vector<std::uint8_t>(64 * 64, 255), 64, 64};
     for (std::size_t v = 0; v < 32; ++v)
         std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(64 * v), 32,

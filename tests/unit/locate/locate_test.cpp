@@ -155,7 +155,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
             0.01);
         EXPECT_LE(fix.p_wrong_log2, device.integrity.max_p_wrong_log2);
         EXPECT_GE(fix.dots_used, 36);
-        // A device computes neither the residual nor the covariance, which are floating-point
+        // A device does not compute the residual or the covariance, because they are floating-point
         // values.
         EXPECT_EQ(fix.residual_px, 0);
         for (const auto& row : fix.covariance)
@@ -357,7 +357,7 @@ TEST(Locate, ALensIsUndone) {
 }
 
 // At the positions predicted by the code, the second attempt also measures dots that were not found
-// as blobs. These dots must be counted as seen, too.
+// as blobs. These dots must also be counted as seen.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

@@ -187,8 +187,8 @@ Fix pushed(const GreyImage& image, const LocatorOptions& options) {
 /// A function that locates a frame with the given options.
 using Way = std::function<Fix(const GreyImage&, const LocatorOptions&)>;
 
-/// Expects that an attempt locates a frame if the minimum contrast is 0 or a third of the frame's
-/// contrast, and reports no_contrast if the minimum contrast is twice the frame's contrast.
+/// Expects an attempt to locate a frame if the minimum contrast is 0 or a third of the frame's
+/// contrast, and to report no_contrast if the minimum contrast is twice the frame's contrast.
 void expect_contrast_counts(const Way& locate, const GreyImage& image, Attempt attempt) {
     const int contrast = contrast_of(image);
     ASSERT_GT(contrast, 15);

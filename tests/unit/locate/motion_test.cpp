@@ -38,8 +38,8 @@ Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
     return next;
 }
 
-/// Returns a random motion: a displacement by half of `view_mm` in a random direction, and a
-/// rotation of up to 0.5 rad.
+/// Returns a random motion: a displacement of `view_mm` / 2 in a random direction, and a rotation
+/// of up to 0.5 rad.
 MeasuredMotion draw_motion(double view_mm, Rng& rng) {
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     MeasuredMotion motion;

@@ -1,5 +1,6 @@
-// Tests frames from a rolling-shutter camera whose scene turns while the rows are read. Some tests
-// use single frames, and others use drives in which each frame is predicted from the last fix.
+// Tests frames from a rolling-shutter camera in which the scene turns while the rows are read. Some
+// tests use single frames, and others use drives in which each frame is predicted from the last
+// fix.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -35,7 +36,8 @@ Shot turned_shot(const ShotSize& size, double turn_deg, Vec2 motion, int index) 
 
 struct Counts {
     int located = 0;
-    /// Sum of the squared errors of x and y over all located frames, each divided by its variance.
+    /// Sum over all located frames. Each term is a squared error of x or y, divided by its
+    /// variance.
     double squares = 0;
 };
 

@@ -44,7 +44,7 @@ void expect_sum_of_sheets(const Bitmap& together, const Bitmap& first, const Bit
     ASSERT_EQ(together.height_px, first.height_px);
     for (int v = 0; v < together.height_px; ++v) {
         for (int u = 0; u < together.width_px; ++u) {
-            // At 600 dpi, 15.24 mm are 360 px, 1.27 mm are 30 px, and 2.54 mm are 60 px.
+            // At 600 dpi, 15.24 mm is 360 px, 1.27 mm is 30 px, and 2.54 mm is 60 px.
             const bool in_bar = u >= 360 && u < 390 && v >= 60 && v < 120;
             ASSERT_EQ(together.at(u, v), first.at(u, v) || second.at(u, v) || in_bar)
                 << "at " << u << ", " << v;

@@ -59,8 +59,9 @@ TEST(labels, say_what_is_on_the_page) {
     EXPECT_THAT(content, HasSubstr("dotpose print -o door.pdf"));
     EXPECT_THAT(content, HasSubstr("0 0 0 1 k 0 0 0 1 K"));
     EXPECT_THAT(content, HasSubstr("(0 mm) Tj"));
-    // The ruler counts from the edge of the page. The dots begin at 10.2 mm and are 79.8 mm wide,
-    // so they end at 90.0 mm. The ruler ends before that, and its last number is 80.
+    // The numbers on the ruler are distances from the edge of the page. The dots begin at 10.2 mm
+    // and are 79.8 mm wide, so they end at 90.0 mm. The ruler ends before that, and its last number
+    // is 80.
     EXPECT_THAT(content, HasSubstr("(80) Tj"));
     EXPECT_THAT(content, Not(HasSubstr("(90) Tj")));
 }
@@ -110,7 +111,7 @@ TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const auto near = [](double distance_mm) { return testing::DoubleNear(distance_mm, 0.001); };
     EXPECT_THAT(marks.ticks_x_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_x));
     EXPECT_THAT(marks.ticks_y_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_y));
-    // A number is centred at its tick. Two digits are 2 * 0.556 * 4.5 points = 1.765 mm wide.
+    // Each number is centred on its tick. Two digits are 2 * 0.556 * 4.5 points = 1.765 mm wide.
     ASSERT_TRUE(marks.texts_mm.contains("80"));
     EXPECT_THAT(marks.texts_mm.at("80")[0] + 1.765 / 2, near(80));
 }

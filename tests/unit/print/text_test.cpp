@@ -82,8 +82,8 @@ TEST(write_text, writes_the_letters_of_the_code) {
 }
 
 TEST(write_text, reaches_the_last_corner_of_the_code_plane) {
-    // The vector begins at x = 410815341, only 7 columns before the end of the plane. The sheet
-    // begins one column earlier and contains the first 7 of the 8 columns of the vector.
+    // The test vector begins at x = 410815341, only 7 columns before the end of the plane. The
+    // sheet begins one column earlier and contains the first 7 of the 8 columns of the vector.
     const std::vector<std::string> expected = {"urrrduu", "urdrllr", "lrlrldl", "drdddur",
                                                "drdurdr", "lulrurr", "dlrlrdr", "rrdllld"};
     const TemporaryDirectory directory;

@@ -127,8 +127,8 @@ TEST(write_sheet, says_why_a_file_cannot_be_created) {
     EXPECT_THAT(directory.names(), ElementsAre("folder.png", "pipe.png"));
 }
 
-/// Writes a file in a child process. The process first changes to another user because root may
-/// write everywhere.
+/// Writes a file in a child process. The process first changes to another user because root can
+/// write anywhere.
 [[noreturn]] void write_without_rights(const fs::path& path) {
     constexpr uid_t kNobody = 65534;
     if (geteuid() == 0 && setuid(kNobody) != 0) _exit(3);

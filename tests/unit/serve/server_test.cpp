@@ -22,7 +22,8 @@ using testing::StartsWith;
 
 constexpr Page kPages[] = {{"/", "text/html", "<p>start"}};
 
-/// Waits until a condition holds. Fails after a minute, which is long enough for a busy computer.
+/// Waits until a condition holds. Fails after a minute, which is long enough even on a busy
+/// computer.
 void wait_until(const std::function<bool()>& holds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!holds()) {
@@ -79,7 +80,7 @@ class WebSocket : public Socket {
         send(
             "GET /live HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
             "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
-        // RFC 6455 gives the answer to this key as an example.
+        // RFC 6455 gives this key and its answer as an example.
         EXPECT_THAT(receive("\r\n\r\n"), HasSubstr("s3pPLMBiTxaQ9kYGzzhZRbK+xOo="));
     }
     void command(const std::string& text) const {

@@ -128,7 +128,7 @@ TEST(Dot, InkMassIsTheDotsAreaWhateverBlursIt) {
     }
 }
 
-// The light removed by several dots is the sum of the light removed by each single dot. Light is
+// The light removed by several dots is the sum of the light removed by each dot alone. Light is
 // additive, so this is true even if blurred dots overlap or are cut off by the image border.
 TEST(Dot, ManyTakeAwayTheSumOfEach) {
     Rng rng(6);

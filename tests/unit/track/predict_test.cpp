@@ -168,8 +168,7 @@ TEST(TrackerPredict, ARestingRobotIsExpectedWhereItWasAndAlmostSurely) {
     expect_near(pose_of(prediction), {10.75, 20.25, -3.1}, 0.001, 1e-4);
     EXPECT_LT(prediction.sigma_q16, Prediction{}.sigma_q16);
     EXPECT_LT(prediction.sigma_theta_bam, Prediction{}.sigma_theta_bam);
-    // The robot may be pushed with an acceleration of 10 m/s^2 for 5 ms, which displaces it by
-    // 0.125 mm.
+    // A push can accelerate the robot at 10 m/s^2 for 5 ms, which displaces it by 0.125 mm.
     EXPECT_GT(3 * prediction.sigma_q16, static_cast<std::int32_t>(0.125 / 0.508 * 65536));
     EXPECT_EQ(prediction.displacement_q16, robot.fix.displacement_q16);
 }

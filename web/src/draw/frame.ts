@@ -152,7 +152,7 @@ function drawPose(view: FrameView): void {
     context.stroke();
 }
 
-/** Draws a frame. Sets the aspect ratio of the canvas to the aspect ratio of the frame. */
+/** Draws a frame. Gives the canvas the aspect ratio of the frame. */
 export function drawFrame(canvas: HTMLCanvasElement, frame: DrawnFrame, layers: Layers): void {
     const surface = surfaceOf(canvas, frame.width_px / frame.height_px);
     const view = new FrameView(surface, frame);

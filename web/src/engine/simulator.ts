@@ -19,10 +19,7 @@ export async function layoutOf(sheet: SheetChoice): Promise<SheetLayout> {
     return layout;
 }
 
-/**
- * Imperfections of an ordinary print and its paper, as in the preset `nominal` of the command-line
- * tool.
- */
+/** Imperfections of an ordinary print and its paper, as in the `nominal` preset of the command-line tool. */
 const kPrint = { jitter_mm: 0.01, ink_variation: 0.03, missing: 0.002, texture: 0.005 };
 /** Distance of the projection centre from the paper, relative to the width of the view. */
 const kDistancePerWidth = 2;

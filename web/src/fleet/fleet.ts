@@ -14,7 +14,7 @@ const connection = new Connection((is_open) => {
     show({ "live-status": is_open ? "live" : "no connection to dotpose" });
     if (is_open) return;
     announce("No connection to dotpose");
-    // Deselects the robot, because the program may have been restarted. It would then assign new numbers to the robots.
+    // Deselects the robot. The program may have been restarted, and would then assign new numbers to the robots.
     panel.choose(null);
 });
 const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_mm, path_mm }) => {

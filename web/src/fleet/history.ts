@@ -13,7 +13,7 @@ function timeText(time_us: number): string {
     return new Date(time_us / 1000).toLocaleString("en-GB");
 }
 
-/** Returns a text with the percentage of states in which the robot had this motion. */
+/** Returns the percentage of states in which the robot had this motion, as text. */
 function shareText(motion: string, count: number, states: number): string {
     return `${((100 * count) / states).toFixed(count === 0 || count === states ? 0 : 1)} % ${motion}`;
 }
@@ -25,8 +25,8 @@ function maxGap_ms(span_ms: number): number {
 }
 
 /**
- * Returns one track for each map in a history. A track begins a new stroke after a pause, and after the robot was lost
- * or on another map.
+ * Returns one track for each map in a history. A track begins a new stroke after a pause, and when the robot returns
+ * after being lost or on another map.
  */
 export function tracksOf({ maps, map_of, x_mm, y_mm, times_ms, span_ms }: StoredHistory): Track[] {
     const tracks = maps.map((map): Track => ({ map, strokes_mm: [] }));
@@ -132,7 +132,7 @@ export class HistoryPanel {
         return `${states} states from ${timeText(first_us)} to ${timeText(last_us)}${thinned}: ${shares}; up to ${max_speed_mm_s.toFixed(0)} mm/s.${cut}`;
     }
 
-    /** Draws the speed, and below it the states. */
+    /** Draws the speed, with the states below it. */
     #draw({ times_ms, speeds_mm_s, motions, span_ms, max_speed_mm_s }: StoredHistory): void {
         const kBand_px = 12;
         const { context, width, height } = surfaceOf(this.#canvas);

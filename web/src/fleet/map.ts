@@ -19,9 +19,7 @@ const kRateSpan_ms = 2000;
 const kCountPeriod_ms = 500;
 /** Minimum number of robots in view at which their marks are copied as pixels. */
 const kMinCopied = 500;
-/**
- * Maximum distance between a click and the robot that it chooses, and maximum movement of the pointer during a click.
- */
+/** Maximum distance between a click and the robot it selects, and maximum movement of the pointer during a click. */
 const kNear_px = 24;
 const kStill_px = 5;
 
@@ -206,7 +204,7 @@ export class FleetMap {
         return this.#map === "" ? {} : { map: this.#map, ...this.#view.bounds() };
     }
 
-    /** Requests the robots in view, a limited number of times per second. */
+    /** Requests the robots in view, at most once per kAskPeriod_ms. */
     #ask(): void {
         if (this.#ask_timer !== undefined) return;
         this.#ask_timer = window.setTimeout(() => {

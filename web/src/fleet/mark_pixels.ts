@@ -109,7 +109,7 @@ export class MarkPixels {
         });
     }
 
-    /** Copies the part of a mark that is on the canvas. (x, y) is its centre. */
+    /** Copies the part of a mark that is on the canvas. The mark is centred at (x, y). */
     #copy(mark: Mark, x: number, y: number): void {
         const { width, height } = this.#image!;
         const [xs, ys, marked, pixels] = [mark.x, mark.y, mark.pixels, this.#pixels];

@@ -143,7 +143,7 @@ interface Head {
     names?: string[];
 }
 
-/** Size of a robot's record in the topic `positions`. */
+/** Size of a robot's record in the `positions` topic. */
 const kRecordBytes = 16;
 const kHasHeading = 1;
 const kIsUnknown = 2;

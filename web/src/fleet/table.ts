@@ -69,7 +69,7 @@ export class RobotTable {
         return { filter, show: this.#show.value, order: this.#order.value, first: this.#first, rows: kRows };
     }
 
-    /** Shows only the robots in a state, and goes to the first row. */
+    /** Shows only the robots in the given state, and goes to the first row. */
     showOnly(show: string): void {
         this.#filter.value = "";
         this.#show.value = show;

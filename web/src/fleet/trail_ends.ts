@@ -3,8 +3,8 @@
 import type { Positions, Trails } from "./messages.js";
 
 /**
- * Maximum number of robots for which the ends contain all positions. With more robots, the ends are too short on the
- * screen to appear as curves, so only the newest position is kept.
+ * Maximum number of robots for which the trail ends contain all positions. With more robots, the trail ends are too
+ * short on the screen to appear as curves, so only the newest position is kept.
  */
 const kMaxRobots = 500;
 /** Maximum number of positions in the end of a trail. The limit bounds the memory used by a page that

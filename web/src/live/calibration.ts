@@ -1,4 +1,4 @@
-// The page /calibration of `dotpose watch --web`: calibrates the camera of the run, step by step.
+// The /calibration page of `dotpose watch --web`: calibrates the camera in use, step by step.
 import { announcer, element, make, show } from "../page/dom.js";
 import { drawMissing, drawResiduals, drawSpin, drawTilts, drawTurns, fullScale_px, kMaxLean, kMaxTilt } from "./calibration_drawings.js";
 import type { CalibrationState, CalibrationValue, Gauge, LensCoverage, Result } from "./calibration_state.js";
@@ -89,7 +89,7 @@ function draw(id: string, text: string, paint: (canvas: HTMLCanvasElement) => vo
     if (canvas.clientWidth > 0) paint(canvas);
 }
 
-/** Shows which directions have been seen, and the tilts. */
+/** Shows the tilts, and which directions have been seen. */
 function showDials({ lens, step, directions, leans }: CalibrationState): void {
     const is_pen = step === "pivot";
     const seen = lens?.directions ?? directions;

@@ -48,7 +48,7 @@ export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], t
     arrow(context, [x, y], [x + 0.8 * radius * Math.cos(theta_rad), y + 0.8 * radius * Math.sin(theta_rad)], 9);
 }
 
-/** Draws the tilt of each frame as a point. Frames without a tilt are in the middle. */
+/** Draws the tilt of each frame as a point. A point in the middle represents no tilt. */
 export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, number][], max: number): void {
     const { context, width, height } = surfaceOf(canvas);
     const [x, y] = [width / 2, height / 2];

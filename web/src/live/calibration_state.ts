@@ -1,4 +1,4 @@
-// Value of the topic `calibration` (docs/web.md). apps/dotpose-live/web_calibration.cpp writes it.
+// Value of the `calibration` topic (docs/web.md). apps/dotpose-live/web_calibration.cpp writes it.
 
 export type StepName = "lens" | "spin" | "drive" | "readout" | "pivot";
 export type Phase = "idle" | "collecting" | "solving" | "solved" | "failed" | "saved";

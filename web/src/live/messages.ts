@@ -1,4 +1,4 @@
-// Values of the topics that `dotpose watch --web` publishes (docs/web.md). apps/dotpose-live/web_view.cpp writes them.
+// Values that `dotpose watch --web` publishes on its topics (docs/web.md). apps/dotpose-live/web_view.cpp writes them.
 import type { DrawnFrame } from "../draw/frame.js";
 import type { Quaternion } from "../page/lean.js";
 
@@ -20,7 +20,7 @@ export function sourceText({ source }: Setup): string {
     return source === "-" ? "standard input" : source;
 }
 
-/** Those keys of an output line of `dotpose watch` that the page shows (docs/schema/lines-1.json). */
+/** The keys of a `dotpose watch` output line that the page shows (docs/schema/lines-1.json). */
 export interface Line {
     frame: number;
     t_s: number;
@@ -82,7 +82,7 @@ export interface Advice {
     reason: string;
 }
 
-/** Head of a frame message. The picture follows as JPEG. */
+/** Header of a frame message. A JPEG picture follows it. */
 interface FrameHead {
     frame: number;
     width_px: number;
@@ -100,7 +100,7 @@ export interface LiveFrame extends DrawnFrame {
     index: number;
 }
 
-/** Parses a frame message, which consists of the size of its head, the head as JSON, and a picture. */
+/** Parses a frame message: the size of the header, the header as JSON, and a JPEG picture. */
 export async function frameOf(bytes: Uint8Array<ArrayBuffer>): Promise<LiveFrame> {
     const kSizeBytes = 4;
     const end = kSizeBytes + new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);

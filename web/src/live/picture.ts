@@ -19,9 +19,8 @@ const kMeasured_ms = 4000;
 class Meter {
     readonly #canvas = new OffscreenCanvas(1, 1);
     /**
-     * Maximum steepness of edges so far. Each frame's steepness is compared with this maximum to show how much the
-     * focus can be improved. The sharpness is not suitable for this, because noise gives a frame without dots a high
-     * sharpness.
+     * Maximum edge steepness so far. Each frame's steepness is compared with this maximum to show how much the focus
+     * can be improved. The sharpness is unsuitable, because noise makes it high in frames without dots.
      */
     #best = 0;
 

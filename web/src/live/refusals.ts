@@ -39,7 +39,7 @@ export class Refusals {
     }
 
     /**
-     * Draws one bar per second. The height of a bar represents the fraction of frames that were refused in this second.
+     * Draws one bar per second. The height of a bar represents the fraction of frames that were refused in that second.
      */
     redraw(): void {
         const { context, width, height } = surfaceOf(this.#canvas);

@@ -1,4 +1,4 @@
-// The view "Sheets": a map and a list of all sheets, and the numbers of the selected sheet.
+// The "Sheets" view: a map and a list of all sheets, and the properties of the selected sheet.
 import { element, make, show } from "../page/dom.js";
 import type { Connection, Value } from "./connection.js";
 import type { Line, Setup } from "./messages.js";

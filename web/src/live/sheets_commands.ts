@@ -1,4 +1,4 @@
-// Sends commands about sheets, and shows their answers.
+// Sends sheet commands, and shows the answers.
 import { element, show } from "../page/dom.js";
 import type { Connection, Value } from "./connection.js";
 import type { Answer } from "./sheets_messages.js";

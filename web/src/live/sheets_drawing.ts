@@ -62,8 +62,8 @@ function gridStep(scale: number): number {
 }
 
 /**
- * Returns the multiples of a step in a range, but at most 200. The limit matters only if the coordinates are so large
- * that their rounding errors exceed the step.
+ * Returns the multiples of `step` between `from` and `to`, at most 200 of them. The limit matters only if the
+ * coordinates are so large that their rounding errors exceed the step.
  */
 function multiples(from: number, to: number, step: number): number[] {
     const kMax = 200;

@@ -1,4 +1,4 @@
-// Forms for the numbers of the selected sheet, and for new sheets.
+// Forms for editing the selected sheet and for adding sheets.
 import { element, make, show } from "../page/dom.js";
 import { showAnswer, type SheetCommands } from "./sheets_commands.js";
 import { wrapped_deg } from "./sheets_geometry.js";
@@ -40,7 +40,7 @@ function fact(name: string, value: string): HTMLElement {
     return make("div", {}, make("dt", { textContent: name }), make("dd", { textContent: value }));
 }
 
-/** Offers a file, and starts its download. */
+/** Shows a download link for a file, and starts the download. */
 function offer(id: string, { url }: Answer): void {
     const link = element(id, HTMLAnchorElement);
     const file = url.slice(url.lastIndexOf("/") + 1);

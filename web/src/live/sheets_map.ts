@@ -1,4 +1,4 @@
-// The map of all sheets, on which sheets are selected, moved and turned.
+// The map of all sheets. The user selects, moves and turns the sheets on it.
 import { surfaceOf } from "../draw/surface.js";
 import { element, show } from "../page/dom.js";
 import type { Point_mm } from "../page/sheet_frame.js";
@@ -8,7 +8,7 @@ import type { Pose, Sheet } from "./sheets_messages.js";
 
 const kMargin_px = 24;
 const kZoom = 1.25;
-/** Delay from the last key press until a pose changed with the keyboard is saved. */
+/** Delay between the last key press and the saving of a pose changed with the keyboard. */
 const kKeyPause_ms = 700;
 
 export interface MapEvents {
@@ -38,7 +38,7 @@ export class SheetsMap {
     #key_timer: ReturnType<typeof setTimeout> | undefined;
     /** Sheet that is being moved with the keyboard, as it was before the first key press. */
     #key_sheet: Sheet | undefined;
-    /** Centre of the canvas in the world, and scale. Null while all sheets are shown. */
+    /** World point at the centre of the canvas, and the scale. Null while all sheets are shown. */
     #view: { x_mm: number; y_mm: number; scale: number } | null = null;
     #frame: Frame = { x_mm: 0, y_mm: 0, scale: 1, width: 1, height: 1 };
 

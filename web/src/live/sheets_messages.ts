@@ -1,4 +1,4 @@
-// Values of the topics about sheets (docs/web.md). apps/dotpose-live/sheet_messages.cpp writes them.
+// Values published on the sheet topics (docs/web.md). apps/dotpose-live/sheet_messages.cpp writes them.
 
 /** Pose of the upper left corner of a page in the world, with y up. */
 export interface Pose {
@@ -31,7 +31,7 @@ export interface Sheet {
 
 export interface SheetFile {
     may_edit: boolean;
-    /** Reason why the file cannot be read now. Empty if it was read. */
+    /** Reason why the file could not be read. Empty if it was read. */
     problem: string;
     /** Descriptions of the edits that can be undone and redone. Empty if there are none. */
     undo: string;

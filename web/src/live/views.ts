@@ -11,7 +11,7 @@ export class Views {
     readonly #views: Record<string, LiveView>;
     #current: string;
 
-    /** The page initially shows the first view. Each view has an element `view-NAME`. */
+    /** The page initially shows the first view. The element with the id `view-NAME` contains view NAME. */
     constructor(views: Record<string, LiveView>) {
         this.#views = views;
         this.#current = Object.keys(views)[0]!;
@@ -37,7 +37,7 @@ export class Views {
         }
         if (name !== before) {
             this.#views[before]!.hidden?.();
-            // Moves the focus of keyboards and screen readers to the new content.
+            // Moves the keyboard and screen reader focus to the new content.
             element("content", HTMLElement).focus({ preventScroll: true });
             scrollTo(0, 0);
         }

@@ -51,7 +51,7 @@ export function cameraOfFile(text: string): PageCamera {
     return camera;
 }
 
-/** Throws an Error if a value is out of its range. The ranges are the same as in the command-line tool. */
+/** Throws an Error if a value is out of range. The ranges are the same as in the command-line tool. */
 function requireReal({ size_px, focal_px, axis_px, lens_k_per_px2, centre_px }: PageCamera & { size_px: [number, number] }): void {
     const kMaxFocal_px = 1e6;
     const kMaxCentre_px = 1000;

@@ -16,7 +16,7 @@ interface Frame {
     before: Reading | undefined;
 }
 
-/** Replaces commas, quotation marks and white space, to make a string a valid CSV field. */
+/** Turns a string into a valid CSV field by replacing commas, quotation marks and white space. */
 const withoutCommas = (text: string) => text.replaceAll(/[,"\s]+/g, (match) => (match.includes(",") ? "; " : " "));
 
 type Column = readonly [name: string, value: (frame: Frame) => string | number, always?: true];

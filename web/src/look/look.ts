@@ -1,4 +1,4 @@
-// The view "Look": locates live frames from a camera of this device.
+// The "Look" view: locates live frames from a camera of this device.
 import type { Code } from "dotpose";
 import { drawFrame } from "../draw/frame.js";
 import { drawMap, paperOf } from "../draw/map.js";

@@ -1,4 +1,4 @@
-// Controls for the known sheets in the view "Look".
+// Controls for the known sheets in the "Look" view.
 import type { Fix } from "dotpose";
 import type { ReadOptions } from "../engine/messages.js";
 import { element, show } from "../page/dom.js";

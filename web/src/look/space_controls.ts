@@ -1,4 +1,4 @@
-// Controls for the pose in space in the view "Look". They set the camera's focal length or load a
+// Controls for the pose in space in the "Look" view. They set the camera's focal length or load a
 // camera file.
 import { fitsCamera } from "../engine/camera_size.js";
 import type { PageCamera, Reading } from "../engine/messages.js";

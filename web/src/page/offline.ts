@@ -8,6 +8,6 @@ export function startOffline(): void {
         .then(() => navigator.serviceWorker.ready)
         .then(() => show({ "offline-state": "The page also works offline." }))
         .catch(() => {
-            // The page was opened from a file, or storage is not allowed. The page also works without the cache.
+            // The page was opened from a file, or storage is not allowed. The page still works without the cache.
         });
 }

@@ -3,7 +3,7 @@ import { element, show } from "./dom.js";
 import { length } from "./format.js";
 import { leanOf, type Angle, type SpacePose } from "./lean.js";
 
-/** Points in the drawing: the point on the paper in the view from the side, and the centre of the view from above. */
+/** Points in the drawing: the point on the paper in the side view, and the centre of the top view. */
 const kPaper = { x: 50, y: 88 };
 const kAbove = { x: 150, y: 50 };
 const kRadius = 40;
@@ -71,7 +71,7 @@ export class SpacePanel {
     readonly #figure: HTMLElement;
     readonly #id: string;
 
-    /** Fills the figure `ID-space`. The figure is hidden until a pose is known. */
+    /** Fills the `ID-space` figure. The figure is hidden until a pose is known. */
     constructor(id: string) {
         this.#id = id;
         this.#figure = element(`${id}-space`, HTMLElement);
@@ -104,9 +104,9 @@ export class SpacePanel {
     }
 
     /**
-     * Draws the camera. The view from above shows the axes of the paper or of the world. The view from the side shows
-     * the vertical plane in which the camera is tilted. The azimuth and the turn need no conversion, because they are
-     * clockwise on the paper, and SVG angles are clockwise on the screen.
+     * Draws the camera. The top view shows the axes of the paper or of the world. The side view shows the vertical
+     * plane in which the camera is tilted. The azimuth and the turn need no conversion, because they are clockwise on
+     * the paper, and SVG angles are clockwise on the screen.
      */
     #draw(tilt_deg: number, azimuth_deg: number, turn_deg: number, is_in_world: boolean): void {
         const part = (name: string) => element(`${this.#id}-space-${name}`, SVGElement);

@@ -1,4 +1,4 @@
-// The view "Print": selects a sheet, shows a preview and makes the PDF.
+// The "Print" view: selects a sheet, shows a preview and makes the PDF.
 import type { Code } from "dotpose";
 import { drawCorner, drawPage } from "../draw/sheet.js";
 import type { Engine } from "../engine/engine.js";

@@ -1,4 +1,4 @@
-// The view "Try": locates the frames of a simulated camera over a simulated sheet.
+// The "Try" view: locates the frames of a simulated camera over a simulated sheet.
 import { drawFrame } from "../draw/frame.js";
 import { drawMap, paperOf, type MapFrame } from "../draw/map.js";
 import type { Engine } from "../engine/engine.js";

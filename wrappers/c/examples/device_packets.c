@@ -1,5 +1,5 @@
 /* Processes a frame as a microcontroller does: uses a fixed amount of memory, processes each row as
- * the camera delivers it, and sends a packet of 32 bytes. In this example, the rows are read from a
+ * the camera delivers it, and sends a 32-byte packet. In this example, the rows are read from a
  * file, and the packet is written to standard output for `dotpose listen`:
  *
  *     ./device_packets frame.pgm | dotpose listen - */

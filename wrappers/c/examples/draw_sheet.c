@@ -1,4 +1,4 @@
-/* Draws a part of a sheet as an image. The example locate_one can locate the image:
+/* Draws a part of a sheet as an image. The locate_one example can locate the image:
  *
  *     ./draw_sheet 1000 2000 >sheet.pgm
  *     ./locate_one sheet.pgm */
@@ -18,7 +18,7 @@ enum {
 
 static uint8_t pixels[HEIGHT_PX][WIDTH_PX];
 
-/* Draws the dot of a cell as a square of 3 x 3 px that is displaced from the centre of the cell. */
+/* Draws the dot of a cell as a 3 x 3 px square, displaced from the centre of the cell. */
 static void draw_dot(int column, int row, int32_t dx, int32_t dy) {
     const int u = column * SPACING_PX + SPACING_PX / 2 + SHIFT_PX * (int)dx;
     const int v = row * SPACING_PX + SPACING_PX / 2 + SHIFT_PX * (int)dy;

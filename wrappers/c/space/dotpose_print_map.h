@@ -29,7 +29,7 @@ extern "C" {
 typedef struct dotpose_print_map dotpose_print_map;
 
 /* Reads a map from the contents of a map file, and allocates memory for the map. Returns BAD_VALUE
- * if the bytes are not a map, or if the map is damaged or has a newer format version. May also
+ * if the bytes are not a map, or if the map is damaged or has a newer format version. Can also
  * return OUT_OF_MEMORY or NULL_POINTER. On failure, sets `map` to null. */
 dotpose_status dotpose_print_map_create(const void* bytes, size_t byte_count,
                                         dotpose_print_map** map);

@@ -99,8 +99,8 @@ dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes);
  * - OK,
  * - NO_FIX if the last image was not located or if the spacing of the sheet is not known,
  * - TOO_FEW_DOTS if the dots do not determine a pose,
- * - BAD_VALUE if a member of the camera is out of its range, or if the size of the image differs
- *   from that of the camera,
+ * - BAD_VALUE if a member of the camera is out of range, or if the size of the image differs from
+ *   that of the camera,
  * - WRONG_KIND for device locators, and for locators without `show_stages`,
  * - OUT_OF_MEMORY, or another misuse status. */
 dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_space_camera* camera,
@@ -121,7 +121,7 @@ typedef struct dotpose_space_pen {
     double sigma_mm[3]; /* 40: standard deviations of x_mm, y_mm and z_mm */
 } dotpose_space_pen;
 
-/* Sets all members to 0. `bytes` is the caller's sizeof(dotpose_space_pen). */
+/* Sets all members except `size` to 0. `bytes` is the caller's sizeof(dotpose_space_pen). */
 dotpose_status dotpose_space_pen_init(dotpose_space_pen* pen, size_t bytes);
 
 /* Position of a pen tip in the pattern (104 bytes). */

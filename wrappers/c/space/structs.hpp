@@ -13,7 +13,8 @@
 
 namespace dotpose::c {
 
-/// Returns OK if the member `size` is the size of the struct, which has only one version.
+/// Returns OK if the `size` member equals the size of the struct. Each struct has only one version,
+/// so no other size is valid.
 template <typename Struct>
 dotpose_status check_size(const Struct* given) {
     if (given == nullptr) return DOTPOSE_NULL_POINTER;

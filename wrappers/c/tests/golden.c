@@ -72,7 +72,7 @@ static void push_rows(dotpose_locator* locator, const image* frame, dotpose_fix*
     dotpose_finish(locator, fix);
 }
 
-/* Prints the golden lines for a frame, one for each method. For the method `tracked`, locates the
+/* Prints the golden lines for a frame, one for each method. For the `tracked` method, locates the
  * next frame with a prediction from the fix of this frame. */
 static void locate(int index, const image* frame, const image* next, dotpose_locator* large,
                    dotpose_locator* device, int by_rows) {

@@ -84,7 +84,7 @@ GreyImage small_view_of(const KnownRegion& sheet, int side_px = 66) {
     return render(shot);
 }
 
-/// Returns frames taken at random places on sheets printed in the code libdots, which is not the
+/// Returns frames taken at random places on sheets printed in the `libdots` code, which is not the
 /// default.
 std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     dotpose::Setup setup;

@@ -1,5 +1,5 @@
-// GStreamer callbacks of the element. They are called from C, so they must not throw. The class
-// Stream locates the frames.
+// GStreamer callbacks of the element. They are called from C, so they must not throw. The Stream
+// class locates the frames.
 #include "element.hpp"
 
 #include <memory>

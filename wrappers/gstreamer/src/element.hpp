@@ -1,4 +1,4 @@
-/// The element `dotposelocate`.
+/// The `dotposelocate` element.
 #pragma once
 
 #include <gst/gst.h>

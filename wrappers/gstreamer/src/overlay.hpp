@@ -8,7 +8,7 @@
 
 namespace dotpose::gstreamer {
 
-/// The luma plane of a frame, which can be modified.
+/// The writable luma plane of a frame.
 struct Luma {
     std::uint8_t* pixels = nullptr;
     int width_px = 0;

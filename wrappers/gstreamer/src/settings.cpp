@@ -45,8 +45,8 @@ std::optional<CodeVariant> code_of(gint number) {
     return static_cast<CodeVariant>(number - 1);
 }
 
-/// Returns the GObject type of the property `code`, which is an enumeration. The first call
-/// registers the type.
+/// Returns the GObject type of the `code` property, an enumeration. The first call registers the
+/// type.
 GType code_type() {
     static const std::array<GEnumValue, kCodeVariantCount + 2> values = [] {
         std::array<GEnumValue, kCodeVariantCount + 2> all{};

@@ -114,7 +114,7 @@ TEST_F(GstreamerDrive, WithoutSheetsTheCodeIsFoundOut) {
     expect_lines(watch(""), run_element("drive.raw", format, ""));
     expect_lines(watch("--code anoto --spacing 0.5"),
                  run_element("drive.raw", format, "code=anoto spacing-mm=0.5"));
-    // The sheets are not printed in the code microdots, so no frame has a fix. The messages must
+    // The sheets are not printed in the `microdots` code, so no frame has a fix. The messages must
     // report the same failures as `watch`.
     expect_lines(watch("--code microdots"), run_element("drive.raw", format, "code=microdots"));
 }

@@ -43,7 +43,7 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
         for (std::size_t i = 0; i < line.size(); ++i)
             expect_value_of(key, line[i], told[i]);
     } else if (line.is_string()) {
-        // If there is no fix, the field `message` is more detailed in the line than in the
+        // If there is no fix, the `message` field is more detailed in the line than in the
         // element's message.
         if (key != "message") {
             EXPECT_EQ(line, told) << key;

@@ -15,7 +15,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Skips a test if a program or the element `rawvideoparse` is missing.
+/// Skips a test if a program or the `rawvideoparse` element is missing.
 #define DOTPOSE_NEEDS(program)                                             \
     if (run_shell("command -v " program " 2>&1").exit_code != 0 ||         \
         !has_element("rawvideoparse")) {                                   \

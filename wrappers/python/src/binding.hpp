@@ -18,7 +18,7 @@ namespace dotpose::python {
 namespace py = pybind11;
 using namespace py::literals;
 
-/// Each function defines the classes and functions for one subject in the module _dotpose. The
+/// Each function defines the classes and functions for one subject in the _dotpose module. The
 /// functions are called in this order, because signatures refer to classes that must already be
 /// defined.
 void define_errors(py::module_& module);
@@ -30,7 +30,7 @@ void define_locator(py::module_& module);
 void define_tracker(py::module_& module);
 void define_simulate(py::module_& module);
 
-/// Each function defines the classes and functions for one subject in the module _tools. The
+/// Each function defines the classes and functions for one subject in the _tools module. The
 /// functions are called in this order, because signatures refer to classes that must already be
 /// defined.
 void define_sheets(py::module_& module);
@@ -46,7 +46,7 @@ void define_protocol(py::module_& module);
 void define_drawing(py::module_& module);
 void define_camera_files(py::module_& module);
 
-/// Imports the module _tools. If the module is not installed, throws ImportError with `wanted` in
+/// Imports the _tools module. If the module is not installed, throws ImportError with `wanted` in
 /// its message.
 py::module_ tools_for(const char* wanted);
 

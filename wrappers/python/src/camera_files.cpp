@@ -1,4 +1,4 @@
-// Functions of the module _tools that read and write camera files, and `with_camera`, which
+// Functions in the `_tools` module: reading and writing camera files, and `with_camera`, which
 // computes the pose of a mounted camera. Camera.read, Camera.write and Locator call these
 // functions.
 #include "camera_files.hpp"

@@ -1,4 +1,4 @@
-/// Function pointer type through which the module _tools provides `with_camera` to _dotpose.
+/// Function pointer type for passing `with_camera` from the _tools module to _dotpose.
 #pragma once
 
 #include "binding.hpp"

@@ -11,7 +11,7 @@
 namespace dotpose::python {
 namespace {
 
-/// Result of a check, together with the scan, on which the result is drawn.
+/// Result of a check, and the scan on which it is drawn.
 struct SeenCheck {
     PrintCheck check;
     GreyImage scan;

@@ -15,7 +15,7 @@
 namespace dotpose::python {
 namespace {
 
-/// Result for one image, exposed to Python as the class Located. `track` is empty if the image is
+/// Result for one image, exposed to Python as the Located class. `track` is empty if the image is
 /// not part of a sequence.
 struct SeenLocated {
     PyFix fix;

@@ -1,5 +1,4 @@
-/// LocatorOfPython: a Locator that keeps the data of the newest frame for later requests from
-/// Python.
+/// PyLocator: a Locator that keeps the data of the newest frame for later requests from Python.
 #pragma once
 
 #include <cstdint>

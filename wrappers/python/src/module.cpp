@@ -1,4 +1,4 @@
-// The module dotpose._dotpose: classes and functions for locating, tracking and simulation. The
+// The dotpose._dotpose module: classes and functions for locating, tracking and simulation. The
 // package dotpose re-exports its contents.
 #include "binding.hpp"
 #include "dotpose/version.hpp"

@@ -19,8 +19,8 @@ Value named(const char* what, const std::string& wanted, const std::array<Value,
     throw BadArgument(std::string(what) + ": '" + wanted + "' is none of " + known);
 }
 
-/// Returns options in which the members named in `given` are set. All other members have their
-/// default values. Throws TypeError for an unknown name.
+/// Returns options with the members named in `given` set, and all other members at their defaults.
+/// Throws TypeError for an unknown name.
 LocatorOptions options_of(const py::kwargs& given) {
     py::object self = py::cast(LocatorOptions{});
     for (const auto& [key, value] : given) {

@@ -1,4 +1,4 @@
-/// Picture: a drawing in SVG format, which notebooks display.
+/// Picture: an SVG drawing that notebooks display.
 #pragma once
 
 #include <filesystem>

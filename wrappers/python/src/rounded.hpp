@@ -1,4 +1,4 @@
-/// Rounds Python numbers to the integers of the core.
+/// Rounds Python numbers to the integer types that the core uses.
 #pragma once
 
 #include <algorithm>

@@ -20,8 +20,8 @@ Section section_of_pair(const Whole& pair);
 Pattern pattern_of(const std::string& code, double spacing_mm, const std::optional<double>& dot_mm,
                    const std::optional<double>& displacement_mm, const Whole& section);
 
-/// Converts "auto", "glyphs" or "strokes" to the method of drawing dots that has this name. Throws
-/// BadArgument for any other name.
+/// Converts "auto", "glyphs" or "strokes" to the DotDrawing of that name. Throws BadArgument for
+/// any other name.
 DotDrawing drawing_named(const std::string& name);
 
 /// A place on a sheet, with a copy of the sheet's entry.

@@ -1,4 +1,4 @@
-// Provides access to the optional module _tools.
+// Provides access to the optional _tools module.
 #include "binding.hpp"
 
 namespace dotpose::python {

@@ -1,4 +1,4 @@
-// The module dotpose._tools: files, printing, checking, calibration and drawing. The module is
+// The dotpose._tools module: files, printing, checking, calibration and drawing. The module is
 // optional, because it needs the libraries that the command-line tool uses.
 #include "binding.hpp"
 

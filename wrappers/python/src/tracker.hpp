@@ -1,4 +1,4 @@
-/// The Python class Track, which is returned by Tracker and Follower.
+/// Options of the Python classes Tracker and Follower.
 #pragma once
 
 #include "binding.hpp"

@@ -3,7 +3,8 @@
     python3 cost.py
 
 Python and C++ locate the same image with the same options, in short alternating batches. For each
-language, the result is the fastest batch, because other programs disturbed the slower batches.
+language, the result is the time of the fastest batch, because other programs disturb the slower
+batches.
 """
 
 import time
@@ -12,7 +13,7 @@ import dotpose
 
 
 def cost_us(image, locator, batches=2000, frames=4):
-    """Returns the µs per frame of C++, of Python, and of Python code that also reads the pose."""
+    """Returns the time per frame, in µs: in C++, in Python, and in Python that reads the pose."""
     cpp, python, read = [], [], []
     for _ in range(batches):
         cpp.append(locator._cpp_us(image, frames))

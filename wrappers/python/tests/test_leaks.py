@@ -1,5 +1,5 @@
-"""Tests that no memory is leaked over many frames. DOTPOSE_LEAK_FRAMES sets the number of frames,
-which is 100,000 in scripts/nightly."""
+"""Tests that no memory is leaked over many frames. DOTPOSE_LEAK_FRAMES sets the number of frames
+(100,000 in scripts/nightly)."""
 
 import gc
 import os

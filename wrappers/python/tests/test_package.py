@@ -1,4 +1,4 @@
-"""Tests the package as users install it: builds a wheel, and installs it with pip in a virtual environment.
+"""Tests the package as users install it: builds a wheel, and installs it with pip in a venv.
 
 Needs no network.
 """

@@ -11,7 +11,7 @@ TILT = 0.35
 
 
 def tilted_view():
-    """Returns a shot from a camera that leans towards +x on the paper, and the camera."""
+    """Returns a shot from a camera tilted towards +x on the paper, and the camera itself."""
     shot = dotpose.draw_shots(1, seed=5, width_px=320, height_px=240, section=(0, 0))[0]
     shot.theta_rad = 0.0
     shot.tilt_x_rad = 0.0

@@ -15,8 +15,8 @@
 
 #include <dotpose/tools/ros_messages.hpp>
 
-// The messages below have the same members as the ROS messages, as
-// robots.Cdr.TypesAreDefinedAsInRos checks.
+// The messages below have the same members as the ROS messages. The test
+// robots.Cdr.TypesAreDefinedAsInRos checks this.
 namespace std_msgs::msg {
 using dotpose::ros::Header;
 }

@@ -1,6 +1,6 @@
 // Measures how long the C++ library takes to locate the golden frames (wrappers/golden/README.md)
-// without AVX2. Prints a line with two times in µs for each frame: without a prediction, and for
-// the next frame with a prediction.
+// without AVX2. For each frame, prints a line with two times in µs: the time for the frame without
+// a prediction, and the time for the next frame with a prediction.
 //
 //   dotpose_wasm_time FILE.frames...
 #include <chrono>

@@ -1,7 +1,6 @@
-// Runtime functions of the module dotpose-space.wasm, which is the core with poses in space and
-// print maps. JavaScript checks all arguments except the contents of print maps. A function that
-// fails sets the message returned by `dotpose_space_error` and ends the instance with a trap, as in
-// tools.cpp.
+// Runtime functions of the dotpose-space.wasm module: the core with poses in space and print maps.
+// JavaScript checks all arguments except the contents of print maps. A function that fails sets the
+// message returned by `dotpose_space_error` and ends the instance with a trap, as in tools.cpp.
 #include <cstddef>
 #include <cstdint>
 #include <exception>

@@ -1,4 +1,4 @@
-// The module dotpose-tools.wasm: sheets and the simulated camera, compiled from the sources of the
+// The dotpose-tools.wasm module: sheets and the simulated camera, compiled from the sources of the
 // command-line tool.
 //
 // A function that fails sets the message returned by `dotpose_tools_error` and ends the instance
@@ -61,7 +61,7 @@ Sheet sheet_of(const wasm::SheetRequest& sheet) {
     return make_sheet(options);
 }
 
-/// Returns a page that is on a table. The paper has the size of the sheet.
+/// Returns a page on a table. The paper has the size of the sheet.
 Page page_on_table(const Sheet& sheet, double table_reflectance) {
     Page page = page_of(sheet);
     const double spacing_mm = sheet.pattern.spacing_mm;

@@ -16,8 +16,8 @@ export function coreModule(wasm?: WasmSource, has_space = false): Promise<WebAss
 }
 
 /**
- * Calls a function that returns a dotpose_status. A nonzero status means that an option or argument
- * is invalid. In this case, throws RangeError with the message for the status.
+ * Calls a function that returns a dotpose_status. If the status is nonzero (an option or argument
+ * is invalid), throws RangeError with the message for the status.
  */
 export function callOk(core: Instance, name: string, ...args: (number | bigint)[]): void {
     const status = core.call(name, ...args);
@@ -26,8 +26,8 @@ export function callOk(core: Instance, name: string, ...args: (number | bigint)[
 
 /**
  * Calls a function in dotpose-space.wasm. If the C++ library throws an exception, it stores the
- * message in the module and ends the instance with a trap. In this case, throws RangeError with the
- * stored message.
+ * message in the module and ends the instance with a trap. This function then throws RangeError
+ * with the stored message.
  */
 export function callSpace(core: Instance, name: string, ...args: number[]): number {
     try {

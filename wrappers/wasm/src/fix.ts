@@ -35,15 +35,15 @@ export interface Fix extends FixFields {
     spacing_px: number;
     /**
      * Centres of the detected dots: u and v in px from the centre of the first pixel. Null unless
-     * the option `dots` is set.
+     * the `dots` option is set.
      */
     dots: Float32Array | null;
     /**
-     * Pose of the camera in space. Null without the option `space`, or if the dots do not determine
+     * Pose of the camera in space. Null without the `space` option, or if the dots do not determine
      * the pose.
      */
     space: SpacePose | null;
-    /** How the option `print_map` was used. Always "no_map" without the option. */
+    /** How the `print_map` option was used. Always "no_map" without the option. */
     map_use: MapUse;
     /** The bytes of this fix as a dotpose_fix (wrappers/c/dotpose.h). */
     bytes: Uint8Array<ArrayBuffer>;

@@ -1,4 +1,4 @@
-// The class Locator, which locates the pattern in images.
+// Locator: locates the pattern in images.
 import { callOk, coreModule } from "./core.js";
 import { fixOf, type Fix } from "./fix.js";
 import { kAt, kFixBytes } from "./fix_fields.js";
@@ -66,8 +66,8 @@ export interface LocatorOptions {
      */
     space?: SpaceCamera;
     /**
-     * Contents of a print map file written by `dotpose calibrate --print-map`. On the pages of the
-     * map, fixes and poses in space are corrected (`Fix.map_use`). For the highest accuracy, locate
+     * Contents of a print map file written by `dotpose calibrate --print-map`. Corrects fixes
+     * and poses in space on the pages of the map (`Fix.map_use`). For the highest accuracy, locate
      * without predictions, because tracking measures the dots in windows at their nominal
      * positions. Like `space`, this option makes the locator use the larger module. Default: none.
      */
@@ -89,8 +89,8 @@ export interface FrameOptions {
      * Motion of the camera since the previous frame. If a frame alone does not give a certain fix,
      * it is read together with the previous frames. `Fix.frames` is then the number of frames read.
      * Give a motion with every frame of a series, including the first. A frame without a motion
-     * ends the series. If the previous frame was located, the search starts at the position that
-     * results from the motion, so a motion replaces a prediction.
+     * ends the series. If the previous frame was located, the search starts at the position
+     * predicted from the motion, so a motion replaces a prediction.
      */
     motion?: MeasuredMotion | null | undefined;
 }
@@ -229,7 +229,7 @@ export class Locator {
         return this.#core.bytes(this.#pixels, bytes);
     }
 
-    /** Returns the address of a prediction, or 0 if there is none. */
+    /** Returns the address of the prediction, or 0 if there is no usable prediction. */
     #predict(given: Fix | Prediction | null | undefined): number {
         if (!given || codeNumber(given.code) !== this.#codeRead()) return 0;
         if (!("ok" in given)) {

@@ -5,7 +5,7 @@ export const kCodes = ["anoto", "libdots", "microdots"] as const;
 /** Code variants of printed sheets. Use `anoto` for new sheets. */
 export type Code = (typeof kCodes)[number];
 
-/** Returns the number of a code. Throws RangeError for other names. */
+/** Returns the number of a code. Throws RangeError for an unknown name. */
 export function codeNumber(code: Code): number {
     const number = kCodes.indexOf(code);
     if (number < 0) throw new RangeError(`unknown code '${code}'; known are ${kCodes.join(", ")}`);
@@ -56,7 +56,7 @@ export interface Section {
     v: number;
 }
 
-/** An intersection of the grid: column x and row y, 0 to 410,815,347. */
+/** An intersection of the grid: column x and row y, each from 0 to 410,815,347. */
 export interface Cell {
     /** Column, which increases to the right. */
     x: number;

@@ -31,13 +31,13 @@ function header({ width_px, height_px }: Raster): Uint8Array {
     const view = new DataView(bytes.buffer);
     view.setUint32(0, width_px);
     view.setUint32(4, height_px);
-    bytes[8] = 1; // 1 bit per pixel; the zeros mean grey, deflate, no filter, no interlacing
+    bytes[8] = 1; // 1 bit per pixel; zeros: grey, deflate, filter type per row, no interlacing
     return bytes;
 }
 
 /**
- * Returns the chunk with the number of pixels per metre, from which programs determine the true
- * size of the page.
+ * Returns the contents of the pHYs chunk: the resolution in pixels per metre. Programs use it to
+ * determine the true size of the page.
  */
 function size(dpi: number): Uint8Array {
     const bytes = new Uint8Array(9);
@@ -50,8 +50,8 @@ function size(dpi: number): Uint8Array {
 }
 
 /**
- * Returns the rows in PNG format. Each row begins with the number of its filter. In the pixels, a 0
- * bit is black.
+ * Returns the rows in PNG format: each row is a filter type byte (0, no filter), followed by the
+ * pixels. A 0 bit is a black pixel.
  */
 function scanlines({ width_px, height_px, bits }: Raster): Uint8Array<ArrayBuffer> {
     const stride = Math.ceil(width_px / 8);

@@ -114,11 +114,11 @@ export interface Imperfections {
 
 /** All inputs for a simulated frame. */
 export interface Scene {
-    /** The page, which is on a table. */
+    /** The page, placed on a table. */
     sheet?: SheetOptions;
     /** True if there are dots everywhere, as on an infinite page. Default: false. */
     whole_plane?: boolean;
-    /** Seed of the printing errors, which are the same in all frames of the page. Default: 1. */
+    /** Seed for the printing errors, which are the same in all frames of the page. Default: 1. */
     page_seed?: number;
     /** Reflectance of the table, relative to paper. Default: 0.2. */
     table_reflectance?: number;
@@ -128,7 +128,7 @@ export interface Scene {
     pose: CameraPose;
     /** Effects of printer, paper, light and sensor. Default: none. */
     imperfections?: Imperfections;
-    /** Seed of noise and dirt. Default: 1. */
+    /** Seed for the noise and the dirt. Default: 1. */
     seed?: number;
 }
 

@@ -53,13 +53,13 @@ export interface SpacePose extends PoseInSpace {
     dots: number;
     /** Root mean square residual of the dots used, per axis. */
     residual_px: number;
-    /** True if the dots do not exclude the second pose. */
+    /** True if the dots do not rule out the second pose. */
     is_ambiguous: boolean;
     /** The second pose that explains the view. Null if there is none. */
     second: SecondPose | null;
 }
 
-/** The second pose that explains the view of a plane. */
+/** The second of the two poses that explain a view of a plane. */
 export interface SecondPose extends PoseInSpace {
     /** Odds of this pose relative to the first pose. */
     odds: number;

@@ -1,4 +1,4 @@
-// The module dotpose/tools: sheets to print, and a simulated camera, compiled from the sources of
+// The `dotpose/tools` module: sheets to print, and a simulated camera, compiled from the sources of
 // the command-line tool.
 import { compile, Instance, type WasmSource } from "./instance.js";
 import type { Image } from "./locator.js";
@@ -23,7 +23,7 @@ export interface SheetLayout {
 
 /**
  * A page as pixels, 8 per byte. The leftmost pixel is in the most significant bit. A 1 bit is ink.
- * Each row begins at a byte boundary.
+ * Each row begins on a byte boundary.
  */
 export interface Raster {
     /** Width of the page. */

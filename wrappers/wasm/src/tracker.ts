@@ -1,4 +1,4 @@
-// The class Tracker, which follows a robot from frame to frame.
+// Tracker: follows a robot from frame to frame.
 import { callOk, coreModule } from "./core.js";
 import type { Fix } from "./fix.js";
 import { kFixBytes } from "./fix_fields.js";
@@ -69,7 +69,7 @@ export interface TrackOptions {
 export interface Track {
     /** Time of the pose. */
     time_us: number;
-    /** True if the robot is lost: it has not been located for too long. */
+    /** True if the robot is lost: no fix accepted for too long, or the pose is too uncertain. */
     is_lost: boolean;
     /** True if the robot is at rest. */
     is_stationary: boolean;
@@ -131,7 +131,7 @@ const kTrackBytes = 232;
  *     const fix = locator.locate(image, { prediction: tracker.predict(time_us) });
  *     const track = tracker.update(time_us, fix);
  *
- * With odometry, the tracker also follows the robot across places without a pattern:
+ * With odometry, the tracker also follows the robot across areas without a pattern:
  *
  *     const track = tracker.update(time_us, locator.locate(image, { motion }), motion);
  */
@@ -166,7 +166,7 @@ export class Tracker {
         callOk(core, "dotpose_tracker_init", this.#tracker, given);
     }
 
-    /** Creates a tracker in the state `lost`. Throws RangeError for invalid options. */
+    /** Creates a tracker in the `lost` state. Throws RangeError for invalid options. */
     static async create({ wasm, ...options }: TrackOptions = {}): Promise<Tracker> {
         return new Tracker(await Instance.start(await coreModule(wasm)), options);
     }

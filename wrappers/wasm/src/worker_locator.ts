@@ -1,4 +1,4 @@
-// The class WorkerLocator, a Locator that runs in a worker.
+// WorkerLocator: a Locator that runs in a worker.
 import type { Fix } from "./fix.js";
 import { compile } from "./instance.js";
 import type { FrameOptions, Image, LocatorOptions } from "./locator.js";

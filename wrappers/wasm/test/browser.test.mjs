@@ -100,7 +100,7 @@ test("a worker locates a simulated camera and gives the buffer back", async () =
     assert.ok(Math.abs(seen.fix.x_mm - 40) < 0.003 && Math.abs(seen.fix.y_mm - 50) < 0.003);
     assert.equal(seen.tracked.attempt, "tracked");
     assert.ok(Math.abs(seen.tracked.x_mm - 40.05) < 0.003);
-    // The search begins at the position that results from the motion.
+    // The search begins at the position predicted from the motion.
     assert.equal(seen.moved.attempt, "tracked");
     assert.ok(Math.abs(seen.moved.x_mm - 40.15) < 0.003);
     assert.match(seen.refusal, /RangeError: the image needs 22560 bytes/);

@@ -293,7 +293,7 @@ describe("sheets and the simulated camera", () => {
         const ours = parts(Buffer.from(await tools.png(kSheet)));
         const theirs = parts(printed("sheet.png"));
         for (const type of ["IHDR", "pHYs"]) assert.deepEqual(ours[type], theirs[type], type);
-        // Bits beyond the image width are undefined. The rows of this sheet do not end at a byte
+        // Bits beyond the image width are undefined. The rows of this sheet do not end on a byte
         // boundary.
         const { width_px, height_px } = tools.raster(kSheet);
         const stride = Math.ceil(width_px / 8) + 1;

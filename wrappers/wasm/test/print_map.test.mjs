@@ -16,7 +16,7 @@ const kCamera = { width_px: 320, height_px: 240, mm_per_px: 0.046, working_dista
 const kFocal_px = kDistance_mm / kCamera.mm_per_px;
 const kSheet = { width_mm: kPage_mm, height_mm: kPage_mm, margin_mm: 0, origin: kOrigin };
 
-/** Returns a function that generates pseudo-random numbers from 0 to 1, which are the same in every
+/** Returns a generator of pseudo-random numbers from 0 to 1. The sequence is the same in every
  * run. */
 function random(seed) {
     let state = seed;
@@ -105,8 +105,8 @@ describe("print map", () => {
             const tool_line = JSON.parse(run("locate", "--sheets", "sheets.json", "--print-map", "page.map", "frame.pgm"));
             const fix = locator.locate(image);
             assert.equal(fix.map_use, "used");
-            // With another compiler, a result may be rounded to a neighbouring multiple of 2^-16
-            // spacings, which is 8 nm.
+            // With a different compiler, a result may be rounded to a neighbouring multiple of
+            // 2^-16 spacings (8 nm).
             near(tool_line.x_mm, fix.x_mm, 1e-5);
             near(tool_line.y_mm, fix.y_mm, 1e-5);
             near(tool_line.theta_deg, (fix.theta_rad * 180) / Math.PI, 1e-6);
@@ -169,7 +169,7 @@ describe("print map", () => {
         const newer = print_map.slice();
         newer[8] = 99;
         await refused(newer, /^it has version 99, and this program reads versions 1 to \d+/);
-        // The number of dots on the page is 2^32, which does not fit into the integers of the module.
+        // The number of dots on the page is 2^32, which does not fit in the module's 32-bit size_t.
         const huge = print_map.slice();
         const columns = columnsAt("page");
         new DataView(huge.buffer).setUint32(columns, 65536, true);

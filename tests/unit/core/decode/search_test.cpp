@@ -16,8 +16,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 43;
 
-/// A window in which only the x bits are set, as weights, and storage for the scores of its
-/// columns.
+/// A window with only the x bits (as weights), and storage for the scores of its columns.
 struct ScoredWindow {
     ScoredWindow(int columns, int rows) : owned(std::max(columns, rows)) {
         owned.grid.columns = columns;
@@ -34,7 +33,7 @@ struct ScoredWindow {
     std::array<ScoredLine, kMaxLines> storage;
 };
 
-/// Returns the window of the code at a place. A fraction of its bits is flipped.
+/// Returns the window of the code at a place. Each bit is flipped with probability `flipped`.
 ScoredWindow window(CodeVariant code, const Place& place, int columns, int rows, double flipped,
                     Rng& rng) {
     ScoredWindow result(columns, rows);
@@ -95,7 +94,7 @@ TEST(FindAxis, FindsThePositionAmongWrongBits) {
 }
 
 TEST(FindAxis, HoldsForThePublishedCode) {
-    // In the code `libdots`, eight consecutive lines are necessary to determine a position.
+    // In the `libdots` code, eight consecutive lines are necessary to determine a position.
     EXPECT_EQ(found_of_200(CodeVariant::libdots, 12, 0), 200) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 12, 0.05), 198) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 30, 0.2), 198) << "seed " << kSeed;
@@ -175,7 +174,7 @@ TEST(FindAxis, FewerLinesThanCarryAPositionAreNotInTheCode) {
                       .find(CodeVariant::anoto, reading),
                   Status::not_in_code);
     }
-    // Because of the misprint in a4, the code `libdots` needs eight lines instead of six.
+    // Because of the misprint in a4, the `libdots` code needs eight lines instead of six.
     const Place place = random_place(rng);
     EXPECT_EQ(
         window(CodeVariant::libdots, place, 7, 12, 0, rng).find(CodeVariant::libdots, reading),

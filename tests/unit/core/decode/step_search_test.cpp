@@ -13,7 +13,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Appends lines of `bits` bits each. A fraction `wrong` of the bits is flipped. Lines for which
+/// Appends lines of `bits` bits each. Each bit is flipped with probability `wrong`. Lines for which
 /// `is_hidden` is true have no bits.
 template <typename IsHidden>
 void read_lines(RatiosCase& c, int bits, double wrong, Rng& rng, IsHidden is_hidden) {

@@ -21,8 +21,8 @@ constexpr std::uint64_t kSeed = 22;
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;
 
-/// Returns an image that is drawn from text. Each letter other than '.' is a square of 2 x 2 px of
-/// ink. The first letter is at (u0, 30).
+/// Returns an image drawn from text. Each character other than '.' is a 2 x 2 px square of ink. The
+/// first character is at (u0, 30).
 GreyImage drawn(std::initializer_list<std::string_view> picture, int u0 = 30) {
     GreyImage image = blank(96, 80);
     int v = 30;
@@ -302,7 +302,7 @@ void compare_with_flooding(GreyImage image) {
             }
             ++all;
             // Dots are always smaller than 30 px, so the detector may reject blobs that are wider
-            // or higher.
+            // or taller.
             if (blob.right - blob.left > 30 || blob.bottom - blob.top > 30) continue;
             ++least;
             ASSERT_TRUE(contains(blob))

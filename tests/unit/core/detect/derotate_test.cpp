@@ -1,4 +1,4 @@
-// Tests that a rotation during the readout is removed correctly, from images and from single
+// Tests that the rotation during the readout is correctly removed from images and from single
 // points. The expected results come from a simulated camera that does not rotate.
 #include "core/detect/derotate.hpp"
 

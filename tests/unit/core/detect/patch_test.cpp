@@ -78,7 +78,7 @@ TEST(PatchContrast, IsThatOfTheTypicalTile) {
             patch->darkness[i] = 55;
         ASSERT_TRUE(core::measure_contrast(*patch));
         EXPECT_NEAR(patch->dot_contrast_q8, 256.0 * (200 - darkest) / 200, 4.1);
-        // The threshold is darker than the paper by the fraction 150 / 256 of the contrast.
+        // The threshold is darker than the paper by 150 / 256 of the contrast.
         const double depth = (200 - darkest) / 200.0;
         EXPECT_NEAR(patch->thresholds[2], 200 * (1 - depth * 150 / 256), 3);
     }

@@ -1,4 +1,4 @@
-// Tests the measurement of tiles in images of noise against a simple reference computation.
+// Tests the measurement of tiles in noise images against a simple reference computation.
 #include "core/detect/tiles.hpp"
 
 #include <algorithm>

@@ -43,7 +43,7 @@ ScaledPlane scaled(const PlaneFromImage& plane) {
     return {float_plane(plane), kReach_px};
 }
 
-/// Projects four pixels to the pattern. The first pixel is `pixel_q8`, and the other three are
+/// Projects four pixels onto the pattern. The first pixel is `pixel_q8`, and the other three are
 /// arbitrary.
 FourVecs project(const ScaledPlane& scaled, const PlaneFromImage& plane, FixedVec pixel_q8) {
     const auto x = static_cast<float>(pixel_q8.x - plane.centre_q8.x) / 256;

@@ -105,8 +105,8 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         const Block block = cut_block(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)],
                                       any_place(rng), 11, 12);
         const auto own = rolls_of(block, true, 0, 0, 0);
-        // Selects the alternative that disagrees with the fewest bits of the block, but with at
-        // least one.
+        // Selects the alternative that disagrees with the fewest bits of the block, but at least
+        // one.
         std::vector<int> worst;
         int fewest = INT32_MAX;
         const auto texts = code_test::secondary_texts(block.code);

@@ -56,7 +56,7 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
             // The fraction of wrong bits is 1 / (1 + odds). As a margin for small samples, the
             // estimate counts two more wrong bits than were observed.
             const double expected = std::log2(bits / (wrong + 2.0) - 1);
-            // The tolerance allows for two errors. Weights are quantised in steps of 8, which
+            // The tolerance covers two sources of error. Weights are quantised in steps of 8, which
             // changes the largest weights by up to 3 %. The exponential is accurate to 2 %, which
             // changes the result by less than 0.1.
             EXPECT_NEAR(odds_per_bit_q8(confidence(bits, 127, wrong)) / 256.0, expected,
@@ -174,7 +174,7 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
         for (int odds_q8 = 256; odds_q8 <= 4 * 256; odds_q8 += 64) {
             const int before = chance_log2(agree, odds_q8);
             const int after = chance_log2(contradict, odds_q8);
-            if (after > 30) continue;  // close to 37, at which the bound of the probability is 1
+            if (after > 30) continue;  // close to 37, where the bound on the probability is 1
             const double y = odds_q8 / 256.0 * weight / 127;
             // `chance_log2` rounds y to a multiple of 2^-8, and its result to an integer.
             EXPECT_NEAR(after - before, y * kBits / 16, kBits / 16 / 256.0 + 1.01)

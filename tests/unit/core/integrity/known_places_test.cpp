@@ -32,8 +32,8 @@ void set_bit(core::BitLines& lines, int line, int cell, int bit) {
     lines.bits[i] |= static_cast<std::uint64_t>(bit) << (cell + kMiddle);
 }
 
-/// Draws the bits of a rectangle of `sheet` with its upper left cell at `at`. Each bit is wrong
-/// with the probability `wrong`, and each cell is missing with the probability `missing`.
+/// Returns the bits of a rectangle of `sheet` with its upper left cell at `at`. Each bit is wrong
+/// with probability `wrong`, and each cell is missing with probability `missing`.
 Cells draw_cells(const KnownRegion& sheet, Cell at, int columns, int rows, double wrong,
                  double missing, Rng& rng) {
     Cells cells{columns, rows, {}, {}};

@@ -86,8 +86,7 @@ TEST(SmallViews, EndAtTheWorkLimit) {
     for (int i = 0; i < 50; ++i) {
         const std::array axis{small_view(rng)};
         // The preparation takes 80,000 instructions, which leaves 5,000 for the search. This is not
-        // enough, because searching the alternatives for only one set of lines takes at least 1,500
-        // instructions.
+        // enough, because the search takes at least 1,500 instructions per set of lines.
         EXPECT_GE(wrong_in(kernels(), axis, 0x1p-30F, 85'000), 1) << i;
         found += wrong_in(kernels(), axis, 0x1p-30F, kPlenty) < 0x1p-30F ? 1 : 0;
     }

@@ -29,7 +29,7 @@ struct RatiosCase {
 };
 
 /// Returns a line of `bits` bits of the main sequence, with random weights from `most` / 2 to
-/// `most`. A fraction `wrong` of the bits is flipped.
+/// `most`. Each bit is flipped with probability `wrong`.
 inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& rng) {
     std::vector<std::int8_t> weights;
     for (int i = 0; i < bits; ++i) {

@@ -92,7 +92,7 @@ Sum sum_of_all(const RatiosCase& c) {
     return sum;
 }
 
-/// Returns lines of 10 to 16 bits, all of which are correct.
+/// Returns lines of 10 to 16 bits each. All bits are correct.
 RatiosCase clear_lines(Rng& rng, int lines) {
     RatiosCase c = at_random_place(rng, lines);
     for (const int own : c.rolls)

@@ -23,7 +23,8 @@ RatiosCase as_in(CodeVariant code, const RatiosCase& c) {
     return other;
 }
 
-/// Returns the rolls of the lines if the reading is at the same place in the code variant `other`.
+/// Returns the rolls that the lines would have if the reading were at the same place in the code
+/// variant `other`.
 std::vector<int> rolls_here(const RatiosCase& c, CodeVariant other) {
     const int further = roll(other, c.position) - roll(c.code, c.position) + kSections;
     std::vector<int> rolls = rolls_from(as_in(other, c), own_places(c), 0);

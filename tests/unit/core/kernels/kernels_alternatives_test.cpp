@@ -51,7 +51,7 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                     continue;
                 }
                 // Computes the maximum total loss over all sets of steps. A set contains only steps
-                // with different digits, and no two adjacent steps.
+                // at which the digits differ, and no two adjacent steps.
                 int most = 0;
                 int max_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
@@ -197,7 +197,7 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 
 /// Expected odds in double precision, indexed by the roll offset and by the length of the current
 /// run. The current run consists of adjacent lines in which the alternative has the roll offset 0
-/// and the digits of the reading. Its last line is the line that was processed last.
+/// and the digits of the reading. It ends with the line processed last.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
 /// Calls `use` for every choice of digits at one step. Digits are chosen only in sequences with

@@ -15,7 +15,7 @@ namespace {
 
 using namespace core;
 
-/// Maps an image point to the pattern. The plane has no perspective. Computes in double precision.
+/// Maps an image point to the pattern in double precision. The plane has no perspective.
 std::array<double, 2> exactly(const FloatPlane& plane, double x, double y) {
     const auto along = [&](float at, float du, float dv) {
         return static_cast<double>(at) + static_cast<double>(du) * x + static_cast<double>(dv) * y;

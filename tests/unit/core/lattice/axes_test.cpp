@@ -144,7 +144,7 @@ TEST(Axes, APlaneHasASpacingOfAtLeastFourPixels) {
 }
 
 TEST(Axes, BlobsFarApartDoNotOverflow) {
-    // In the largest image, which is 4096 px wide, 40 blobs in a row may be 100 px apart. No grid
+    // In the largest image, which is 4096 px wide, 40 blobs in a row can be 100 px apart. No grid
     // has such a spacing, but the sums must not overflow.
     Lattice lattice;
     for (const int step_px : {70, 100, 300, 1000}) {

@@ -46,7 +46,7 @@ inline std::vector<Vec2> intersections(const Mesh& mesh, const std::vector<Place
     return places;
 }
 
-/// Returns dots displaced as in the pattern, up to `reach` cells from the origin.
+/// Returns the dots up to `reach` cells from the origin, displaced as in the pattern.
 inline std::vector<PlacedDot> displaced_dots(const Mesh& mesh, int reach, Vec2 image_px, Rng& rng) {
     return placed_dots(mesh, reach, image_px, [&](int, int) { return random_displacement(rng); });
 }

@@ -177,7 +177,7 @@ TEST(Neighbours, SeedsAreTheDotsNearestTheCentre) {
 }
 
 TEST(Neighbours, AMixedUpCrowdAtTheCentreStillGivesSeeds) {
-    // 500 dots have the same distance from the centre. This is more than the maximum number of
+    // 500 dots are at the same distance from the centre. This is more than the maximum number of
     // seeds, so only some of these dots are chosen.
     std::vector<DetectedDot> dots(500, dot_at({50, 50}));
     dots.push_back(dot_at({4000, 4000}));

@@ -14,8 +14,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 46;
 
-/// Returns the difference between two directions, in degrees, modulo 90 degrees, because quarter
-/// turns do not change a square grid.
+/// Returns the difference between two directions, in degrees. It is reduced modulo 90 degrees
+/// because quarter turns do not change a square grid.
 double turned_degrees(double a_rad, double b_rad) {
     return std::remainder(a_rad - b_rad, std::numbers::pi / 2) * 180 / std::numbers::pi;
 }

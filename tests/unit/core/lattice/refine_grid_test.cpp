@@ -37,7 +37,7 @@ TEST(RefineGrid, ReachesOverATiltedPage) {
                 places.push_back(projection.pixel_from_offset(kDefaultSpacing_mm * cell));
             }
         }
-        // The mesh has the axes of the grid in the middle of the image, as seen by the camera.
+        // The vectors of the mesh are the grid axes projected into the image, at the image centre.
         const Vec2 middle = projection.pixel_from_offset({});
         const Mesh mesh{projection.pixel_from_offset({kDefaultSpacing_mm, 0}) - middle,
                         projection.pixel_from_offset({0, kDefaultSpacing_mm}) - middle, middle};

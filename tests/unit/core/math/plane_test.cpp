@@ -91,8 +91,9 @@ TEST(Plane, ImagePointsAreTheInverse) {
 }
 
 TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
-    // The lens term has any value that a fit can represent, and the points are far from the fitted
-    // dots. A pattern point may then have no image point, but no intermediate result may overflow.
+    // The lens term takes any value that a fit can represent, and the points are far from the
+    // fitted dots. Some pattern points then have no image point, but intermediate results must not
+    // overflow.
     Rng rng(kSeed);
     for (int i = 0; i < 2000; ++i) {
         SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);

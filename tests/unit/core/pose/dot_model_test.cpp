@@ -1,5 +1,5 @@
-// Tests the dot model against dots drawn by sampling, and its derivatives against difference
-// quotients.
+// Tests the dot model against dots drawn by sampling, and its derivatives against finite
+// differences.
 #include "core/pose/dot_model.hpp"
 
 #include <numbers>

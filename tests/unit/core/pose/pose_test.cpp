@@ -185,7 +185,7 @@ struct Scatter {
     }
 };
 
-/// Fits poses to one view, with different noise on all dots in each round.
+/// Fits a pose to the same view `rounds` times, with new noise on all dots each time.
 Scatter scatter(const View& view, Vec2 reference, double sigma_px, int rounds, Rng& rng) {
     const auto placed = pattern_dots(view);
     Scatter result;
@@ -243,8 +243,8 @@ struct HalfDark {
 TEST(Pose, DotsInTheDarkCountLess) {
     // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part, so the variance
     // of a dot in the dark part is 16 times as large. Compared with a view with all dots in the
-    // light part, the variance of the plain mean is 8.5 times as large, and that of the weighted
-    // mean is 1.9 times as large.
+    // light part, the variance of the unweighted mean is 8.5 times as large, and that of the
+    // weighted mean is 1.9 times as large.
     Rng rng(kSeed);
     const HalfDark paper;
     const View view = random_view(rng);

@@ -21,7 +21,7 @@ struct Destroy {
 };
 using CLocator = std::unique_ptr<dotpose_locator, Destroy>;
 
-/// A frame from a camera that leans by 20 degrees towards +x.
+/// A frame from a camera that is tilted by 20 degrees towards +x.
 class SpaceInC : public testing::Test {
   protected:
     void SetUp() override {

@@ -70,8 +70,8 @@ Settings declared_settings(rclcpp::Node& node) {
     return settings_of(values);
 }
 
-/// Returns the quality of service for sensor data, which is best effort unless the parameter
-/// `reliable` is set.
+/// Returns the quality of service for sensor data: best effort, or reliable if the `reliable`
+/// parameter is set.
 rclcpp::QoS sensor_quality(const Settings& settings) {
     rclcpp::QoS quality = rclcpp::SensorDataQoS();
     if (settings.is_reliable) quality.reliable();

@@ -96,8 +96,8 @@ RobotLocator::Answer RobotLocator::take(const RawImage& image, std::int64_t stam
     return answer;
 }
 
-/// Returns true if the status has changed or was last published at least a second ago. In this
-/// case, records the status as published.
+/// Returns true if the status has changed or was last published at least a second ago. If so,
+/// records the status as published.
 bool RobotLocator::is_status_due(const std::string& status, std::int64_t arrival_ns) {
     if (status == told_status_ && arrival_ns < told_ns_ + kSecond_ns) return false;
     told_status_ = status;
