@@ -17,7 +17,8 @@ struct PaperStep {
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 
-    /// Unit normal of the line. It points to the part of the sheet that is called "beyond the line".
+    /// Unit normal of the line. It points to the part of the sheet that is called "beyond the
+    /// line".
     FloatVec direction{1, 0};
     /// Distance from the reference point to the line, in spacings. Negative if the reference point
     /// is beyond the line.
