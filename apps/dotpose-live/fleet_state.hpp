@@ -134,7 +134,8 @@ class FleetState {
 
     void take_state(std::string_view name, RobotState state, const Now& now);
     void take_connection(std::string_view name, const RobotConnection& connection, const Now& now);
-    /// Updates `alive_us` and the presence of a robot after a state that is not late.
+    /// Updates `alive_us` and the presence of a robot when a state arrives. Not called for late
+    /// states.
     static void note_sign_of_life(Robot& robot, const RobotState& state, const Now& now);
     Robot& touch(std::string_view name);
     void remove(std::string_view name);

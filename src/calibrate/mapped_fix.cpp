@@ -128,10 +128,10 @@ struct ViewPrior {
 constexpr ViewPrior kPerspectivePrior{kPerspective, {{{0.1, 0}, {0.8, 0.01}, {0.1, 0.1}}}};
 constexpr ViewPrior kShearPrior{kShear, {{{0.5, 0}, {0.4, 0.002}, {0.1, 0.03}}}};
 
-/// Replaces the two terms of the prior with their posterior means, and changes the other terms of
-/// `fit` accordingly. `present` contains the values of the two terms in the plane. The prior
-/// applies to the corrected values, which are the sums of `present` and the terms of the
-/// correction. The standard deviations of the prior are multiplied by `unit`.
+/// Applies a prior to two terms of `fit`. `present` contains the values of these terms in the plane
+/// of the fix, before the correction. The prior applies to the corrected values, which are the sums
+/// of `present` and the terms of `fit`, and its standard deviations are multiplied by `unit`.
+/// Changes the two corrected values to their posterior means, and the other terms accordingly.
 void shrink(const ViewPrior& prior, const Vector2d& present, double unit, Correction& fit) {
     struct Posterior {
         double distance;  ///< squared Mahalanobis distance of the fitted terms from 0

@@ -172,8 +172,8 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
 }
 
 DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
-    // Half of the dots are enough, because the scatter of the dots is much smaller than their
-    // displacement.
+    // Every second dot is enough for this rough fit, because the measured centres deviate from the
+    // dot positions of their cells by much less than the displacement that encodes the bits.
     OffsetFit fit;
     for (std::size_t i = 0; i < all().size(); i += 2) {
         const DetectedDot& dot = all()[i];

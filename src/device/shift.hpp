@@ -16,8 +16,8 @@ class Shifts {
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Finds the shift with the largest mean darkness, except shifts that are within two steps of
-    /// an earlier result along both axes. Sets `shift_q8` to this shift (the vector from the
+    /// Finds the shift with the largest mean darkness. Ignores shifts that, along both axes, are
+    /// within two steps of an earlier result. Sets `shift_q8` to this shift (the vector from the
     /// predicted to the measured position, in 2^-8 px), and returns true. Returns false if the
     /// darkness of all remaining shifts is 0.
     bool next(FixedVec& shift_q8);

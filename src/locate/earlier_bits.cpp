@@ -226,8 +226,8 @@ std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
         const float off_rad = std::remainder(
             angle_of(grid_from_image) - angle_of(before) - motion_.turn_rad, 2 * kPi);
         if (std::abs(off_rad) > tuned::kReach_sigmas * std::sqrt(variance_rad2)) continue;
-        // Point in the earlier image that shows the same point on the paper as the reference point
-        // in the current image.
+        // Point in the earlier image that corresponds to the reference point in the current image,
+        // that is, to the same point on the paper.
         const float scale = spacing_px(before) / spacing_mm_;
         const FloatVec reached{reference_px_.x + scale * motion_.right_mm,
                                reference_px_.y + scale * motion_.down_mm};

@@ -101,7 +101,8 @@ TEST_F(SheetEditing, AnEditOfAnOldStateIsRefused) {
                 HasSubstr("was changed by someone else"));
     EXPECT_EQ(x_of(0), 7);
     EXPECT_EQ(edits.undo_text(), "");
-    // The change by another program does not prevent edits of the other sheet.
+    // The change that another program made to the left sheet does not prevent edits to the right
+    // sheet.
     edits.change(seen(edits, "right"), "place", at(2));
     edits.change(seen(edits, "left"), "place", at(1));
     EXPECT_EQ(x_of(0), 1);

@@ -205,8 +205,8 @@ enum {
     DOTPOSE_PRIOR_ONLY_SHEETS = 2
 };
 
-/* The pose computed from one frame, with its evidence: 256 bytes. The members are listed in
- * include/dotpose/fix_fields.def.
+/* The pose computed from one frame, and the evidence for it. The struct has 256 bytes. Its members
+ * are listed in include/dotpose/fix_fields.def.
  *
  * The pose is the pattern position at the reference point of the image, by default the image
  * centre. If `status` is not DOTPOSE_OK, x_mm, y_mm and theta_rad are NaN. Only `status`,

@@ -117,8 +117,8 @@ enum class MapUse : std::uint8_t {
 inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
 
 /// Parses the contents of a map file. Throws Error if the contents are not a map, are truncated or
-/// damaged, or have a newer file version. Files of version 1 contain no map errors, so `errors` is
-/// empty in their pages.
+/// damaged, or have a newer file version. Files of version 1 do not store `MapPage::errors`, so
+/// these vectors are empty.
 PrintMap parse_print_map(std::string_view bytes);
 
 /// Reads a map file. Throws Error, with the name of the file, if the file cannot be read or if its

@@ -1,5 +1,5 @@
 // Confidence: the reliability of the bits that were read, and the probability that random bits
-// agree with the code equally well. See docs/integrity.md, "Chance: a bound".
+// agree with the code at least as well as these bits. See docs/integrity.md, "Chance: a bound".
 #pragma once
 
 #include <array>

@@ -57,7 +57,7 @@ struct Normal {
 /// Responses of a line of pixels to a blurred step and to a blurred point. `place` is the
 /// coordinate of the step or point.
 struct PixelLine {
-    /// Response to a step: the darkness is 0 before `place` and 1 beyond it.
+    /// Response to a step of the darkness from 0 to 1 at `place`.
     std::array<float, kSide> step;
     /// Response to a point: the negative derivative of `step` with respect to `place`.
     std::array<float, kSide> point;

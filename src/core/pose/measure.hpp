@@ -1,7 +1,7 @@
-// Measure: measures the precise centres of all dots, near their predicted image positions. The
-// second attempt needs this stage, because it detects dots in a filtered image. The filter blurs
-// the dots, and the detection misses some of them. Unlike the paper, this stage uses windowed
-// centroids, and measures dots up to the image border. See docs/differs-from-paper.md.
+// Measure: measures the precise centre of each dot near its predicted image position. The second
+// attempt needs this stage, because its own detection uses a filtered image, in which dots are
+// blurred and some dots are missed. Unlike the paper, this stage uses windowed centroids, and
+// measures dots up to the image border. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"

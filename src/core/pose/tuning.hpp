@@ -20,7 +20,7 @@ inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the Gaussian that is fitted to a dot, in units of 1/128 of the spacing,
 /// and its minimum, in 1/256 px. kSigma_128ths corresponds to a typical blurred dot. If
 /// kSigma_128ths is 6, the results are 1,994 frames, 2.19 µm and 5.36 µm. If kSigma_128ths is 24,
-/// the results are only 1,904 frames, 3.58 µm and 9.19 µm.
+/// the results are worse: 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance between a dot and its predicted image position, in units of sigma^2.

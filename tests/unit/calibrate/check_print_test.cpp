@@ -326,9 +326,9 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
         EXPECT_EQ(field->bits_wrong, 0);
         EXPECT_NEAR(field->gain(), 0.5, 0.1);
     }
-    // The optimal printed diameter is a sixth of the spacing, which is 4 or 6 units here. Printed
-    // diameters are 1.5 times as large as nominal, so nominal diameters of 2 and 4 units are
-    // printed as 3 and 6 units, the values nearest to the optimum.
+    // The optimal printed diameter is a sixth of the spacing: 4 units for the first spacing, and 6
+    // for the second. Dots are printed 1.5 times as large as nominal, so the best nominal diameters
+    // are 2 units (printed as 3) and 4 units (printed as 6).
     ASSERT_EQ(result.best_per_spacing.size(), 2U);
     const auto dot_of = [&](std::size_t i) {
         return std::lround(result.fields[result.best_per_spacing[i]].pattern.dot_mm / kTestUnit_mm);

@@ -1,4 +1,4 @@
-// Shows the pose of the camera in space, which output lines contain with `--pose space`.
+// Shows the pose of the camera in space. Output lines contain this pose if `--pose space` is given.
 import { fromWorld, type Quaternion, type SpacePose } from "../page/lean.js";
 import { SpacePanel, type ShownPose } from "../page/space_panel.js";
 import type { Line } from "./messages.js";

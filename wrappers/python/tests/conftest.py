@@ -26,7 +26,7 @@ def golden():
 
 def bits_of(fix):
     """Returns the part of a golden line that describes the fix. Reverses the little-endian bytes of
-    C numbers, because golden lines contain the most significant digit first."""
+    numbers, because golden lines are written with the most significant digit first."""
     return ",".join(n[::-1].hex() if isinstance(n, bytes) else str(n) for n in fix._bits)
 
 

@@ -37,8 +37,8 @@ TEST(SingleAlternatives, AreSummedOneByOne) {
         const double sum =
             static_cast<double>(sum_of_single_alternatives(kernels(), RankedLines(ratios)));
         const double exact = exact_sum(c);
-        // The computed powers of two are accurate to 2 %. If the odds of an alternative are
-        // negligible, they are counted as 2^-64 for every line that it shares with the reading.
+        // The computed powers of two are accurate to within 2 %. An alternative with negligible
+        // odds is counted as 2^-64 for each line that the alternative shares with the reading.
         EXPECT_GE(sum, 0.97 * exact) << i << ", seed " << kSeed;
         EXPECT_LE(sum, 1.04 * exact + 737 * 15 * 0x1p-64) << i << ", seed " << kSeed;
     }
