@@ -1,5 +1,4 @@
-// Locates one image, and prints its position and angle in the pattern frame: dotpose_locate_one
-// FRAME.pgm
+// Locates one image, and prints its position and angle in the pattern: dotpose_locate_one FRAME.pgm
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
