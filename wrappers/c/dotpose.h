@@ -432,10 +432,10 @@ enum {
 
 /* Sets the regions of the sheets that may be in view. About 30 dots in view, in images of at least
  * 24 x 24 px, are then enough for a fix. `others` is one of the DOTPOSE_OTHERS_ values. The locator
- * reads `regions` in each frame, so the array must remain valid and unchanged. If `count` is 0, all places are
- * possible again. Device locators search only the regions in their code. Discards an unfinished
- * frame. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside the
- * plane, or has a code or section that does not exist. */
+ * reads `regions` in each frame, so the array must remain valid and unchanged. If `count` is 0, all
+ * places are possible again. Device locators search only the regions in their code. Discards an
+ * unfinished frame. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not
+ * inside the plane, or has a code or section that does not exist. */
 dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
                                  size_t count, int32_t others);
 
