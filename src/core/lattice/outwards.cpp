@@ -177,8 +177,7 @@ constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
 float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
-    // Only the first `count` elements are set and read. Clearing all elements would take longer.
-    std::array<float, PatchDots::kMax> squares;
+    std::array<float, PatchDots::kMax> squares{};
     const auto count = static_cast<std::size_t>(dots.count);
     for (std::size_t i = 0; i < count; ++i) {
         const float x = dots.x[i] - of.x;
