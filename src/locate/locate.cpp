@@ -83,12 +83,12 @@ class Cascade {
         return make({Step::first, Step::turning, Step::second, Step::resampled});
     }
 
-    /// Runs the steps in order until a fix is certain. Tries each step in the codes that
-    /// `Attempts::codes_for` returns. A step after `turning` ends early if it fails for a reason
-    /// that does not depend on the code. Skips the remaining steps if the first doubtful fix is
-    /// ambiguous between codes, or if the image shows too few cells for a reliable fix. If no fix
-    /// is certain, returns the first doubtful fix. If there is no doubtful fix, returns the last
-    /// failure in the most likely code.
+    /// Runs the steps in order until a fix is certain. Tries each step with every code that
+    /// `Attempts::codes_for` returns. If a step after `turning` fails for a reason that does not
+    /// depend on the code, does not try this step with the remaining codes. Skips the remaining
+    /// steps if the first doubtful fix is ambiguous between codes, or if the image shows too few
+    /// cells for a reliable fix. If no fix is certain, returns the first doubtful fix. If there is
+    /// no doubtful fix, returns the last failure in the most likely code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;
@@ -96,14 +96,16 @@ class Cascade {
         for (const Step step : steps) {
             for (const CodeVariant code : attempts_.codes_for(step)) {
                 if (step == Step::turning && attempts_.has_clear_bits() && codes_.is_known()) break;
+                Step last = step;
                 bool is_made = attempts_.make(step, code);
                 if (step == Step::first && !is_made && attempts_.is_rough()) {
                     if (const auto better = better_than_rough(code)) return *better;
-                    is_made = attempts_.make(Step::complete_first, code);
+                    last = Step::complete_first;
+                    is_made = attempts_.make(last, code);
                 }
                 if (is_made) {
                     const Judgement judgement = attempts_.judge(code);
-                    if (judgement.is_certain) return best_of(step, code, judgement);
+                    if (judgement.is_certain) return best_of(last, code, judgement);
                     if (!doubtful) doubtful = in_doubt(code, judgement);
                     continue;
                 }
@@ -149,9 +151,11 @@ class Cascade {
         const Step again = step == Step::first ? Step::complete_first : step;
         if (judgement.other_odds > tuned::kBetterOdds && !remake(again, judgement.other))
             remake(again, read);
-        if (step == Step::first) {
+        if (step == Step::first || step == Step::complete_first) {
             const CodeVariant best = code;
-            const bool may_be_better = is_rough(w_.fix) && attempts_.may_try_twice();
+            // Before `complete_first`, a second attempt in this code found no certain fix.
+            const bool has_failed = step == Step::complete_first && best == read;
+            const bool may_be_better = is_rough(w_.fix) && attempts_.may_try_twice() && !has_failed;
             const bool needs_turn = attempts_.shows_turn();
             const bool is_better = (needs_turn && remake(Step::turning, best)) ||
                                    (may_be_better && remake(Step::resampled, best));
