@@ -5,9 +5,9 @@
 //
 // A grid consists of bits with random errors and is decoded without an image. As in the model from
 // which p_wrong is computed, the errors are independent, and bits of larger weight have fewer
-// errors. Doubtful grids have so many errors that p_wrong is between 1e-5 and 1e-3. In this range,
-// wrong positions are frequent enough to show whether p_wrong is too small. Frames are images of
-// patterns with flipped bits. They are read by `locate`.
+// errors. In doubtful grids, the number of errors is chosen so that p_wrong is between 1e-5 and
+// 1e-3. In this range, wrong positions are frequent enough to show whether p_wrong is too small.
+// Frames are images of patterns with flipped bits. They are read by `locate`.
 //
 // The exit status is 1 if significantly more positions are wrong than p_wrong predicts. Ctrl-C ends
 // the run early and prints the results so far.

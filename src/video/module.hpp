@@ -13,7 +13,7 @@
 
 namespace dotpose::video {
 
-using Tell = std::function<void(const std::string&)>;
+using Notify = std::function<void(const std::string&)>;
 
 class GreyVideo {
   public:
@@ -32,7 +32,7 @@ struct Module {
     OpenSource* open_camera;
     OpenSource* open_video;
     std::unique_ptr<GreyVideo> (*create_video)(const std::string& path, double fps,
-                                               const Tell& notify);
+                                               const Notify& notify);
     std::unique_ptr<ScreenOutput> (*open_screen)(const ScreenOptions& options);
 };
 

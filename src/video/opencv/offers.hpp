@@ -15,7 +15,7 @@ std::unique_ptr<capture::FrameSource> open_video(const std::string& name,
                                                  const capture::SourceOptions& options);
 
 /// Creates a video file in H.264 or MPEG-4, or in Motion JPEG if the name ends in .avi.
-std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Tell& notify);
+std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Notify& notify);
 
 std::unique_ptr<ScreenOutput> open_screen(const ScreenOptions& options);
 

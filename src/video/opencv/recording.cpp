@@ -23,7 +23,7 @@ int codec_of(const std::string& path) {
 
 }  // namespace
 
-Recording::Recording(std::string path, double fps, Tell notify)
+Recording::Recording(std::string path, double fps, Notify notify)
     : path_(std::move(path)), fps_(fps), notify_(std::move(notify)) {}
 
 bool Recording::is_disk_full() const {
@@ -92,7 +92,7 @@ void Recording::finish() {
                             is_disk_full() ? "; the disk is full" : ""));
 }
 
-std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Tell& notify) {
+std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Notify& notify) {
     return std::make_unique<Recording>(path, fps, notify);
 }
 

@@ -18,7 +18,7 @@ class Recording : public GreyVideo {
   public:
     /// The file is created when the first picture is written. `notify` receives messages for the
     /// user.
-    Recording(std::string path, double fps, Tell notify);
+    Recording(std::string path, double fps, Notify notify);
 
     /// Appends a BGR or grey picture. Throws Error on failure, for example if the disk is full or
     /// the size differs from that of the previous pictures.
@@ -35,7 +35,7 @@ class Recording : public GreyVideo {
 
     std::string path_;
     double fps_;
-    Tell notify_;
+    Notify notify_;
     std::unique_ptr<H264File> h264_;
     cv::VideoWriter writer_;  ///< open if the video is not encoded as H.264
     cv::Size size_;

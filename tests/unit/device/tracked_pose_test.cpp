@@ -71,8 +71,8 @@ TEST(TrackedPose, GoesThroughTheDots) {
         const double y0 = rng.uniform(-0.5, 0.5);
         const double yi = rng.uniform(-0.03, 0.03);
         const double yj = rng.uniform(-0.03, 0.03);
-        // As in uneven light, the mass of the dots increases from left to right, by a factor
-        // of 1.45. The fit must not change.
+        // The mass of the dots increases by a factor of 1.45 from left to right. Uneven light has
+        // the same effect. It must not change the fit.
         const std::int32_t mass = round % 2 == 0 ? 1000 : 60;
         for (int j = 10; j <= 21; ++j) {
             for (int i = 9; i <= 24; ++i) {

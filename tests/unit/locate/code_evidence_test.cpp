@@ -60,8 +60,8 @@ TEST(CodeEvidence, CountsAPlaceAtMost32BitsHoweverManyFramesSayMore) {
     for (int frame = 0; frame < 3; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 60));
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), -32 * 256);
-    // Of every 256 frames, 255 are now neutral. The factor of the other frame is limited to 2^40,
-    // so the mean factor is 2^40 / 256 = 2^32.
+    // Adds 255 neutral frames for each of the 3 frames above. The factor of each of these 3 frames
+    // is limited to 2^40, so the mean factor over all frames is 2^40 / 256 = 2^32.
     for (int frame = 0; frame < 3 * 255; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 0));
     EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -32 * 256, kRounding);

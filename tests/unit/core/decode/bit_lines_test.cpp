@@ -97,7 +97,7 @@ TEST(BitLines, ABlockTurnsAsTheCodeDoes) {
         const FixedVec most{1 + static_cast<int>(rng.below(31)),
                             1 + static_cast<int>(rng.below(31))};
         const BitBlock seen = seen_block(code, zero, quarters, least, most, {}, rng);
-        // The same cells, as seen by a camera that is not rotated.
+        // The block that a camera without rotation reads from the same cells.
         const FixedVec a = cell_turned(quarters, least);
         const FixedVec b = cell_turned(quarters, most - FixedVec{1, 1});
         const BitBlock upright =

@@ -124,7 +124,8 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
 
 TEST(KernelsAlternatives, LeastLossesAreThoseOfSortedLosses) {
     repeat_with_each_form(50, [&](const Kernels& kernels, Rng& rng) {
-        // In half of the rounds, the losses are between -1 and 3, so many of them are equal.
+        // In half of the rounds, losses are limited to the range from -1 to 3, so that some losses
+        // are equal.
         const int most = whole(rng, 0, 1) == 0 ? 3 : INT16_MAX;
         std::vector<std::int16_t> losses;
         const int count = whole(rng, 8, 16);
