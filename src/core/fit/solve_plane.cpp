@@ -1,6 +1,7 @@
 #include "core/fit/solve_plane.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/fit/posterior.hpp"
 
@@ -17,6 +18,19 @@ constexpr std::array<DistortionPrior, 3> kTerms{{
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
     {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
 }};
+
+/// Removes the contribution of a large shear from the whitened perspective terms. Motion during the
+/// readout of a rolling shutter causes such a shear. Its contribution is not 0, because the dots
+/// are not symmetric about the centre, and would look like perspective to the prior.
+void separate_shear(const PlaneNormal& normal, Parameters& whitened) {
+    constexpr float kLargeShear = 0.1F;
+    const Parameters terms = normal.unwhitened(whitened);
+    if (std::abs(terms[kShear]) + std::abs(terms[kShear + 1]) < kLargeShear) return;
+    for (std::size_t tilt = kTilt; tilt < kTilt + 2; ++tilt) {
+        for (std::size_t shear = kShear; shear < kShear + 2; ++shear)
+            whitened[tilt] -= normal.factor(shear, tilt) * terms[shear];
+    }
+}
 
 /// Adjusts a whitened step so that the distortion terms of the plane become their posterior means.
 /// `whole` contains the whitened distortion terms after the original step. Sets the covariance of
@@ -67,6 +81,7 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         whole[i] += step[i];
+    separate_shear(normal, whole);
     const Parameters exact = step;
     shrink(whole, unit, fit, step);
     moved = 0;
