@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "dotpose/known_region.hpp"
@@ -43,6 +44,16 @@ struct KnownSheets {
     bool any() const { return !regions.empty(); }
     bool are_valid() const { return std::all_of(regions.begin(), regions.end(), is_valid); }
     bool are_all() const { return any() && others == OtherSheets::impossible; }
+    /// Returns the code of all possible sheets. Returns nullopt if the sheets have several codes,
+    /// or if other sheets are possible.
+    std::optional<CodeVariant> only_code() const {
+        if (!are_all()) return std::nullopt;
+        const CodeVariant code = regions.front().code;
+        const bool is_only =
+            std::all_of(regions.begin(), regions.end(),
+                        [code](const KnownRegion& region) { return region.code == code; });
+        return is_only ? std::optional(code) : std::nullopt;
+    }
     /// Returns true if a block overlaps a known sheet. `corner` is the place of the upper left cell
     /// of the block.
     bool show(CodeVariant code, const Place& corner, int columns, int rows) const {

@@ -231,6 +231,12 @@ CodeReading locate_in_any_code(const ImageView& image, const DeviceOptions& opti
                                DesktopWorkspace& w) {
     const Status status = check(image, options, w);
     if (status != Status::ok) return {refuse(status, w), options.code, evidence};
+    if (const auto only = w.known.only_code()) {
+        DeviceOptions in_code = options;
+        in_code.code = *only;
+        const Prediction* same_code = *only == options.code ? prediction : nullptr;
+        return {locate(image, in_code, same_code, w), *only, evidence};
+    }
     w.other_codes.are_wanted = true;
     return Cascade(image, options, PossibleCodes(evidence), evidence, w).locate(prediction);
 }

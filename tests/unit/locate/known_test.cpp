@@ -50,6 +50,20 @@ TEST_F(Known, SixCellsSufficeIfNoOtherSheetIsPossible) {
     EXPECT_GE(located, kFrames - 1);
 }
 
+/// Regression: one frame in twenty was refused as ambiguous_code, although the sheets determine the
+/// code.
+TEST_F(Known, SheetsDetermineTheCodeIfNoOtherSheetIsPossible) {
+    Locator detecting;
+    ASSERT_EQ(detecting.set_known({&kSheet, 1}, OtherSheets::impossible), Status::ok);
+    for (std::uint64_t i = 0; i < 60; ++i) {
+        const GreyImage image = render(shot_on_sheet({}, i));
+        // The evidence of earlier frames is discarded, so each frame must determine the code.
+        detecting.set_options(LocatorOptions{});
+        EXPECT_EQ(detecting.locate(image.view()).status, Status::ok) << "frame " << i;
+        EXPECT_EQ(detecting.options().code, kSheet.code);
+    }
+}
+
 /// With known sheets, the locator also reads dots that are cut off by the border of the image, and
 /// grids as fine as 5 px per spacing.
 TEST_F(Known, FiveCellsSufficeAtAnySpacing) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../core/geometry.hpp"
 #include "core/kernels/select.hpp"
 #include "dotpose/tools/random.hpp"
 
