@@ -169,6 +169,13 @@ void add_attempt_options(Command& command, DeviceOptions& options) {
               [&options](Decoder decoder) { options.decoder = decoder; });
     add_named(command, "--effort", kEfforts, name(options.effort), "How hard to try",
               [&options](Effort effort) { options.effort = effort; });
+    command
+        .add_option("--bits-per-error", options.integrity.bits_per_error,
+                    "Bits read for each misread bit of this print and camera, at least, from "
+                    "earlier frames: smaller views suffice")
+        ->type_name("N")
+        ->check(Range(0, 65536))
+        ->default_str("unknown");
 }
 
 void add_size_option(Command& command, CameraModel& camera) {

@@ -43,6 +43,12 @@ struct LocatorOptions {
     /// Maximum fraction of bits that may disagree with the code at the position. Applies to each
     /// axis separately. A larger fraction indicates that the frame contains two patterns. [0 to 1]
     double max_bit_errors = 0.18;
+    /// Number of bits that are read for each misread bit, at least, on average over frames of the
+    /// same print and camera. With this number, small views are certain with fewer bits. If it is
+    /// too large, p_wrong is too small. The default of 0 means that the number is not known: the
+    /// error rate is then estimated from each frame alone. See docs/integrity.md, "Known error
+    /// rate". [0 to 65536]
+    int bits_per_error = 0;
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast fails
     /// with no_contrast. Increase the value for noisy cameras. With the default of 0, each attempt
     /// applies only its own limit: about 12 grey levels in the first attempt (`kMinDarkness` in
@@ -85,6 +91,7 @@ inline const char* bad_option(const LocatorOptions& options) {
         return "reference_dy_px";
     if (!is_in(options.max_p_wrong, 1e-300, 1)) return "max_p_wrong";
     if (!is_in(options.max_bit_errors, 0, 1)) return "max_bit_errors";
+    if (!is_in(options.bits_per_error, 0, 65536)) return "bits_per_error";
     if (!is_in(options.min_contrast, 0, 255)) return "min_contrast";
     if (!is_in(options.min_dots, 0, 1 << 20)) return "min_dots";
     if (options.effort > Effort::twice) return "effort";
@@ -110,6 +117,7 @@ inline LocatorOptions::operator DeviceOptions() const {
     fixed.lattice.min_dots = min_dots;
     fixed.integrity.max_p_wrong_log2 = std::ilogb(max_p_wrong);
     fixed.integrity.max_bit_error_q8 = rounded(max_bit_errors * 256);
+    fixed.integrity.bits_per_error = bits_per_error;
     fixed.spacing_nm = rounded(spacing_mm * 1e6);
     fixed.show_stages = show_stages;
     fixed.reference_dx_q8 = rounded(reference_dx_px * 256);

@@ -89,7 +89,8 @@ class FineGrid {
     int dots() const { return tracking_.dots_measured; }
     /// Shifts and rotates the plane to match the phases of the dots near the image centre.
     void fit_phases();
-    /// Improves the plane by fitting it to every second dot.
+    /// Improves the plane by fitting it to every second dot, first near the image centre and then
+    /// farther out.
     void fit_roughly();
     /// Reads the bits of all dots, and fits the plane. Stores the bits in ComparedLine::wrong until
     /// they are compared with the code. Returns the number of dots in the fit, or 0 if the dots do
@@ -120,6 +121,9 @@ class FineGrid {
                FixedVec{dx(dot.symbol) * displacement_q24_, dy(dot.symbol) * displacement_q24_};
     }
     void note(const ReadDot& dot);
+    /// Fits the plane to every second dot whose distance from the image centre is at most
+    /// `reach_q8` along each axis.
+    void fit_within(std::int32_t reach_q8);
 
     Tracking& tracking_;
     PlaneFromImage& plane_;
@@ -171,12 +175,26 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
             symbol_of({from_q24.y - from_q24.x, from_q24.y + from_q24.x})};
 }
 
-DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
+void FineGrid::fit_roughly() {
+    // Maximum distance of the dots in the first fit, in cells. An error of the predicted rotation
+    // may move dots farther out by so much that their symbols are misread.
+    constexpr int kFirstReach = 8;
+    const int cells = (tracking_.last_cell - tracking_.first_cell + 1) / 2;
+    const std::int32_t whole_q8 = 128 * (tracking_.width_px + tracking_.height_px);
+    if (cells > kFirstReach) {
+        for (int reach = kFirstReach; reach <= cells; reach += 2)
+            fit_within(whole_q8 * reach / cells);
+    }
+    fit_within(whole_q8);
+}
+
+DOTPOSE_NOINLINE void FineGrid::fit_within(std::int32_t reach_q8) {
     // Every second dot is enough for this rough fit, because the measured centres deviate from the
     // dot positions of their cells by much less than the displacement that encodes the bits.
     OffsetFit fit;
     for (std::size_t i = 0; i < all().size(); i += 2) {
         const DetectedDot& dot = all()[i];
+        if (!is_within(dot.centre_q8, reach_q8)) continue;
         const FixedVec off_q24 = offset_q24(read(dot));
         if (is_within(off_q24, kMaxOffset_q24)) fit.add(dot, off_q24);
     }

@@ -1,4 +1,4 @@
-// Fine grid: fits the predicted plane to the dots of a fine grid, and reads their bits.
+// Fine grid: fits the predicted plane to the dots of a fine or deformed grid, and reads their bits.
 #pragma once
 
 #include "device/tracking.hpp"

@@ -24,8 +24,8 @@ struct SheetFunctions {
                         DeviceWorkspace& w);
     /// Finds the dots of a small frame (see `find_dots_of_small_frame`).
     Status (*find_dots_of_small)(const DeviceOptions& options, DeviceWorkspace& w);
-    /// Finds the dots of a fine grid in the rows of a tracked frame (see `find_fine_dots`). Fine
-    /// grids are tracked only if sheets are known.
+    /// Finds the dots of a fine or deformed grid in the rows of a tracked frame (see
+    /// `find_fine_dots`). Such grids are tracked only if sheets are known.
     void (*find_dots)(Tracking& tracking);
     /// Fits a fine grid and reads its bits. On success, sets `pattern_from_image` and the
     /// displacement in the fix, and returns the number of dots in the fit. Returns 0 on failure

@@ -1,5 +1,7 @@
 #include "device/predicted.hpp"
 
+#include <algorithm>
+
 #include "core/math/plane.hpp"
 #include "device/near_dot.hpp"
 #include "device/newest_rows.hpp"
@@ -8,12 +10,21 @@
 namespace dotpose::core {
 namespace {
 
-/// Range of grid spacings that can be tracked, in px. At spacings from kFine_px to kCoarsest_px,
-/// each dot is read in the square around its intersection. Grids with smaller spacings are tracked
-/// as fine grids (device/fine_grid.hpp), and only if sheets are known.
-constexpr int kFinest_px = 5;
-constexpr int kFine_px = 7;
-constexpr int kCoarsest_px = 14;
+/// Range of cell shapes. The spacing is the side of a square with the area of a cell.
+struct CellShapes {
+    int min_spacing_px;
+    int max_spacing_px;
+    /// Maximum shear and stretch, relative to the reciprocal of the cell area. The shear is the dot
+    /// product of the gradients of the two cell coordinates, and the stretch is the difference of
+    /// their squares.
+    int max_deformation;
+};
+/// Cells whose dots are read in the squares around their intersections. Motion during the readout
+/// of a rolling shutter deforms the cells, so some shear and stretch must be accepted.
+constexpr CellShapes kReadInSquares{7, 14, 1};
+/// Cells whose dots are found independently of the prediction (device/fine_grid.hpp). Such cells
+/// are tracked only if sheets are known.
+constexpr CellShapes kReadAtDots{5, 20, 3};
 /// Range of displacements that can be tracked: a twelfth to a third of the spacing.
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
@@ -38,25 +49,28 @@ bool is_sane(const Prediction& prediction) {
 
 constexpr std::int64_t kOne_q24 = 1 << 24;
 
-/// Returns the determinant of a plane, in 2^-24 cells per px^2. Returns 0 if the cell spacing is
-/// outside the range that can be tracked, or if the cells are sheared or stretched too much.
-/// `finest_px` is the minimum spacing.
-std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_px) {
-    const FixedVec du = plane.du_q24;
-    const FixedVec dv = plane.dv_q24;
-    const std::int64_t det_q24 = cross(du, dv) >> 24;
-    if (det_q24 < kOne_q24 / (kCoarsest_px * kCoarsest_px) ||
-        det_q24 > kOne_q24 / (finest_px * finest_px))
-        return 0;
-    // Some shear and stretch must be accepted, because motion during the readout of a rolling
-    // shutter deforms the cells.
-    const FixedVec x{du.x >> 8, dv.x >> 8};
-    const FixedVec y{du.y >> 8, dv.y >> 8};
-    const std::int32_t skew_q24 = (x.x * x.y + y.x * y.y) >> 8;
-    const std::int32_t stretch_q24 = (x.x * x.x + y.x * y.x - x.y * x.y - y.y * y.y) >> 8;
-    if (magnitude(skew_q24) > det_q24 || magnitude(stretch_q24) > det_q24) return 0;
-    return static_cast<std::int32_t>(det_q24);
-}
+/// Shape of the cells of a plane, in 2^-24 cells per px^2.
+struct CellShape {
+    std::int64_t det_q24;  ///< reciprocal of the cell area
+    std::int32_t shear_q24;
+    std::int32_t stretch_q24;
+
+    explicit CellShape(const PlaneFromImage& plane) {
+        const FixedVec du = plane.du_q24;
+        const FixedVec dv = plane.dv_q24;
+        det_q24 = cross(du, dv) >> 24;
+        const FixedVec x{du.x >> 8, dv.x >> 8};
+        const FixedVec y{du.y >> 8, dv.y >> 8};
+        shear_q24 = (x.x * x.y + y.x * y.y) >> 8;
+        stretch_q24 = (x.x * x.x + y.x * y.x - x.y * x.y - y.y * y.y) >> 8;
+    }
+    bool is_in(const CellShapes& shapes) const {
+        const std::int64_t max_q24 = shapes.max_deformation * det_q24;
+        return det_q24 >= kOne_q24 / (shapes.max_spacing_px * shapes.max_spacing_px) &&
+               det_q24 <= kOne_q24 / (shapes.min_spacing_px * shapes.min_spacing_px) &&
+               magnitude(shear_q24) <= max_q24 && magnitude(stretch_q24) <= max_q24;
+    }
+};
 
 /// Sets `cells` to the inverse of a plane with determinant `det_q24`.
 void invert(const PlaneFromImage& plane, std::int32_t det_q24, CellMap& cells) {
@@ -131,11 +145,18 @@ int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     return ((shift_q16 >> 8) * spacing_q8) >> 16;
 }
 
-/// Returns the spacing of a fine grid: the square root of the cell area. The cell area is the
-/// reciprocal of the determinant.
-std::int32_t fine_spacing_q8(std::int32_t det_q24) {
+/// Returns the minimum distance from one column or one row of cells to the next, in 2^-8 px: the
+/// reciprocal of the larger gradient of the two cell coordinates.
+std::int32_t min_step_q8(const PlaneFromImage& plane) {
+    const auto squared_q32 = [](std::int32_t du_q24, std::int32_t dv_q24) {
+        const std::int32_t du_q16 = du_q24 >> 8;
+        const std::int32_t dv_q16 = dv_q24 >> 8;
+        return du_q16 * du_q16 + dv_q16 * dv_q16;
+    };
+    const std::int32_t max_q32 = std::max(squared_q32(plane.du_q24.x, plane.dv_q24.x),
+                                          squared_q32(plane.du_q24.y, plane.dv_q24.y));
     return static_cast<std::int32_t>(
-        square_root(UINT32_MAX / static_cast<std::uint32_t>(det_q24 >> 8)));
+        square_root(UINT32_MAX / static_cast<std::uint32_t>(max_q32 >> 16)));
 }
 
 /// Sets the cells of a grid that is not fine, and the members that depend on the cells. Returns
@@ -195,17 +216,18 @@ Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Plane
                          (at.y >> 16) - kMaxComparedLines / 2};
     tracking.corner = moved(code, prediction.place, first.x, first.y);
     const FixedVec at_q16{at.x - first.x * 65536, at.y - first.y * 65536};
-    const int finest_px = tracking.min_side_px < kMinFrameSide_px ? kFinest_px : kFine_px;
-    const std::int32_t det_q24 = trackable_determinant_q24(plane, finest_px);
-    if (det_q24 == 0) return Status::not_tracked;
+    const CellShape shape(plane);
+    const bool knows_sheets = tracking.min_side_px < kMinFrameSide_px;
+    tracking.is_fine = !shape.is_in(kReadInSquares);
+    if (tracking.is_fine && !(knows_sheets && shape.is_in(kReadAtDots))) return Status::not_tracked;
     plane.at_centre_q16 = at_q16;
-    tracking.is_fine = det_q24 > kOne_q24 / (kFine_px * kFine_px);
     if (tracking.is_fine) {
         tracking.displacement_q12 = prediction.displacement_q16 >> 4;
-        return lay_out_memory(fine_spacing_q8(det_q24), tracking) ? Status::ok
-                                                                  : Status::not_tracked;
+        return lay_out_memory(min_step_q8(plane), tracking) ? Status::ok : Status::not_tracked;
     }
-    return lay_cells(prediction, plane, det_q24, tracking) ? Status::ok : Status::not_tracked;
+    return lay_cells(prediction, plane, static_cast<std::int32_t>(shape.det_q24), tracking)
+               ? Status::ok
+               : Status::not_tracked;
 }
 
 }  // namespace dotpose::core

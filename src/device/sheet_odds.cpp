@@ -129,7 +129,8 @@ int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int li
     const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);
     for (int wrong = 0; wrong <= std::min(kMaxTested, 2 * dots); ++wrong) {
         const Confidence both = Confidence::of_hard_bits(2 * dots, wrong);
-        const int chance_q8 = trials_q8 + agreement_log2_q8(both, odds_per_bit_q8(both));
+        const int chance_q8 =
+            trials_q8 + agreement_log2_q8(both, odds_per_bit_q8(both, options.bits_per_error));
         if (chance_q8 > 256 * options.max_p_wrong_log2) return wrong - 1;
     }
     return 2 * dots;
@@ -147,7 +148,7 @@ bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLin
     fix.bit_errors = x.wrong + y.wrong;
     if (256 * std::max(x.wrong, y.wrong) > bits * options.max_bit_error_q8) return false;
     const Confidence both = Confidence::of_hard_bits(2 * bits, fix.bit_errors);
-    const int odds_q8 = odds_per_bit_q8(both);
+    const int odds_q8 = odds_per_bit_q8(both, options.bits_per_error);
     if (odds_q8 == 0) return false;
 
     OddsOfOthers others(code, odds_q8);

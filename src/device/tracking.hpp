@@ -96,8 +96,8 @@ struct Tracking {
     std::int16_t min_side_px = 0;  ///< minimum width and height of the tracked part
     std::int16_t left_out_px = 0;  ///< number of columns to the left of the tracked part
     std::int16_t rows_above = 0;   ///< number of rows above the tracked part
-    /// True if the spacing is too small to measure each dot around its predicted centre. The frame
-    /// is then tracked by device/fine_dots and device/fine_grid.
+    /// True if the cells are too small, too large or too deformed to measure each dot around its
+    /// predicted centre. The frame is then tracked by device/fine_dots and device/fine_grid.
     bool is_fine = false;
     CellMap cells;
     /// Derivatives of the pattern point with respect to the image coordinates u and v, in 2^-20

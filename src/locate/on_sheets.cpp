@@ -57,7 +57,8 @@ std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const Dev
 
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix) {
-    const float wrong = known_place_wrong(kernels, block, known, options.code, place);
+    const float wrong = known_place_wrong(kernels, block, known, options.code, place,
+                                          options.integrity.bits_per_error);
     if (!is_within_limit(wrong, options.integrity.max_p_wrong_log2, fix)) return false;
     fix.prior = known.are_all() ? Prior::only_sheets : Prior::sheets;
     return true;

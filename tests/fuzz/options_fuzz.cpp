@@ -20,7 +20,7 @@ struct Change {
 constexpr std::size_t kChangeBytes = 5;
 
 void apply(const Change& change, DeviceOptions& options) {
-    const std::array<std::int32_t*, 16> numbers = {&options.lens.k_q40,
+    const std::array<std::int32_t*, 17> numbers = {&options.lens.k_q40,
                                                    &options.lens.centre_dx_q8,
                                                    &options.lens.centre_dy_q8,
                                                    &options.threshold.low_q8,
@@ -33,6 +33,7 @@ void apply(const Change& change, DeviceOptions& options) {
                                                    &options.lattice.max_offset_q16,
                                                    &options.integrity.max_p_wrong_log2,
                                                    &options.integrity.max_bit_error_q8,
+                                                   &options.integrity.bits_per_error,
                                                    &options.max_dots,
                                                    &options.reference_dx_q8,
                                                    &options.reference_dy_q8};

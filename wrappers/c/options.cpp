@@ -24,6 +24,7 @@ dotpose_options options_of(const LocatorOptions& o) {
     result.min_contrast = o.min_contrast;
     result.min_dots = o.min_dots;
     result.show_stages = o.show_stages ? 1 : 0;
+    result.bits_per_error = o.bits_per_error;
     return result;
 }
 
@@ -38,6 +39,7 @@ LocatorOptions options_of(const dotpose_options& o) {
     result.reference_dy_px = o.reference_dy_px;
     result.max_p_wrong = o.max_p_wrong;
     result.max_bit_errors = o.max_bit_errors;
+    result.bits_per_error = o.bits_per_error;
     result.min_contrast = o.min_contrast;
     result.min_dots = o.min_dots;
     result.effort = static_cast<Effort>(o.effort);

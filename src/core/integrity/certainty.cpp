@@ -294,7 +294,7 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
     }
     Confidence both = x;
     both.add(y);
-    return odds_per_bit_q8(both);
+    return odds_per_bit_q8(both, options.bits_per_error);
 }
 
 /// Returns the readings of the column and the row that cross at `corner`.

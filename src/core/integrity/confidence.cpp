@@ -32,6 +32,21 @@ std::uint32_t wrong_fraction_q16(int log_odds_q8) {
     return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));
 }
 
+/// Returns the margin that is added to the observed weight of wrong bits, in units of 2^-16. The
+/// margin is the weight of two hard bits. If the error rate is known, earlier frames have taken
+/// part of the margin, and the result is the part that is proportional to the bits of this frame.
+/// `weight` is the total weight of these bits.
+std::uint32_t margin_q16(std::uint32_t weight, int bits_per_error) {
+    constexpr std::uint32_t kMargin = 2 * 127;
+    if (bits_per_error <= 1) return kMargin << 16;
+    // At the known error rate, 2 * bits_per_error bits contain the two wrong bits of the margin.
+    // Two of them are subtracted, so that bits_per_error = 1 is equivalent to an unknown rate.
+    const std::uint32_t earlier = 2 * (static_cast<std::uint32_t>(bits_per_error) - 1);
+    const std::uint32_t bits = weight / 127;
+    const std::uint32_t fraction_q12 = (bits << 12) / (bits + earlier) + 1;
+    return kMargin * fraction_q12 << 4;
+}
+
 /// Returns the Chernoff bound on the probability that random bits agree with a given place at least
 /// as well as the bits that were read, as log2 in units of 2^-16.
 std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
@@ -48,23 +63,26 @@ std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
 
 }  // namespace
 
-int odds_per_bit_q8(const Confidence& confidence) {
+int odds_per_bit_q8(const Confidence& confidence, int bits_per_error) {
     struct Weighted {
         std::uint8_t level;
         std::uint32_t weight;  ///< total weight of the level's bits
     };
     std::array<Weighted, Confidence::kLevels> levels;
     std::size_t count = 0;
-    std::uint32_t allowed = 2 * 127;
+    std::uint32_t wrong = 0;
+    std::uint32_t total = 0;
     for (int level = Confidence::kLevels; level-- > 0;) {
         const int bits = confidence.bits(level);
         if (bits == 0) continue;
         const int weight = Confidence::weight_of(level);
         levels[count++] = {static_cast<std::uint8_t>(level),
                            static_cast<std::uint32_t>(bits * weight)};
-        allowed += static_cast<std::uint32_t>(weight * confidence.wrong(level));
+        total += static_cast<std::uint32_t>(bits * weight);
+        wrong += static_cast<std::uint32_t>(weight * confidence.wrong(level));
     }
-    const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
+    const std::uint64_t allowed_q16 =
+        (std::uint64_t{wrong} << 16) + margin_q16(total, bits_per_error);
     int odds_q8 = 0;
     // Finds the odds by bisection. This is possible because the expected weight of wrong bits
     // decreases as the odds increase.

@@ -61,9 +61,10 @@ class Confidence {
 /// Returns the odds that a bit with weight 127 is correct, as log2 in units of 2^-8. The result is
 /// in [0, 16 * 256]. Assumes that the log odds of a bit are proportional to its weight. At the
 /// returned odds, the expected total weight of the wrong bits equals their observed total weight
-/// plus the weight of two hard bits. See docs/integrity.md, "Alternatives: odds". Returns 0 if the
-/// bits contain no information.
-int odds_per_bit_q8(const Confidence& confidence);
+/// plus the weight of two hard bits. See docs/integrity.md, "Alternatives: odds". If the error rate
+/// is known (see IntegrityOptions::bits_per_error), a smaller weight is added. See
+/// docs/integrity.md, "Known error rate". Returns 0 if the bits contain no information.
+int odds_per_bit_q8(const Confidence& confidence, int bits_per_error = 0);
 
 /// Returns the Chernoff bound on the probability that random bits with the same weights agree with
 /// a given place at least as well as the bits that were read, as log2 in units of 2^-8. Computes

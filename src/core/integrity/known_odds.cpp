@@ -164,7 +164,7 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
 }  // namespace
 
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
-                        CodeVariant code, const Place& place) {
+                        CodeVariant code, const Place& place, int bits_per_error) {
     // Number of bits per axis. The number is the same for x and y.
     const int bits = number_of_bits(block.columns);
     const ScoredTurn upright(kernels, block);
@@ -174,7 +174,8 @@ float known_place_wrong(const Kernels& kernels, const BitBlock& block, const Kno
         upright.columns.agreeing(code, best.column().position, best.column().roll);
     const int y_agreeing = upright.rows.agreeing(code, best.row().position, best.row().roll);
     const std::array wrong{bits - x_agreeing, bits - y_agreeing};
-    const int odds_q8 = odds_per_bit_q8(Confidence::of_hard_bits(2 * bits, wrong[0] + wrong[1]));
+    const int odds_q8 =
+        odds_per_bit_q8(Confidence::of_hard_bits(2 * bits, wrong[0] + wrong[1]), bits_per_error);
     if (odds_q8 == 0) return 1;
     const OddsOfBits x_odds(odds_q8, x_agreeing);
     const OddsOfBits y_odds(odds_q8, y_agreeing);

@@ -38,8 +38,9 @@ std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBloc
 
 /// Returns an upper bound on the probability that `place` is wrong. The true place may be elsewhere
 /// on the sheets, or no known sheet may be in view. `place` is the place of cell (0, 0) in the
-/// upright block. Returns 1 if `place` is not on the sheets, or if the bits contain no information.
+/// upright block. `bits_per_error` is IntegrityOptions::bits_per_error. Returns 1 if `place` is not
+/// on the sheets, or if the bits contain no information.
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
-                        CodeVariant code, const Place& place);
+                        CodeVariant code, const Place& place, int bits_per_error = 0);
 
 }  // namespace dotpose::core

@@ -78,7 +78,7 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
     // Combines both axes, because their bits come from the same dots and have the same error rate.
     Confidence both = agreements[0];
     both.add(agreements[1]);
-    Doubt doubt{odds_per_bit_q8(both), {}};
+    Doubt doubt{odds_per_bit_q8(both, options.bits_per_error), {}};
     for (std::size_t i = 0; i < agreements.size(); ++i) {
         doubt.by_chance_q8[i] = 256 * chance_log2(agreements[i], doubt.odds_per_bit_q8);
     }

@@ -47,6 +47,7 @@ const Range kRanges[] = {
     {FIELD(lattice.max_offset_q16), 0, 32768},
     {FIELD(integrity.max_p_wrong_log2), -1048576, 0},
     {FIELD(integrity.max_bit_error_q8), 0, 256},
+    {FIELD(integrity.bits_per_error), 0, 65536},
     {FIELD(max_dots), INT_MIN, INT_MAX},
     {FIELD(spacing_nm), INT_MIN, INT_MAX},
     {FIELD(reference_dx_q8), -4194304, 4194304},
@@ -64,7 +65,7 @@ const Range kRanges[] = {
     [[maybe_unused]] const auto& [low, high, min_contrast] = threshold;
     [[maybe_unused]] const auto& [min_area, min_mass, max_area] = blobs;
     [[maybe_unused]] const auto& [min_dots, max_offset] = lattice;
-    [[maybe_unused]] const auto& [max_p_wrong, max_bit_error] = integrity;
+    [[maybe_unused]] const auto& [max_p_wrong, max_bit_error, bits_per_error] = integrity;
 }
 
 /// Expects every function that locates a frame to reject the options if `is_refused` is true, and

@@ -161,6 +161,36 @@ TEST_F(DeviceTracked, FollowsTheShearOfRollingShutters) {
     }
 }
 
+/// Motion by 60 % of the image height during the readout stretches the cells to twice their height,
+/// so that the frame has only four or five rows of cells.
+TEST_F(DeviceTracked, FollowsTheShearOfRollingShuttersOnAKnownSheet) {
+    Locator desktop{DeviceOptions{}};
+    int found = 0;
+    constexpr int kFrames = 60;
+    for (std::uint64_t i = 0; i < kFrames; ++i) {
+        Shot shot = shot_of(i);
+        const KnownRegion sheet{CodeVariant::anoto,
+                                shot.page.pattern.section,
+                                {shot.pose.cell.x - 200, shot.pose.cell.y - 280},
+                                393,
+                                564};
+        ASSERT_EQ(desktop.set_known({&sheet, 1}, OtherSheets::possible), Status::ok);
+        ASSERT_EQ(locator_.set_known({&sheet, 1}, OtherSheets::possible), Status::ok);
+        const double direction = rng_.uniform(-std::numbers::pi, std::numbers::pi);
+        constexpr double kMotion_px = 72;
+        shot.camera.readout_px = {kMotion_px * std::cos(direction),
+                                  kMotion_px * std::sin(direction)};
+        const Fix before = desktop.locate(render(shot).view());
+        ASSERT_EQ(before.status, Status::ok) << i;
+        shot.seed += 1'000'000;
+        const Fix fix = tracked(render(shot), disturbed(Prediction::like(before), 0.2, 1));
+        if (fix.status != Status::ok) continue;
+        ++found;
+        EXPECT_LT(std::hypot(x_off(fix, shot), y_off(fix, shot)), 0.015) << i;
+    }
+    EXPECT_GE(found, kFrames - 1);
+}
+
 TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
     const Shot shot = shot_of(4);
     const GreyImage image = render(shot);

@@ -48,6 +48,7 @@ TEST(LocatorOptions, AreConvertedToFixedPoint) {
     EXPECT_EQ(defaults.spacing_nm, 508'000);
     EXPECT_EQ(defaults.integrity.max_p_wrong_log2, -30) << "2^-30 is the largest power below 1e-9";
     EXPECT_EQ(defaults.integrity.max_bit_error_q8, 46);
+    EXPECT_EQ(defaults.integrity.bits_per_error, 0);
     EXPECT_EQ(defaults.lattice.min_dots, 40);
     EXPECT_EQ(defaults.effort, Effort::twice);
     EXPECT_EQ(defaults.decoder, Decoder::all);
@@ -61,6 +62,7 @@ TEST(LocatorOptions, AreConvertedToFixedPoint) {
     given.reference_dy_px = -3;
     given.max_p_wrong = 0x1p-40;
     given.max_bit_errors = 0.5;
+    given.bits_per_error = 1000;
     given.min_contrast = 12;
     given.min_dots = 50;
     given.show_stages = true;
@@ -74,6 +76,7 @@ TEST(LocatorOptions, AreConvertedToFixedPoint) {
     EXPECT_EQ(fixed.reference_dy_q8, -768);
     EXPECT_EQ(fixed.integrity.max_p_wrong_log2, -40);
     EXPECT_EQ(fixed.integrity.max_bit_error_q8, 128);
+    EXPECT_EQ(fixed.integrity.bits_per_error, 1000);
     EXPECT_EQ(fixed.min_contrast, 12);
     EXPECT_EQ(fixed.lattice.min_dots, 50);
     EXPECT_TRUE(fixed.show_stages);
@@ -96,6 +99,8 @@ TEST(LocatorOptions, ABadOneIsNamedAndRefused) {
         {MEMBER(reference_dy_px), -16384, 16384},
         {MEMBER(max_p_wrong), 1e-300, 1},
         {MEMBER(max_bit_errors), 0, 1},
+        {"bits_per_error",
+         [](LocatorOptions& o, double v) { o.bits_per_error = static_cast<int>(v); }, 0, 65536},
         {"min_contrast", [](LocatorOptions& o, double v) { o.min_contrast = static_cast<int>(v); },
          0, 255},
         {"min_dots", [](LocatorOptions& o, double v) { o.min_dots = static_cast<int>(v); }, 0,

@@ -166,7 +166,7 @@ TEST(C, GivesTheSymbolsOfTheCodePastTheEndsOfItsAxes) {
 TEST(C, PassesEveryOption) {
     dotpose_options given;
     dotpose_options_init(&given, sizeof given);
-    given = {given.size, 1, 0, 0, 0.6, -1e-5, 11, -12, 13, -14, 1e-6, 0.2, 200, 50, 1, 0};
+    given = {given.size, 1, 0, 0, 0.6, -1e-5, 11, -12, 13, -14, 1e-6, 0.2, 200, 50, 1, 300};
     LocatorOptions read;
     ASSERT_EQ(c::to_core(&given, read), DOTPOSE_OK);
     EXPECT_EQ(read.code, CodeVariant::libdots);
@@ -180,6 +180,7 @@ TEST(C, PassesEveryOption) {
     EXPECT_EQ(read.reference_dy_px, -14);
     EXPECT_EQ(read.max_p_wrong, 1e-6);
     EXPECT_EQ(read.max_bit_errors, 0.2);
+    EXPECT_EQ(read.bits_per_error, 300);
     EXPECT_EQ(read.min_contrast, 200);
     EXPECT_EQ(read.min_dots, 50);
     EXPECT_TRUE(read.show_stages);
@@ -195,6 +196,7 @@ TEST(C, HasTheDefaultsOfTheCore) {
     EXPECT_EQ(given.spacing_mm, core.spacing_mm);
     EXPECT_EQ(given.max_p_wrong, core.max_p_wrong);
     EXPECT_EQ(given.max_bit_errors, core.max_bit_errors);
+    EXPECT_EQ(given.bits_per_error, core.bits_per_error);
     EXPECT_EQ(given.min_contrast, core.min_contrast);
     EXPECT_EQ(given.min_dots, core.min_dots);
     EXPECT_EQ(given.show_stages, 0);

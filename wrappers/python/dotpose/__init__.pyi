@@ -62,6 +62,7 @@ class Options:
         min_dots: int = ...,
         max_p_wrong: float = ...,
         max_bit_errors: float = ...,
+        bits_per_error: int = ...,
         lens_k_per_px2: float = ...,
         lens_centre_offset_px: Pixel = ...,
     ) -> None: ...
@@ -71,6 +72,7 @@ class Options:
     min_dots: int
     max_p_wrong: float
     max_bit_errors: float
+    bits_per_error: int
     lens_k_per_px2: float
     lens_centre_offset_px: Pixel
 

@@ -209,6 +209,7 @@ def test_options_have_the_defaults_of_cpp_and_are_checked(frames):
     options = dotpose.Options()
     assert (options.min_dots, options.min_contrast) == (40, 0)
     assert (options.max_p_wrong, options.max_bit_errors) == (1e-9, 0.18)
+    assert options.bits_per_error == 0
     assert (options.effort, options.decoder) == ("twice", "all")
     assert dotpose.Options(min_dots=60).min_dots == 60
     with pytest.raises(TypeError, match="min_dot"):
@@ -216,6 +217,8 @@ def test_options_have_the_defaults_of_cpp_and_are_checked(frames):
     with pytest.raises(dotpose.BadArgument, match="device, once, twice"):
         dotpose.Options(effort="thrice")
     image = frames[0].image
+    with pytest.raises(dotpose.BadArgument, match="bits_per_error"):
+        dotpose.Locator(options=dotpose.Options(bits_per_error=-1))
     strict = dotpose.Locator(options=dotpose.Options(max_p_wrong=1e-60))
     assert strict.locate(image).status == "not_certain"
     pale = dotpose.Locator(options=dotpose.Options(min_contrast=250))

@@ -50,6 +50,11 @@ export interface LocatorOptions {
      * 1e-9. */
     max_p_wrong?: number;
     /**
+     * Number of bits read for each misread bit, at least, in frames of the same print and camera.
+     * Small views are then certain with fewer bits. 0 to 65536. Default: 0, not known.
+     */
+    bits_per_error?: number;
+    /**
      * Sheets that may be in view. About 30 dots in view, in images of at least 24 x 24 px, are then
      * enough for a fix. Default: none, which makes all places possible.
      */

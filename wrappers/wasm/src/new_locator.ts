@@ -6,7 +6,7 @@ import { codeNumber } from "./names.js";
 
 /** Size of a dotpose_options (wrappers/c/dotpose.h), and offsets of its members. */
 const kOptionsBytes = 96;
-const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
+const kOptionOffsets = { code: 4, effort: 8, show_stages: 88, bits_per_error: 92 };
 const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
 const kLensCentreOffset = 32;
 const kPointerBytes = 4;
@@ -24,6 +24,7 @@ export function newLocator(core: Instance, options: LocatorOptions): number {
     set("code", code === "auto" ? kDetectCode : codeNumber(code));
     set("show_stages", options.dots || options.space || options.print_map ? 1 : 0);
     set("effort", attempts);
+    set("bits_per_error", options.bits_per_error ?? 0);
     for (const name of Object.keys(kDoubleOffsets) as (keyof typeof kDoubleOffsets)[]) {
         const value = options[name];
         if (value !== undefined) view.setFloat64(kDoubleOffsets[name], value, true);

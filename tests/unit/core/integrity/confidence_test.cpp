@@ -65,6 +65,32 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
     }
 }
 
+TEST(OddsPerBit, DivideTheMarginAmongTheBitsOfAllFramesIfTheErrorRateIsKnown) {
+    for (const int bits : {60, 140, 400, 3000}) {
+        for (const int wrong : {0, 1, 5}) {
+            for (const int bits_per_error : {1, 30, 1000, 20000}) {
+                SCOPED_TRACE(testing::Message() << wrong << " wrong of " << bits << ", "
+                                                << bits_per_error << " bits per error");
+                // The earlier frames have 2 (bits_per_error - 1) bits. Bits of this frame that are
+                // wrong are not divided.
+                const double margin = 2.0 * bits / (bits + 2.0 * (bits_per_error - 1));
+                const double expected = std::log2(bits / (wrong + margin) - 1);
+                EXPECT_NEAR(odds_per_bit_q8(confidence(bits, 127, wrong), bits_per_error) / 256.0,
+                            expected, 0.1 + 0.03 * expected);
+            }
+        }
+    }
+}
+
+TEST(OddsPerBit, DoNotDependOnAnUnknownErrorRate) {
+    for (const int bits : {60, 400}) {
+        const Confidence read = confidence(bits, 127, 1);
+        EXPECT_EQ(odds_per_bit_q8(read, 0), odds_per_bit_q8(read, 1));
+        EXPECT_EQ(odds_per_bit_q8(read), odds_per_bit_q8(read, 1));
+        EXPECT_GE(odds_per_bit_q8(read, 65536), odds_per_bit_q8(read, 100));
+    }
+}
+
 TEST(OddsPerBit, GrowWithTheWeightOfWhatIsRight) {
     // The odds refer to a bit of full weight. If bits of half the weight have the same fraction of
     // errors, log2 of these odds is about twice as large.
