@@ -209,9 +209,14 @@ namespace turn {
 /// The drift step is kDriftStep, in px per row.
 inline constexpr float kStep_px = 0.3F;
 inline constexpr float kDriftStep = 0.02F;
-/// Standard error of the drift that `drift_of` computes from the plane, in px per row. For example,
-/// a camera tilt of 14 degrees foreshortens the paper by 3 %, which looks like a drift of 0.03.
-inline constexpr float kDrift = 0.02F;
+/// Standard deviation of the drift that `drift_of` computes from the plane, in px per row. A camera
+/// tilt of 6 degrees foreshortens the paper by 0.5 %, which looks like a drift of 0.005, and a tilt
+/// of 14 degrees looks like a drift of 0.03. kDriftOfTilt is the increase per squared relative
+/// change in scale from the centre to the outermost dot. A tilt of 2 degrees changes the scale by
+/// 1 %, or by less if the distance of the camera is large.
+inline constexpr float kDrift = 0.005F;
+inline constexpr float kDriftOfTilt = 50;
+inline constexpr float kMaxDrift = 0.03F;
 }  // namespace turn
 
 }  // namespace dotpose::core::tuning

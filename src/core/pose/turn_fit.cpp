@@ -1,5 +1,6 @@
 #include "core/pose/turn_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/pose/dot_offsets.hpp"
@@ -65,6 +66,15 @@ FloatVec residual_in(const Trial& trial, const ReadoutTurn& turn, std::size_t k,
     return residual;
 }
 
+/// Returns the standard deviation of the drift that `drift_of` computes from the plane, in px per
+/// row. A tilted camera foreshortens the paper, which looks like a drift. The foreshortening is
+/// proportional to the square of the tilt, and therefore to the square of the perspective.
+float deviation_of_drift(const FloatPlane& plane, float reach_px) {
+    const float squared_tilt = plane.tilt_x * plane.tilt_x + plane.tilt_y * plane.tilt_y;
+    return std::min(tuned::kDrift + tuned::kDriftOfTilt * squared_tilt * reach_px * reach_px,
+                    tuned::kMaxDrift);
+}
+
 /// Inverts a positive definite matrix by Gauss-Jordan elimination. Returns false if it is singular.
 bool invert(Matrix3& m) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -124,11 +134,10 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
                 normal[i][j] += changes[i].x * changes[j].x + changes[i].y * changes[j].y;
         }
     }
-    // The drift computed from the plane is an additional observation. Its standard deviation,
-    // kDrift, accounts for the error that a camera tilt causes.
+    // The drift computed from the plane is an additional observation.
     const FloatVec expected = drift_of(plane);
-    const float weight =
-        fit.variance * tuned::kDriftStep * tuned::kDriftStep / (tuned::kDrift * tuned::kDrift);
+    const float in_deviations = tuned::kDriftStep / deviation_of_drift(plane, reach);
+    const float weight = fit.variance * in_deviations * in_deviations;
     normal[1][1] += weight;
     normal[2][2] += weight;
     right[1] += weight * (expected.x - turn.drift.x) / tuned::kDriftStep;
