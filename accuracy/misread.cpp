@@ -4,8 +4,9 @@
 //
 //   dotpose_tables misread [--frames N] [--flipped N] [--seed S] [--threads N]
 //
-// The exit status is 1 if a fix is wrong, or if significantly more fixes of flipped bits are wrong
-// than p_wrong predicts although the declaration is true.
+// The exit status is 1 if a fix of a nominal frame is wrong, if more fixes of frames with flipped
+// bits are wrong than p_wrong predicts although the declaration is true, or if the run is
+// interrupted.
 #include <array>
 #include <cmath>
 #include <string>

@@ -78,7 +78,7 @@ struct ReadoutTally {
     }
 };
 
-/// A random direction, which depends only on the seed of the shot and on `number`.
+/// Returns a random direction that depends only on the seed of the shot and on `number`.
 Vec2 direction_of(const Shot& shot, std::uint64_t number) {
     const double angle_rad = Rng(shot.seed, number).uniform(-std::numbers::pi, std::numbers::pi);
     return {std::cos(angle_rad), std::sin(angle_rad)};
@@ -136,7 +136,11 @@ void locate_and_track(Shot shot, const Declared& declared, ReadoutTally& tally) 
     const GreyImage next = render(shot);
     if (!declared.has_sheet) static_cast<void>(locator.set_known({}));
     const Fix fix = locator.locate(next.view(), prediction);
-    if (fix.attempt == Attempt::tracked) tally.tracked.add(fix, truth);
+    // A wrong fix of any attempt is counted.
+    Fixes next_fix;
+    next_fix.add(fix, truth);
+    if (fix.attempt != Attempt::tracked) next_fix.right = 0;
+    tally.tracked += next_fix;
     DeviceMemory memory;
     DeviceLocator device(memory, options);
     if (declared.has_sheet) static_cast<void>(device.set_known({&sheet, 1}));

@@ -171,8 +171,8 @@ void add_attempt_options(Command& command, DeviceOptions& options) {
               [&options](Effort effort) { options.effort = effort; });
     command
         .add_option("--bits-per-error", options.integrity.bits_per_error,
-                    "Bits read for each misread bit of this print and camera, at least, from "
-                    "earlier frames: smaller views suffice")
+                    "Minimum number of bits per misread bit, measured with this print and "
+                    "camera: smaller views suffice")
         ->type_name("N")
         ->check(Range(0, 65536))
         ->default_str("unknown");

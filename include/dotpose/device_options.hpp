@@ -85,11 +85,10 @@ struct IntegrityOptions {
     /// to each axis separately. A larger fraction indicates that the frame contains two patterns.
     /// [0 to 256]
     int max_bit_error_q8 = 46;
-    /// Number of bits that are read for each misread bit, at least, on average over frames of the
-    /// same print and camera. With this number, small views are certain with fewer bits. If it is
-    /// too large, p_wrong is too small. The default of 0 means that the number is not known: the
-    /// error rate is then estimated from each frame alone. See docs/integrity.md, "Known error
-    /// rate". [0 to 65536]
+    /// Minimum number of bits per misread bit, on average over frames of the same print and camera.
+    /// A known number reduces the safety margin, so smaller views are certain. If it is too large,
+    /// p_wrong may be too small. 0 (the default) and 1 mean unknown: the error rate is estimated
+    /// from each frame alone. See docs/integrity.md, "Known error rate". [0 to 65536]
     int bits_per_error = 0;
 };
 

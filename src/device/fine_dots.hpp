@@ -1,5 +1,6 @@
 // Fine dots: finds the dots in the stored rows of a frame by their darkest pixels. In fine grids
 // and in small frames, a dot is hardly larger than a pixel, so each dot has one darkest pixel.
+// Larger dots have one as well, because their edges are blurred.
 #pragma once
 
 #include "core/kernels/portable/dark_sums.hpp"

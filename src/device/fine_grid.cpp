@@ -176,15 +176,14 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
 }
 
 void FineGrid::fit_roughly() {
-    // Maximum distance of the dots in the first fit, in cells. An error of the predicted rotation
-    // may move dots farther out by so much that their symbols are misread.
+    // Maximum distance of the dots in the first fit, in cells (approximate). With an error of the
+    // predicted rotation, the symbols of dots farther out may be misread.
     constexpr int kFirstReach = 8;
     const int cells = (tracking_.last_cell - tracking_.first_cell + 1) / 2;
-    const std::int32_t whole_q8 = 128 * (tracking_.width_px + tracking_.height_px);
-    if (cells > kFirstReach) {
-        for (int reach = kFirstReach; reach <= cells; reach += 2)
-            fit_within(whole_q8 * reach / cells);
-    }
+    const int width_px = tracking_.width_px - 2 * tracking_.left_out_px;
+    const std::int32_t whole_q8 = 128 * (width_px + tracking_.height_px);
+    for (int reach = kFirstReach; reach < cells; reach += 2)
+        fit_within(whole_q8 * reach / cells);
     fit_within(whole_q8);
 }
 

@@ -11,23 +11,27 @@ namespace dotpose::core {
 namespace {
 
 /// Range of cell shapes. The spacing is the side of a square with the area of a cell.
-struct CellShapes {
+struct CellShapeRange {
     int min_spacing_px;
     int max_spacing_px;
     /// Maximum shear and stretch, relative to the reciprocal of the cell area. The shear is the dot
-    /// product of the gradients of the two cell coordinates, and the stretch is the difference of
-    /// their squares.
+    /// product of the derivatives of the cell coordinates with respect to u and to v. The stretch
+    /// is the difference of their squared lengths.
     int max_deformation;
 };
 /// Cells whose dots are read in the squares around their intersections. Motion during the readout
 /// of a rolling shutter deforms the cells, so some shear and stretch must be accepted.
-constexpr CellShapes kReadInSquares{7, 14, 1};
+constexpr CellShapeRange kReadInSquares{7, 14, 1};
 /// Cells whose dots are found independently of the prediction (device/fine_grid.hpp). Such cells
 /// are tracked only if sheets are known.
-constexpr CellShapes kReadAtDots{5, 20, 3};
+constexpr CellShapeRange kReadAtDots{5, 20, 3};
 /// Range of displacements that can be tracked: a twelfth to a third of the spacing.
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
+
+constexpr std::int64_t kOne_q24 = 1 << 24;
+/// Maximum derivative of a cell coordinate, in 2^-24 cells per px.
+constexpr std::int32_t kSteepest_q24 = (1 << 24) / 4;
 
 /// Returns true if all values of the prediction are in the ranges that can be tracked. Within these
 /// ranges, no later computation overflows.
@@ -35,7 +39,6 @@ bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
     constexpr std::int32_t kFarthest_q16 = 1 << 28;
-    constexpr std::int32_t kSteepest_q24 = (1 << 24) / 4;
     constexpr std::int32_t kSteepest_q30 = 1 << 24;
     const Place& place = prediction.place;
     return is_within(plane.centre_q8, kFarthest_q8) &&
@@ -47,9 +50,8 @@ bool is_sane(const Prediction& prediction) {
            prediction.displacement_q16 <= kMaxDisplacement_q16;
 }
 
-constexpr std::int64_t kOne_q24 = 1 << 24;
-
-/// Shape of the cells of a plane, in 2^-24 cells per px^2.
+/// Shape of the cells of a plane, in 2^-24 cells per px^2. The derivatives must be at most
+/// kSteepest_q24.
 struct CellShape {
     std::int64_t det_q24;  ///< reciprocal of the cell area
     std::int32_t shear_q24;
@@ -64,10 +66,10 @@ struct CellShape {
         shear_q24 = (x.x * x.y + y.x * y.y) >> 8;
         stretch_q24 = (x.x * x.x + y.x * y.x - x.y * x.y - y.y * y.y) >> 8;
     }
-    bool is_in(const CellShapes& shapes) const {
-        const std::int64_t max_q24 = shapes.max_deformation * det_q24;
-        return det_q24 >= kOne_q24 / (shapes.max_spacing_px * shapes.max_spacing_px) &&
-               det_q24 <= kOne_q24 / (shapes.min_spacing_px * shapes.min_spacing_px) &&
+    bool is_in(const CellShapeRange& range) const {
+        const std::int64_t max_q24 = range.max_deformation * det_q24;
+        return det_q24 >= kOne_q24 / (range.max_spacing_px * range.max_spacing_px) &&
+               det_q24 <= kOne_q24 / (range.min_spacing_px * range.min_spacing_px) &&
                magnitude(shear_q24) <= max_q24 && magnitude(stretch_q24) <= max_q24;
     }
 };
@@ -216,6 +218,9 @@ Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Plane
                          (at.y >> 16) - kMaxComparedLines / 2};
     tracking.corner = moved(code, prediction.place, first.x, first.y);
     const FixedVec at_q16{at.x - first.x * 65536, at.y - first.y * 65536};
+    // The perspective of the prediction may make the tangent steeper than the prediction itself.
+    if (!is_within(plane.du_q24, kSteepest_q24) || !is_within(plane.dv_q24, kSteepest_q24))
+        return Status::not_tracked;
     const CellShape shape(plane);
     const bool knows_sheets = tracking.min_side_px < kMinFrameSide_px;
     tracking.is_fine = !shape.is_in(kReadInSquares);

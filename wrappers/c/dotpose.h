@@ -357,7 +357,7 @@ typedef struct dotpose_options {
     int32_t min_contrast;     /* 80: minimum contrast, in grey levels; default 0 */
     int32_t min_dots;         /* 84: minimum number of dots; default 40 */
     int32_t show_stages;      /* 88: if 1, keeps all dots for dotpose_dots (slower); default 0 */
-    int32_t bits_per_error;   /* 92: minimum number of bits per misread bit; default 0: unknown */
+    int32_t bits_per_error;   /* 92: minimum number of bits per misread bit; default 0, unknown */
 } dotpose_options;
 
 /* Sets the default options. `bytes` is the caller's sizeof(dotpose_options). */

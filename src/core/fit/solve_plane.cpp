@@ -19,13 +19,13 @@ constexpr std::array<DistortionPrior, 3> kTerms{{
     {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
 }};
 
-/// Removes the contribution of a large shear from the whitened perspective terms. Motion during the
-/// readout of a rolling shutter causes such a shear. Its contribution is not 0, because the dots
-/// are not symmetric about the centre, and would look like perspective to the prior.
-void separate_shear(const PlaneNormal& normal, Parameters& whitened) {
-    constexpr float kLargeShear = 0.1F;
+/// Removes the contribution of a large shear from the whitened perspective terms. Without this, the
+/// prior would treat the shear as perspective, because the dots are not symmetric about the centre.
+/// Motion during the readout of a rolling shutter causes such a shear, as does a large tilt.
+void separate_shear(const PlaneNormal& normal, float unit, Parameters& whitened) {
+    constexpr float kLargeShear = 0.01F;  // in units of ScaledPlane::scale(), like the priors
     const Parameters terms = normal.unwhitened(whitened);
-    if (std::abs(terms[kShear]) + std::abs(terms[kShear + 1]) < kLargeShear) return;
+    if (std::abs(terms[kShear]) + std::abs(terms[kShear + 1]) < kLargeShear * unit) return;
     for (std::size_t tilt = kTilt; tilt < kTilt + 2; ++tilt) {
         for (std::size_t shear = kShear; shear < kShear + 2; ++shear)
             whitened[tilt] -= normal.factor(shear, tilt) * terms[shear];
@@ -33,7 +33,8 @@ void separate_shear(const PlaneNormal& normal, Parameters& whitened) {
 }
 
 /// Adjusts a whitened step so that the distortion terms of the plane become their posterior means.
-/// `whole` contains the whitened distortion terms after the original step. Sets the covariance of
+/// `whole` contains the whitened distortion terms after the original step, without the contribution
+/// of a large shear to the perspective terms. Sets the covariance of
 /// `fit`.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
@@ -81,7 +82,7 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         whole[i] += step[i];
-    separate_shear(normal, whole);
+    separate_shear(normal, unit, whole);
     const Parameters exact = step;
     shrink(whole, unit, fit, step);
     moved = 0;

@@ -75,8 +75,8 @@ bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant co
 /// is at most `limit_log2`.
 bool is_within_limit(float wrong, int limit_log2, Fix& fix);
 
-/// Sets the odds of the other codes without a certainty test. Does nothing if the bits contain no
-/// information.
+/// Sets the odds of the other codes without a certainty test, as for an unknown error rate. Does
+/// nothing if the bits contain no information.
 void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                        OtherCodes& others);
 

@@ -33,14 +33,14 @@ std::uint32_t wrong_fraction_q16(int log_odds_q8) {
 }
 
 /// Returns the margin that is added to the observed weight of wrong bits, in units of 2^-16. The
-/// margin is the weight of two hard bits. If the error rate is known, earlier frames have taken
-/// part of the margin, and the result is the part that is proportional to the bits of this frame.
-/// `weight` is the total weight of these bits.
+/// margin is the weight of two hard bits. If the error rate is known, the margin is divided among
+/// the bits of this frame and 2 (bits_per_error - 1) earlier bits, and the result is the part of
+/// this frame. `weight` is the total weight of the bits of this frame.
 std::uint32_t margin_q16(std::uint32_t weight, int bits_per_error) {
     constexpr std::uint32_t kMargin = 2 * 127;
     if (bits_per_error <= 1) return kMargin << 16;
-    // At the known error rate, 2 * bits_per_error bits contain the two wrong bits of the margin.
-    // Two of them are subtracted, so that bits_per_error = 1 is equivalent to an unknown rate.
+    // At the known rate, 2 * bits_per_error bits contain two errors. Two bits are subtracted to
+    // make bits_per_error = 1 equivalent to an unknown rate.
     const std::uint32_t earlier = 2 * (static_cast<std::uint32_t>(bits_per_error) - 1);
     const std::uint32_t bits = weight / 127;
     const std::uint32_t fraction_q12 = (bits << 12) / (bits + earlier) + 1;

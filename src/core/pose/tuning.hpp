@@ -213,7 +213,8 @@ inline constexpr float kDriftStep = 0.02F;
 /// tilt of 6 degrees foreshortens the paper by 0.5 %, which looks like a drift of 0.005, and a tilt
 /// of 14 degrees looks like a drift of 0.03. kDriftOfTilt is the increase per squared relative
 /// change in scale from the centre to the outermost dot. A tilt of 2 degrees changes the scale by
-/// 1 %, or by less if the distance of the camera is large.
+/// 1 %. For cameras with a narrow field of view, it changes the scale by less, and the standard
+/// deviation is too small for large tilts.
 inline constexpr float kDrift = 0.005F;
 inline constexpr float kDriftOfTilt = 50;
 inline constexpr float kMaxDrift = 0.03F;

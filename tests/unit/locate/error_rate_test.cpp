@@ -29,7 +29,7 @@ int located(int bits_per_error, int frames) {
     return count;
 }
 
-/// In nominal frames, one bit in 20,000 is misread.
+/// In nominal frames of this spacing, one bit in 30,000 is misread.
 TEST(ErrorRate, AKnownOneMakesSmallViewsCertain) {
     constexpr int kFrames = 100;
     const int unknown = located(0, kFrames);

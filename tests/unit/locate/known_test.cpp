@@ -53,15 +53,36 @@ TEST_F(Known, SixCellsSufficeIfNoOtherSheetIsPossible) {
 /// Regression: one frame in twenty was refused as ambiguous_code, although the sheets determine the
 /// code.
 TEST_F(Known, SheetsDetermineTheCodeIfNoOtherSheetIsPossible) {
+    KnownRegion sheet = kSheet;
+    sheet.code = CodeVariant::libdots;
     Locator detecting;
-    ASSERT_EQ(detecting.set_known({&kSheet, 1}, OtherSheets::impossible), Status::ok);
+    ASSERT_EQ(detecting.set_known({&sheet, 1}, OtherSheets::impossible), Status::ok);
     for (std::uint64_t i = 0; i < 60; ++i) {
-        const GreyImage image = render(shot_on_sheet({}, i));
+        const Shot shot = shot_on_sheet({.code = sheet.code}, i);
         // The evidence of earlier frames is discarded, so each frame must determine the code.
         detecting.set_options(LocatorOptions{});
-        EXPECT_EQ(detecting.locate(image.view()).status, Status::ok) << "frame " << i;
-        EXPECT_EQ(detecting.options().code, kSheet.code);
+        const Fix fix = detecting.locate(render(shot).view());
+        ASSERT_EQ(fix.status, Status::ok) << "frame " << i;
+        EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
+        EXPECT_EQ(detecting.options().code, sheet.code);
     }
+}
+
+TEST_F(Known, SheetsOfTwoCodesDoNotDetermineTheCode) {
+    std::array<KnownRegion, 2> sheets{kSheet, kSheet};
+    sheets[1].code = CodeVariant::libdots;
+    Locator detecting;
+    ASSERT_EQ(detecting.set_known(sheets, OtherSheets::impossible), Status::ok);
+    int located = 0;
+    for (std::uint64_t i = 0; i < 30; ++i) {
+        const Shot shot = shot_on_sheet({.code = sheets[i % 2].code}, i);
+        detecting.set_options(LocatorOptions{});
+        const Fix fix = detecting.locate(render(shot).view());
+        if (fix.status != Status::ok) continue;
+        ++located;
+        EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
+    }
+    EXPECT_GT(located, 15);
 }
 
 /// With known sheets, the locator also reads dots that are cut off by the border of the image, and

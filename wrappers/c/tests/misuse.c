@@ -118,6 +118,10 @@ static void options(void) {
     EXPECT(NULL_POINTER, dotpose_set_options(NULL, &good));
     dotpose_locator_destroy(locator);
     bad = good;
+    bad.bits_per_error = 65537;
+    EXPECT(BAD_ARGUMENT, dotpose_locator_create(DOTPOSE_KIND_LARGE, &bad, &locator));
+    CHECK(locator == NULL);
+    bad = good;
     bad.max_p_wrong = 0;
     EXPECT(BAD_ARGUMENT, dotpose_locator_create(DOTPOSE_KIND_LARGE, &bad, &locator));
     CHECK(locator == NULL);

@@ -64,8 +64,8 @@ void define_options(py::module_& module) {
         .def_readwrite("max_bit_errors", &Given::max_bit_errors,
                        "Maximum ratio of wrong bits on either axis. [0 to 1]")
         .def_readwrite("bits_per_error", &Given::bits_per_error,
-                       "Number of bits read for each misread bit, at least, in frames of the same "
-                       "print and camera. Small views are then certain with fewer bits. 0 if "
+                       "Minimum number of bits per misread bit, on average over frames of the "
+                       "same print and camera. A known number makes smaller views certain. 0 if "
                        "unknown. [0 to 65536]")
         .def_readwrite("lens_k_per_px2", &Given::lens_k_per_px2,
                        "Radial distortion k in 1/px^2 (eq. 2 of the paper); negative for barrel "

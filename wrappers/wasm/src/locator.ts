@@ -50,8 +50,8 @@ export interface LocatorOptions {
      * 1e-9. */
     max_p_wrong?: number;
     /**
-     * Number of bits read for each misread bit, at least, in frames of the same print and camera.
-     * Small views are then certain with fewer bits. 0 to 65536. Default: 0, not known.
+     * Minimum number of bits per misread bit, on average over frames of the same print and camera.
+     * A known number makes smaller views certain. 0 to 65536. Default: 0, which means unknown.
      */
     bits_per_error?: number;
     /**

@@ -161,6 +161,7 @@ describe("Locator", () => {
         await assert.rejects(Locator.create({ code: "morse" }), RangeError);
         await assert.rejects(Locator.create({ max_p_wrong: 2 }), RangeError);
         await assert.rejects(Locator.create({ bits_per_error: 65537 }), RangeError);
+        await assert.rejects(Locator.create({ bits_per_error: 0.001 }), RangeError);
         await assert.rejects(Locator.create({ attempts: 0 }), RangeError);
         await assert.rejects(Locator.create({ attempts: 3 }), RangeError);
     });

@@ -82,11 +82,12 @@ TEST(OddsPerBit, DivideTheMarginAmongTheBitsOfAllFramesIfTheErrorRateIsKnown) {
     }
 }
 
-TEST(OddsPerBit, DoNotDependOnAnUnknownErrorRate) {
+TEST(OddsPerBit, AreThoseOfAnUnknownErrorRateForOneBitPerError) {
     for (const int bits : {60, 400}) {
         const Confidence read = confidence(bits, 127, 1);
         EXPECT_EQ(odds_per_bit_q8(read, 0), odds_per_bit_q8(read, 1));
         EXPECT_EQ(odds_per_bit_q8(read), odds_per_bit_q8(read, 1));
+        EXPECT_GT(odds_per_bit_q8(read, 100), odds_per_bit_q8(read, 1));
         EXPECT_GE(odds_per_bit_q8(read, 65536), odds_per_bit_q8(read, 100));
     }
 }
