@@ -62,6 +62,25 @@ TEST_F(LocateCommand, finds_the_true_poses) {
     }
 }
 
+TEST_F(LocateCommand, a_known_error_rate_locates_smaller_views) {
+    ASSERT_EQ(ToolCommand::run("simulate -o frames --frames 20 --size 96x96"), 0) << errors_;
+    std::string names;
+    for (int i = 0; i < 20; ++i)
+        names += " frames/frame_0000" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".pgm";
+    const auto located = [&](const std::string& options) {
+        run("--code anoto" + options + names);
+        int count = 0;
+        for (const json& record : records())
+            count += record["status"] == "ok" ? 1 : 0;
+        return count;
+    };
+    EXPECT_LE(located(""), 12);
+    EXPECT_GE(located(" --bits-per-error 1000"), 15);
+    run("--bits-per-error 65537" + names);
+    EXPECT_EQ(exit_code_, 2);
+    EXPECT_THAT(errors_, HasSubstr("--bits-per-error"));
+}
+
 TEST_F(LocateCommand, shows_six_decimals_of_positions) {
     write_frame("a.pgm", 0);
     run("a.pgm");
