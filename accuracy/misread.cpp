@@ -1,4 +1,4 @@
-// Measures how many small views are located if the caller declares how seldom bits are misread, and
+// Measures how many small views are located if the caller declares the rate of misread bits, and
 // how many fixes are wrong if the declaration is true and if it is false. Prints tables in
 // Markdown.
 //

@@ -22,13 +22,16 @@ constexpr std::array<DistortionPrior, 3> kTerms{{
 /// Removes the contribution of a large shear from the whitened perspective terms. Without this, the
 /// prior would treat the shear as perspective, because the dots are not symmetric about the centre.
 /// Motion during the readout of a rolling shutter causes such a shear, as does a large tilt.
-void separate_shear(const PlaneNormal& normal, float unit, Parameters& whitened) {
+/// `distortions` contains the terms before the step.
+void separate_shear(const PlaneNormal& normal, const Parameters& distortions, float unit,
+                    Parameters& whitened) {
     constexpr float kLargeShear = 0.01F;  // in units of ScaledPlane::scale(), like the priors
+    const float shear = std::abs(distortions[kShear]) + std::abs(distortions[kShear + 1]);
+    if (shear < kLargeShear * unit) return;
     const Parameters terms = normal.unwhitened(whitened);
-    if (std::abs(terms[kShear]) + std::abs(terms[kShear + 1]) < kLargeShear * unit) return;
     for (std::size_t tilt = kTilt; tilt < kTilt + 2; ++tilt) {
-        for (std::size_t shear = kShear; shear < kShear + 2; ++shear)
-            whitened[tilt] -= normal.factor(shear, tilt) * terms[shear];
+        for (std::size_t i = kShear; i < kShear + 2; ++i)
+            whitened[tilt] -= normal.factor(i, tilt) * terms[i];
     }
 }
 
@@ -82,7 +85,7 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         whole[i] += step[i];
-    separate_shear(normal, unit, whole);
+    separate_shear(normal, distortions, unit, whole);
     const Parameters exact = step;
     shrink(whole, unit, fit, step);
     moved = 0;
