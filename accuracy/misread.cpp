@@ -1,12 +1,16 @@
-// Measures how many small views are located if the caller declares the rate of misread bits, and
-// how many fixes are wrong if the declaration is true and if it is false. Prints tables in
-// Markdown.
+// Measures how many small views are located if the rate of misread bits is unknown, declared by the
+// caller, or measured by the locator. Also measures how many fixes are wrong, if the declaration is
+// true and if it is false. Prints tables in Markdown.
 //
 //   dotpose_tables misread [--frames N] [--flipped N] [--seed S] [--threads N]
 //
+// The frames are divided into series of 500 frames. One locator locates each series, so a measured
+// rate is unknown at the start of a series.
+//
 // The exit status is 1 if a fix of a nominal frame is wrong, if more fixes of frames with flipped
-// bits are wrong than p_wrong predicts although the declaration is true, or if the run is
+// bits are wrong than p_wrong predicts although no false rate is declared, or if the run is
 // interrupted.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -26,8 +30,10 @@ struct View {
 };
 constexpr std::array kViews{View{6, 64}, View{7, 64}, View{9, 80}, View{10, 88}, View{11, 96}};
 
-/// Declared numbers of bits per misread bit. 0: nothing is declared.
-constexpr std::array kDeclared{0, 100, 300, 1000, 3000};
+/// Values of `bits_per_error`. 0: the rate is unknown.
+constexpr std::array kBitsPerError{0, 100, 300, 1000, 3000, kMeasuredErrorRate};
+
+constexpr std::uint64_t kFramesOfSeries = 500;
 
 struct MisreadTally {
     std::uint64_t located = 0;
@@ -35,6 +41,7 @@ struct MisreadTally {
     double predicted = 0;  ///< expected number of wrong fixes: the sum of p_wrong
     std::uint64_t bits = 0;
     std::uint64_t misread = 0;
+    double measured = 0;  ///< sum of the bits per error measured at the end of each series
 
     void operator+=(const MisreadTally& other) {
         located += other.located;
@@ -42,6 +49,7 @@ struct MisreadTally {
         predicted += other.predicted;
         bits += other.bits;
         misread += other.misread;
+        measured += other.measured;
     }
 };
 
@@ -51,12 +59,9 @@ Shot draw_view(const View& view, std::uint64_t seed, std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-void locate(const GreyImage& image, const Shot& shot, const IntegrityOptions& integrity,
-            MisreadTally& tally) {
-    DeviceOptions options;
-    options.integrity = integrity;
+void locate(const GreyImage& image, const Shot& shot, Locator& locator, MisreadTally& tally) {
     Outcome outcome;
-    outcome.fix = Locator(thread_memory(), options).locate(image.view());
+    outcome.fix = locator.locate(image.view());
     outcome.truth = truth_of(shot);
     if (!outcome.is_fix()) return;
     ++tally.located;
@@ -66,21 +71,48 @@ void locate(const GreyImage& image, const Shot& shot, const IntegrityOptions& in
     tally.misread += static_cast<std::uint64_t>(outcome.fix.bit_errors);
 }
 
+std::uint64_t number_of_series(std::uint64_t frames) {
+    return (frames + kFramesOfSeries - 1) / kFramesOfSeries;
+}
+
+/// Locates the frames of all series. `draw(i)` returns frame i and its image.
+template <typename Draw>
+Count<MisreadTally> locate_series(std::uint64_t frames, const IntegrityOptions& integrity,
+                                  const TableRun& run, const Draw& draw) {
+    return run.count<MisreadTally>(
+        "series", number_of_series(frames), [&](std::uint64_t series, MisreadTally& tally) {
+            DeviceOptions options;
+            options.integrity = integrity;
+            Locator locator(thread_memory(), options);
+            const std::uint64_t first = series * kFramesOfSeries;
+            for (std::uint64_t i = first; i < std::min(first + kFramesOfSeries, frames); ++i) {
+                const auto [shot, image] = draw(i);
+                locate(image, shot, locator, tally);
+            }
+            tally.measured += locator.error_rate().bits_per_error();
+        });
+}
+
 double percent(std::uint64_t part, std::uint64_t all) {
     return 100 * static_cast<double>(part) / static_cast<double>(all);
 }
+
+struct DrawnFrame {
+    Shot shot;
+    GreyImage image;
+};
 
 /// Prints the percentage of nominal frames that are located. Returns true if no fix is wrong.
 bool print_located(const View& view, std::uint64_t frames, const TableRun& run) {
     fmt::print("| {} | {} x {} |", view.spacing_px, view.side_px, view.side_px);
     MisreadTally all;
     bool is_complete = true;
-    for (const int bits_per_error : kDeclared) {
-        const auto count =
-            run.count<MisreadTally>("frames", frames, [&](std::uint64_t i, MisreadTally& t) {
-                const Shot shot = draw_view(view, run.seed, i);
-                locate(render(shot), shot, {.bits_per_error = bits_per_error}, t);
-            });
+    for (const int bits_per_error : kBitsPerError) {
+        const auto count = locate_series(frames, {.bits_per_error = bits_per_error}, run,
+                                         [&](std::uint64_t i) -> DrawnFrame {
+                                             const Shot shot = draw_view(view, run.seed, i);
+                                             return {shot, render(shot)};
+                                         });
         fmt::print(" {:.1f} |", percent(count.tally.located, frames));
         std::fflush(stdout);
         all += count.tally;
@@ -91,31 +123,32 @@ bool print_located(const View& view, std::uint64_t frames, const TableRun& run) 
 }
 
 /// Locates frames whose bits are flipped at a rate of 1 / `true_bits`, with a limit at which some
-/// fixes are wrong. Returns true if at most as many fixes are wrong as p_wrong predicts, or if the
-/// declaration is false.
-bool print_flipped(int true_bits, int declared, std::uint64_t frames, const TableRun& run) {
+/// fixes are wrong. Returns true if at most as many fixes are wrong as p_wrong predicts, or if a
+/// false rate is declared.
+bool print_flipped(int true_bits, int bits_per_error, std::uint64_t frames, const TableRun& run) {
     constexpr int kLooseLimit_log2 = -4;
     MisreadTally all;
     bool is_complete = true;
     for (const View& view : kViews) {
-        const auto count =
-            run.count<MisreadTally>("frames", frames, [&](std::uint64_t i, MisreadTally& t) {
+        const auto count = locate_series(
+            frames, {.max_p_wrong_log2 = kLooseLimit_log2, .bits_per_error = bits_per_error}, run,
+            [&](std::uint64_t i) -> DrawnFrame {
                 const Shot shot = draw_view(view, run.seed, i);
                 const Pattern pattern = shot.page.pattern;
-                const GreyImage image = test::render_dots(shot, [&](Cell cell) {
-                    return test::displacement_of(
-                        test::flipped_symbol(pattern, 1.0 / true_bits, shot.seed, cell));
-                });
-                locate(image, shot,
-                       {.max_p_wrong_log2 = kLooseLimit_log2, .bits_per_error = declared}, t);
+                return {shot, test::render_dots(shot, [&](Cell cell) {
+                            return test::displacement_of(
+                                test::flipped_symbol(pattern, 1.0 / true_bits, shot.seed, cell));
+                        })};
             });
         all += count.tally;
         is_complete &= count.is_complete();
     }
-    fmt::print("| {} | {} | {} | {} | {} | {:.1f} |\n", true_bits, declared, frames * kViews.size(),
-               all.located, all.wrong, all.predicted);
+    const auto series = static_cast<double>(number_of_series(frames) * kViews.size());
+    fmt::print("| {} | {} | {} | {} | {} | {:.1f} | {:.0f} |\n", true_bits, bits_per_error,
+               frames * kViews.size(), all.located, all.wrong, all.predicted,
+               all.measured / series);
     std::fflush(stdout);
-    const bool is_true = declared <= true_bits;
+    const bool is_true = bits_per_error <= true_bits;
     return is_complete && (!is_true || static_cast<double>(all.wrong) <= all.predicted);
 }
 
@@ -132,19 +165,19 @@ bool misread_table(TableRun& run) {
     bool is_right = true;
     if (frames > 0) {
         fmt::print("| spacing, px | view, px |");
-        for (const int declared : kDeclared)
-            fmt::print(" {} |", declared);
-        fmt::print(" wrong | bits misread |\n|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+        for (const int bits_per_error : kBitsPerError)
+            fmt::print(" {} |", bits_per_error);
+        fmt::print(" wrong | bits misread |\n|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
         for (const View& view : kViews)
             is_right &= print_located(view, frames, run);
     }
     if (flipped > 0) {
         fmt::print(
-            "\n| bits per flipped bit | declared | frames | located | wrong | predicted |\n"
-            "|--:|--:|--:|--:|--:|--:|\n");
+            "\n| bits per flipped bit | bits_per_error | frames | located | wrong | predicted | "
+            "measured |\n|--:|--:|--:|--:|--:|--:|--:|\n");
         for (const int true_bits : {30, 100, 1000}) {
-            for (const int declared : {0, 30, 100, 1000})
-                is_right &= print_flipped(true_bits, declared, flipped, run);
+            for (const int bits_per_error : {0, 30, 100, 1000, kMeasuredErrorRate})
+                is_right &= print_flipped(true_bits, bits_per_error, flipped, run);
         }
     }
     return is_right;

@@ -65,6 +65,26 @@ std::string require_spacing(const std::string& text) {
                        kMin_mm, kMax_mm, kDefaultSpacing_mm);
 }
 
+void add_error_rate_option(Command& command, int& bits_per_error) {
+    command
+        .add_option_function<std::string>(
+            "--bits-per-error",
+            [&bits_per_error](const std::string& text) {
+                constexpr std::uint32_t kMax = 65536;
+                const auto number = whole_numbers(text, "", kMax);
+                if (!number && text != "measured")
+                    throw ValidationError(
+                        "--bits-per-error",
+                        fmt::format("'{}' is neither 'measured' nor a number from 0 to {}", text,
+                                    kMax));
+                bits_per_error = number ? static_cast<int>(number->front()) : kMeasuredErrorRate;
+            },
+            "Minimum number of bits per misread bit with this print and camera, or 'measured' to "
+            "measure it over the images so far: smaller views suffice")
+        ->type_name("N")
+        ->default_str("unknown");
+}
+
 }  // namespace
 
 void add_code_option(Command& command, CodeVariant& code) {
@@ -169,13 +189,7 @@ void add_attempt_options(Command& command, DeviceOptions& options) {
               [&options](Decoder decoder) { options.decoder = decoder; });
     add_named(command, "--effort", kEfforts, name(options.effort), "How hard to try",
               [&options](Effort effort) { options.effort = effort; });
-    command
-        .add_option("--bits-per-error", options.integrity.bits_per_error,
-                    "Minimum number of bits per misread bit, measured with this print and "
-                    "camera: smaller views suffice")
-        ->type_name("N")
-        ->check(Range(0, 65536))
-        ->default_str("unknown");
+    add_error_rate_option(command, options.integrity.bits_per_error);
 }
 
 void add_size_option(Command& command, CameraModel& camera) {

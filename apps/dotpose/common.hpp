@@ -54,7 +54,7 @@ struct CameraArgument {
 /// Adds --camera FILE. The file is read when the command line is parsed.
 Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help);
 
-/// Adds --decoder and --effort. `options` must outlive the command.
+/// Adds --decoder, --effort and --bits-per-error. `options` must outlive the command.
 void add_attempt_options(Command& command, DeviceOptions& options);
 
 /// Adds --size WxH, the size of a simulated frame.

@@ -331,6 +331,11 @@ int run(EvaluateArguments& arguments) {
         arguments.sources.fit_to(camera);
         use_camera(*camera, camera->width_px, camera->height_px, arguments.options);
     }
+    if (arguments.options.integrity.bits_per_error == kMeasuredErrorRate) {
+        throw BadArgument(
+            "--bits-per-error measured is not for evaluate, which locates each frame by itself: "
+            "name the number");
+    }
     arguments.setup.preset = arguments.preset.value_or(Preset::nominal);
     Pattern& pattern = arguments.setup.pattern;
     pattern.code = arguments.options.code;

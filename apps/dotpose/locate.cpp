@@ -326,6 +326,12 @@ int run(const LocateArguments& arguments) {
             "--threads needs --code NAME or --sheets FILE: without them, all frames together "
             "decide which code they show");
     }
+    if (arguments.threads != 1 &&
+        arguments.follower.options.locate.integrity.bits_per_error == kMeasuredErrorRate) {
+        throw BadArgument(
+            "--threads needs another --bits-per-error: the number is measured over all images in "
+            "their order");
+    }
     if (arguments.columns && arguments.lines.format != RecordFormat::csv) {
         throw BadArgument("--columns is for --format csv only");
     }

@@ -76,6 +76,9 @@ struct LatticeOptions {
     int max_offset_q16 = 24000;
 };
 
+/// Value of `bits_per_error`: a Locator measures the error rate over all its frames so far.
+inline constexpr int kMeasuredErrorRate = -1;
+
 /// Criteria for accepting a position. Positions that do not meet them are rejected as not_certain.
 struct IntegrityOptions {
     /// Maximum accepted bound on the probability that a fix is wrong, as log2. The default is
@@ -88,7 +91,9 @@ struct IntegrityOptions {
     /// Minimum number of bits per misread bit, on average over frames of the same print and camera.
     /// A known number reduces the safety margin, so smaller views are certain. If it is too large,
     /// p_wrong may be too small. 0 (the default) and 1 mean unknown: the error rate is estimated
-    /// from each frame alone. See docs/integrity.md, "Known error rate". [0 to 65536]
+    /// from each frame alone. With kMeasuredErrorRate, a Locator measures the number over its
+    /// frames, and a DeviceLocator treats it as unknown. See docs/integrity.md, "Known error rate"
+    /// and "Measured error rate". [-1 to 65536]
     int bits_per_error = 0;
 };
 

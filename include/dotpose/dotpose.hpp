@@ -4,6 +4,7 @@
 #include "dotpose/code.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/device_options.hpp"
+#include "dotpose/error_rate.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/frame_pacer.hpp"
 #include "dotpose/geometry.hpp"

@@ -21,6 +21,7 @@
 
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/device_options.hpp"
+#include "dotpose/error_rate.hpp"
 #include "dotpose/export.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
@@ -106,7 +107,8 @@ class Locator : public RowLocator {
     ~Locator() { delete owned_; }
 
     /// Sets the options for the following frames. Discards a frame that was begun but not finished.
-    /// Restarts the detection of the code, unless the options contain the code.
+    /// Restarts the measurement of the error rate and, unless the options contain the code, the
+    /// detection of the code.
     void set_options(const LocatorOptions& options) {
         set_fixed_options(options);
         detects_code_ = !options.code;
@@ -175,6 +177,14 @@ class Locator : public RowLocator {
     ///   image with few wrong bits.
     CodeReading locate_in_code(const ImageView& image);
 
+    /// Returns the bits of the last frame that were compared with the code: at its fix or, if no
+    /// fix was certain, at the position with the fewest wrong bits. Nothing is compared if no
+    /// position is found, or with Effort::device.
+    ComparedBits compared_bits() const;
+    /// Returns the error rate, measured over all frames since the options were set. Set
+    /// `bits_per_error` to kMeasuredErrorRate to use it.
+    const ErrorRate& error_rate() const { return error_rate_; }
+
     /// Starts an image that is pushed row by row, with or without a prediction. The locator stores
     /// the rows. Errors: bad_argument, image_too_small, image_too_large. An image is too large if
     /// it is wider than the memory supports, or if it has more pixels than the memory can store:
@@ -197,6 +207,9 @@ class Locator : public RowLocator {
     }
     void set_fixed_options(const DeviceOptions& options);
     core::DesktopWorkspace& workspace();
+    /// Returns the options for the next frame: `options_`, with the measured error rate if it is
+    /// wanted.
+    DeviceOptions options_of_frame() const;
     Fix locate_one(const ImageView& image, const Prediction* prediction);
     CodeReading read_one(const ImageView& image, const Prediction* prediction,
                          const CodeEvidence& evidence);
@@ -210,6 +223,7 @@ class Locator : public RowLocator {
     LargeMemory* owned_ = nullptr;
     bool detects_code_ = false;
     CodeEvidence evidence_;  ///< evidence from all images so far, if the code is detected
+    ErrorRate error_rate_;
 };
 
 /// A locator for microcontrollers with a camera that looks straight at the paper. Uses only integer

@@ -46,7 +46,9 @@ struct LocatorOptions {
     /// Minimum number of bits per misread bit, on average over frames of the same print and camera.
     /// A known number reduces the safety margin, so smaller views are certain. If it is too large,
     /// p_wrong may be too small. 0 (the default) and 1 mean unknown: the error rate is estimated
-    /// from each frame alone. See docs/integrity.md, "Known error rate". [0 to 65536]
+    /// from each frame alone. With kMeasuredErrorRate, the locator measures the number over all
+    /// frames so far. See docs/integrity.md, "Known error rate" and "Measured error rate".
+    /// [-1 to 65536]
     int bits_per_error = 0;
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast fails
     /// with no_contrast. Increase the value for noisy cameras. With the default of 0, each attempt
@@ -90,7 +92,7 @@ inline const char* bad_option(const LocatorOptions& options) {
         return "reference_dy_px";
     if (!is_in(options.max_p_wrong, 1e-300, 1)) return "max_p_wrong";
     if (!is_in(options.max_bit_errors, 0, 1)) return "max_bit_errors";
-    if (!is_in(options.bits_per_error, 0, 65536)) return "bits_per_error";
+    if (!is_in(options.bits_per_error, kMeasuredErrorRate, 65536)) return "bits_per_error";
     if (!is_in(options.min_contrast, 0, 255)) return "min_contrast";
     if (!is_in(options.min_dots, 0, 1 << 20)) return "min_dots";
     if (options.effort > Effort::twice) return "effort";

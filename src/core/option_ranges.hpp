@@ -36,7 +36,8 @@ constexpr bool all_options(const DeviceOptions& options, IsGood is_good) {
            is_good("lattice.max_offset_q16", options.lattice.max_offset_q16, 0, 32768) &&
            is_good("integrity.max_p_wrong_log2", options.integrity.max_p_wrong_log2, -kMax, 0) &&
            is_good("integrity.max_bit_error_q8", options.integrity.max_bit_error_q8, 0, 256) &&
-           is_good("integrity.bits_per_error", options.integrity.bits_per_error, 0, 65536) &&
+           is_good("integrity.bits_per_error", options.integrity.bits_per_error, kMeasuredErrorRate,
+                   65536) &&
            is_far_at_most("reference_dx_q8", options.reference_dx_q8, kFarthestReference_q8) &&
            is_far_at_most("reference_dy_q8", options.reference_dy_q8, kFarthestReference_q8) &&
            is_far_at_most("lens.centre_dx_q8", options.lens.centre_dx_q8, kFarthestLens_q8) &&

@@ -79,6 +79,8 @@ void Follower::use_sheets() {
 
 void Follower::use_options_for(int width_px, int height_px) {
     used_ = options_.locate;
+    int& bits_per_error = used_.integrity.bits_per_error;
+    if (bits_per_error == kMeasuredErrorRate) bits_per_error = error_rate_.bits_per_error();
     if (options_.camera) use_camera(*options_.camera, width_px, height_px, used_);
     // `space_pose` and `with_print_map` need the dots in the trace.
     if (options_.fits_space_pose || !options_.print_map.pages.empty()) used_.show_stages = true;
@@ -121,12 +123,15 @@ Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<Sh
                                          const CodeReading& reading) const {
     if (!options_.camera) {
         const MappedFix mapped = with_print_map(seen, options_.print_map, locator_.trace());
-        return {seen, mapped.fix, place, reading, {}, {}, mapped.use};
+        return {seen, mapped.fix, place, reading, {}, {}, mapped.use, locator_.compared_bits()};
     }
     const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
     const auto [fix, velocity, map_use] =
         with_camera_and_map(seen, *options_.camera, locator_.trace(), print, options_.print_map);
-    return {seen, fix, place, reading, velocity, space_of(seen, place, map_use), map_use};
+    return {seen,     fix,
+            place,    reading,
+            velocity, space_of(seen, place, map_use),
+            map_use,  locator_.compared_bits()};
 }
 
 /// Returns the pose in space for the latest fix. Uses the print map if the fix used it.

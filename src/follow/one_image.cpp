@@ -19,6 +19,7 @@ Located Follower::locate(const GreyImage& image) {
         image_ = reduced_.view();
     }
     const Found found = read();
+    error_rate_.add(found.compared);
     Located result = located(found, in_whole_pixels(found.fix, by));
     result.reduced_by = by;
     if (result.tip) result.is_pen_down = PenContact().take(*result.tip);

@@ -30,6 +30,7 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
         // result. With a prediction, the result would already depend on the prior.
         found = find(options_.track.max_weak_p_wrong_log2, {});
     }
+    error_rate_.add(found.compared);
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);

@@ -32,6 +32,7 @@ std::span<const CodeVariant> Attempts::codes_for(Step step) const {
 /// that the previous attempt stored for the other codes.
 Frame Attempts::frame_in(CodeVariant code) {
     options_.code = code;
+    w_.measurement.compared = {};
     if (w_.other_codes.are_wanted) w_.other_codes.of = {};
     // The certainty tests bound the probability of a wrong position in a single code. If several
     // codes are possible, the tests multiply this bound by the weighted number of codes (see
@@ -50,6 +51,15 @@ bool Attempts::track(const Prediction& prediction) {
 bool Attempts::make(Step step, CodeVariant code) {
     Frame frame = frame_in(code);
     frame.defers_if_rough = step == Step::first && may_try_twice();
+    const bool is_made = make(step, frame);
+    const ComparedBits& compared = w_.measurement.compared;
+    if (compared.count > 0 &&
+        (w_.compared_bits.count == 0 || compared.wrong < w_.compared_bits.wrong))
+        w_.compared_bits = compared;
+    return is_made;
+}
+
+bool Attempts::make(Step step, const Frame& frame) {
     switch (step) {
         case Step::first:
         case Step::complete_first:

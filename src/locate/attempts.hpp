@@ -67,6 +67,7 @@ class Attempts {
   private:
     Frame frame() const { return w_.frame(kernels(), image_, options_); }
     Frame frame_in(CodeVariant code);
+    bool make(Step step, const Frame& frame);
     bool make_second(const Frame& frame);
     bool make_as_device();
 

@@ -294,8 +294,10 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
             if (++looks == tuned::kMaxLooks) return Confirmation::implausible;
             continue;
         }
+        if (decides)
+            measurement.compared = {hypothesis.place.cell, 2 * bits.read,
+                                    bits.wrong_x + bits.wrong_y};
         if (decides && !hypothesis.is_certain) {
-            measurement.bits = 2 * bits.read;
             // A second attempt usually replaces a rough fix, so its place need not be confirmed.
             if (may_defer(frame, hypothesis, evidence) &&
                 is_rough(std::sqrt(pose.variance) * spacing, spacing)) {

@@ -4,6 +4,7 @@
 
 #include "core/patch_memory.hpp"
 #include "core/pose/turn_fit.hpp"
+#include "dotpose/error_rate.hpp"
 #include "dotpose/fix.hpp"
 #include "locate/frame.hpp"
 #include "locate/hypothesis.hpp"
@@ -59,9 +60,9 @@ struct Measurement {
     Hypothesis hypothesis;              ///< confirmed hypothesis, with the fitted plane
     PlaneFromImage pattern_from_image;  ///< plane of `hypothesis`, in fixed point
     TurnFit turn;                       ///< fitted rotation, if `Frame::removed_turn` is not null
-    /// Number of bits that were used to decide whether the place is certain, two per dot. Not set
-    /// if `Hypothesis::is_certain` is true.
-    int bits = 0;
+    /// Bits that were used to decide whether the place is certain. None if the hypothesis is
+    /// implausible.
+    ComparedBits compared;
     /// True if the frame shows too few cells for a reliable position, so further attempts are
     /// skipped. `confirm` sets this flag only if its result is `too_few_bits` and at least one of
     /// these conditions holds: the view is small, bits were read from dots that are cut off by the

@@ -42,6 +42,7 @@ class Cascade {
     /// Locates the frame. The arguments of the constructor must be valid.
     CodeReading locate(const Prediction* prediction) {
         w_.is_mirrored = w_.measurement.shows_too_few_cells = false;
+        w_.compared_bits = {};
         w_.work = WorkLimit(WorkLimit::kOfFrame);
         const auto tracked = track(prediction);
         CodeReading reading =
@@ -166,6 +167,7 @@ class Cascade {
 
     CodeReading accept(CodeVariant code, const Judgement& judgement) {
         w_.fix.p_wrong_log2 = judgement.p_wrong_log2;
+        w_.compared_bits = w_.measurement.compared;
         CodeReading reading{w_.fix, code, evidence_};
         if (!codes_.is_known())
             reading.evidence.add(w_.fix.cell, likelihoods(code, w_.other_codes));

@@ -34,6 +34,18 @@ void Locator::set_fixed_options(const DeviceOptions& options) {
     RowLocator::set_options(options);
     detects_code_ = false;
     evidence_ = {};
+    error_rate_ = {};
+}
+
+DeviceOptions Locator::options_of_frame() const {
+    DeviceOptions options = options_;
+    int& bits_per_error = options.integrity.bits_per_error;
+    if (bits_per_error == kMeasuredErrorRate) bits_per_error = error_rate_.bits_per_error();
+    return options;
+}
+
+ComparedBits Locator::compared_bits() const {
+    return static_cast<const core::DesktopWorkspace&>(*workspace_).compared_bits;
 }
 
 core::DesktopWorkspace& Locator::workspace() {
@@ -42,7 +54,8 @@ core::DesktopWorkspace& Locator::workspace() {
 
 Fix Locator::locate_one(const ImageView& image, const Prediction* prediction) {
     if (!detects_code_) {
-        core::locate(image, options_, prediction, workspace());
+        core::locate(image, options_of_frame(), prediction, workspace());
+        error_rate_.add(compared_bits());
         return finished();
     }
     const CodeReading reading = read_one(image, prediction, evidence_);
@@ -52,7 +65,8 @@ Fix Locator::locate_one(const ImageView& image, const Prediction* prediction) {
 
 CodeReading Locator::read_one(const ImageView& image, const Prediction* prediction,
                               const CodeEvidence& evidence) {
-    return finished(core::locate_in_any_code(image, options_, prediction, evidence, workspace()));
+    return finished(
+        core::locate_in_any_code(image, options_of_frame(), prediction, evidence, workspace()));
 }
 
 std::optional<Prediction> Locator::begin_motion(const MeasuredMotion& since_last) {
@@ -85,6 +99,7 @@ Fix Locator::locate(const ImageView& image, const MeasuredMotion& since_last) {
 }
 
 CodeReading Locator::finished(CodeReading reading) {
+    error_rate_.add(compared_bits());
     options_.code = reading.code;
     workspace().fix = reading.fix;
     reading.fix = finished();
@@ -112,7 +127,7 @@ CodeReading Locator::locate_in_any_code(const ImageView& image, const MeasuredMo
 
 CodeReading Locator::locate_in_code(const ImageView& image) {
     workspace().earlier.clear();
-    return finished(core::locate_in_code(image, options_, workspace()));
+    return finished(core::locate_in_code(image, options_of_frame(), workspace()));
 }
 
 Status Locator::begin(int width_px, int height_px) {

@@ -47,6 +47,14 @@ Status decode(const DeviceOptions& options, const Grid& grid, std::span<ScoredLi
     return decode_all(grid, options.code, line_scores, decoding);
 }
 
+/// Returns the place of the cell in the middle of the decoded region.
+Place middle_place(CodeVariant code, const Decoding& decoding) {
+    const GridRegion& region = decoding.region;
+    const FixedVec middle =
+        decoding.pattern_from_grid({region.i0 + region.columns / 2, region.j0 + region.rows / 2});
+    return moved(code, decoding.place, middle.x, middle.y);
+}
+
 /// Returns true if the pixel bias of the fix may be significant. The dots are then measured again
 /// in the same way as in the tracked attempt, which corrects the bias.
 bool may_be_biased(const Fix& fix, const PlaneFromImage& plane, const ImageView& image) {
@@ -132,6 +140,9 @@ Status SecondAttempt::read_position(const PlaceEvidence& evidence) {
     if (status != Status::ok && known.any() &&
         read_on_sheets(kernels, options, grid, known, decoding, w_.fix))
         status = Status::ok;
+    if (decoding.bits > 0)
+        w_.measurement.compared = {middle_place(options.code, decoding).cell, decoding.bits,
+                                   w_.fix.bit_errors};
     return status == Status::ok ? status : refused(status, w_);
 }
 
@@ -203,7 +214,6 @@ bool SecondAttempt::read(const Frame& frame, Resampling resampling) {
     if (status != Status::ok) return false;
     weigh_other_codes(frame.kernels, w_.grid, frame.options.code, w_.decoding, w_.line_scores,
                       evidence.others);
-    w_.measurement.bits = w_.decoding.bits;
     if (may_be_biased(w_.fix, w_.pattern_from_image, frame.image) &&
         measure_again(frame, evidence, w_.measurement, w_.fix))
         store_for_trace(w_.measurement, frame.options.show_stages, w_);

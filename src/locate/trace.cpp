@@ -73,7 +73,7 @@ void store_for_trace(const Measurement& measurement, bool with_dots, Workspace& 
     w.pattern_from_image = measurement.pattern_from_image;
     w.decoding.place = measurement.hypothesis.place;
     w.decoding.pattern_from_grid = {};
-    w.decoding.bits = measurement.bits;
+    w.decoding.bits = measurement.compared.count;
     if (!with_dots) return;
     w.dot_count = store_dots(measurement, w.grid, w.dots);
     w.decoding.region = {w.grid.i0, w.grid.j0, w.grid.columns, w.grid.rows};

@@ -34,6 +34,7 @@ struct DesktopWorkspace : DeviceWorkspace {
     PushedImage pushed;
     std::span<std::uint8_t> rolling_pixels;  ///< memory for the derotated image
     bool is_mirrored = false;                ///< true if an attempt found the mirrored code
+    ComparedBits compared_bits;              ///< see `Locator::compared_bits`
 
     /// Sets the known sheets. On known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {

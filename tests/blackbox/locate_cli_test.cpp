@@ -76,9 +76,13 @@ TEST_F(LocateCommand, a_known_error_rate_locates_smaller_views) {
     };
     EXPECT_LE(located(""), 12);
     EXPECT_GE(located(" --bits-per-error 1000"), 15);
+    EXPECT_GT(located(" --bits-per-error measured"), located(""));
     run("--bits-per-error 65537" + names);
     EXPECT_EQ(exit_code_, 2);
-    EXPECT_THAT(errors_, HasSubstr("--bits-per-error"));
+    EXPECT_THAT(errors_, HasSubstr("'65537' is neither 'measured' nor a number"));
+    run("--code anoto --threads 2 --bits-per-error measured" + names);
+    EXPECT_EQ(exit_code_, 2);
+    EXPECT_THAT(errors_, HasSubstr("--threads needs another --bits-per-error"));
 }
 
 TEST_F(LocateCommand, shows_six_decimals_of_positions) {

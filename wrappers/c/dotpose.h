@@ -120,6 +120,9 @@ enum {
     DOTPOSE_CODE_MICRODOTS = 2 /* printed by py-microdots */
 };
 
+/* Value of `bits_per_error` in options: measure the error rate over all frames so far. */
+#define DOTPOSE_MEASURED_ERROR_RATE (-1)
+
 #define DOTPOSE_POSITIONS_PER_AXIS 410815348u
 #define DOTPOSE_SECTIONS 63u
 
@@ -357,7 +360,8 @@ typedef struct dotpose_options {
     int32_t min_contrast;     /* 80: minimum contrast, in grey levels; default 0 */
     int32_t min_dots;         /* 84: minimum number of dots; default 40 */
     int32_t show_stages;      /* 88: if 1, keeps all dots for dotpose_dots (slower); default 0 */
-    int32_t bits_per_error;   /* 92: minimum number of bits per misread bit; default 0, unknown */
+    int32_t bits_per_error;   /* 92: minimum number of bits per misread bit; default 0, unknown;
+                               *     DOTPOSE_MEASURED_ERROR_RATE measures it over all frames */
 } dotpose_options;
 
 /* Sets the default options. `bytes` is the caller's sizeof(dotpose_options). */

@@ -132,7 +132,7 @@ class Follower {
 
     /// Locates a single image, without a prediction from previous images. Downscales images larger
     /// than `kMaxFrameSide_px`, unless there is a camera file. Only the evidence for the code
-    /// variant is carried over from image to image.
+    /// variant and the measured error rate are carried over from image to image.
     Located locate(const GreyImage& image);
 
     /// Locates the next image of a sequence, taken at `time_us`. Uses the previous images to
@@ -178,6 +178,7 @@ class Follower {
         std::optional<ReadoutVelocity> velocity;
         std::optional<SpacePose> space;
         MapUse map_use = MapUse::no_map;
+        ComparedBits compared;
     };
     /// The result for the latest image with a fix.
     struct Seen {
@@ -225,6 +226,7 @@ class Follower {
     /// last fix. If empty, all code variants are tried.
     std::vector<CodeVariant> codes_;
     CodeEvidence evidence_;       ///< evidence for the code variant, from the previous images
+    ErrorRate error_rate_;        ///< measured over the previous images
     double unplaced_spacing_mm_;  ///< spacing for a fix that is not on any sheet
     bool is_in_world_ = false;
     DeviceOptions used_;

@@ -47,7 +47,7 @@ const Range kRanges[] = {
     {FIELD(lattice.max_offset_q16), 0, 32768},
     {FIELD(integrity.max_p_wrong_log2), -1048576, 0},
     {FIELD(integrity.max_bit_error_q8), 0, 256},
-    {FIELD(integrity.bits_per_error), 0, 65536},
+    {FIELD(integrity.bits_per_error), -1, 65536},
     {FIELD(max_dots), INT_MIN, INT_MAX},
     {FIELD(spacing_nm), INT_MIN, INT_MAX},
     {FIELD(reference_dx_q8), -4194304, 4194304},

@@ -1,4 +1,6 @@
-// Tests that small views are located if the rate of misread bits is known.
+// Tests that small views are located if the rate of misread bits is known or measured.
+#include "dotpose/error_rate.hpp"
+
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -10,16 +12,16 @@ namespace {
 
 constexpr std::uint64_t kSeed = 4243;
 
-/// Returns the number of located frames of 96 x 96 px. Expects all fixes to be correct.
-int located(int bits_per_error, int frames) {
-    DeviceOptions options;
-    options.integrity.bits_per_error = bits_per_error;
-    const auto memory = std::make_unique<LargeMemory>();
-    Locator locator(*memory, options);
+Shot shot_of_small_view(int index) {
+    return shot_of({.width_px = 96, .height_px = 96}, kSeed, static_cast<std::uint64_t>(index));
+}
+
+/// Returns the number of located frames of 96 x 96 px, from `first` to `end` - 1. Expects all fixes
+/// to be correct.
+int located(Locator& locator, int first, int end) {
     int count = 0;
-    for (int i = 0; i < frames; ++i) {
-        const Shot shot =
-            shot_of({.width_px = 96, .height_px = 96}, kSeed, static_cast<std::uint64_t>(i));
+    for (int i = first; i < end; ++i) {
+        const Shot shot = shot_of_small_view(i);
         const Fix fix = locator.locate(render(shot).view());
         if (fix.status != Status::ok) continue;
         ++count;
@@ -29,14 +31,104 @@ int located(int bits_per_error, int frames) {
     return count;
 }
 
+DeviceOptions with_bits_per_error(int bits_per_error) {
+    DeviceOptions options;
+    options.integrity.bits_per_error = bits_per_error;
+    return options;
+}
+
+class SmallViews : public testing::Test {
+  protected:
+    int located(int bits_per_error, int frames) {
+        Locator locator(*memory_, with_bits_per_error(bits_per_error));
+        return error_rate_test::located(locator, 0, frames);
+    }
+    std::unique_ptr<LargeMemory> memory_ = std::make_unique<LargeMemory>();
+};
+
 /// In nominal frames of this spacing, one bit in 30,000 is misread.
-TEST(ErrorRate, AKnownOneMakesSmallViewsCertain) {
+TEST_F(SmallViews, AreCertainWithAKnownErrorRate) {
     constexpr int kFrames = 100;
     const int unknown = located(0, kFrames);
     EXPECT_LT(unknown, kFrames / 2);
     EXPECT_EQ(located(1, kFrames), unknown) << "one bit in one: nothing is known";
     EXPECT_GE(located(1000, kFrames), kFrames * 85 / 100);
     EXPECT_GE(located(10000, kFrames), kFrames * 88 / 100);
+}
+
+TEST_F(SmallViews, AreCertainOnceTheErrorRateIsMeasured) {
+    Locator locator(*memory_, with_bits_per_error(kMeasuredErrorRate));
+    EXPECT_EQ(locator.error_rate().bits_per_error(), 0);
+    error_rate_test::located(locator, 0, 50);
+    EXPECT_GT(locator.error_rate().bits_per_error(), 500);
+    EXPECT_GE(error_rate_test::located(locator, 50, 150), 88);
+    locator.set_options(with_bits_per_error(kMeasuredErrorRate));
+    EXPECT_EQ(locator.error_rate().bits_per_error(), 0) << "new options start a new measurement";
+}
+
+/// If only the frames with a fix were counted, the error rate would seem lower than it is, because
+/// frames with wrong bits are refused more often.
+TEST_F(SmallViews, CountIfTheyAreRefused) {
+    Locator locator(*memory_, with_bits_per_error(0));
+    int refused = 0;
+    for (int i = 0; i < 30; ++i) {
+        const Fix fix = locator.locate(render(shot_of_small_view(i)).view());
+        EXPECT_GT(locator.compared_bits().count, 120) << "frame " << i;
+        refused += fix.status == Status::not_certain ? 1 : 0;
+    }
+    EXPECT_GT(refused, 10);
+    const GreyImage white{std::vector<std::uint8_t>(96 * 96, 255), 96, 96};
+    EXPECT_NE(locator.locate(white.view()).status, Status::ok);
+    EXPECT_EQ(locator.compared_bits().count, 0);
+}
+
+/// Adds `frames` frames of 150 bits at different places.
+void add_frames(int frames, int wrong_bits, ErrorRate& rate) {
+    static std::uint32_t x = 0;
+    for (int i = 0; i < frames; ++i)
+        rate.add({.cell = {x += 1000, 7}, .count = 150, .wrong = wrong_bits});
+}
+
+TEST(ErrorRate, IsAnUpperLimitFromTheCounts) {
+    ErrorRate rate;
+    EXPECT_EQ(rate.bits_per_error(), 0);
+    add_frames(1, 0, rate);
+    EXPECT_EQ(rate.bits_per_error(), 0) << "the next frame may show the same dots";
+    add_frames(20, 0, rate);
+    EXPECT_EQ(rate.bits_per_error(), 20 * 150 / 3);
+    add_frames(1, 4, rate);
+    EXPECT_EQ(rate.bits_per_error(), 21 * 150 / (4 + 2 * 2 + 3)) << "wrong bits count at once";
+    rate.add({});
+    EXPECT_EQ(rate.bits_per_error(), 21 * 150 / (4 + 2 * 2 + 3)) << "nothing was compared";
+}
+
+TEST(ErrorRate, CountsAPlaceOnce) {
+    ErrorRate rate;
+    for (std::uint32_t i = 0; i < 1000; ++i)
+        rate.add({.cell = {5000 + i % 10, 410'815'340 + i % 7}, .count = 150, .wrong = 0});
+    EXPECT_EQ(rate.bits_per_error(), 0);
+    rate.add({.cell = {5003, 2}, .count = 150, .wrong = 1});  // rows of the plane are cyclic
+    add_frames(1, 0, rate);
+    EXPECT_EQ(rate.bits_per_error(), 150 / (1 + 2 + 3));
+}
+
+/// A slow camera moves by less than its view from frame to frame.
+TEST(ErrorRate, CountsASlowCameraAtEachPlace) {
+    ErrorRate rate;
+    for (std::uint32_t i = 0; i < 1000; ++i)
+        rate.add({.cell = {5000 + i, 40}, .count = 150, .wrong = 0});
+    // Frames closer than sqrt(2 * 150) = 17 cells may show the same dots.
+    EXPECT_EQ(rate.bits_per_error(), 999 / 17 * 150 / 3);
+}
+
+TEST(ErrorRate, ForgetsOldFrames) {
+    ErrorRate rate;
+    add_frames(2000, 5, rate);
+    EXPECT_LT(rate.bits_per_error(), 30);
+    add_frames(2000, 0, rate);
+    EXPECT_GT(rate.bits_per_error(), 2000);
+    add_frames(100'000, 0, rate);
+    EXPECT_LE(rate.bits_per_error(), (1 << 15) / 3);
 }
 
 }  // namespace

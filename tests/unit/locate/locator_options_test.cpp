@@ -100,7 +100,7 @@ TEST(LocatorOptions, ABadOneIsNamedAndRefused) {
         {MEMBER(max_p_wrong), 1e-300, 1},
         {MEMBER(max_bit_errors), 0, 1},
         {"bits_per_error",
-         [](LocatorOptions& o, double v) { o.bits_per_error = static_cast<int>(v); }, 0, 65536},
+         [](LocatorOptions& o, double v) { o.bits_per_error = static_cast<int>(v); }, -1, 65536},
         {"min_contrast", [](LocatorOptions& o, double v) { o.min_contrast = static_cast<int>(v); },
          0, 255},
         {"min_dots", [](LocatorOptions& o, double v) { o.min_dots = static_cast<int>(v); }, 0,

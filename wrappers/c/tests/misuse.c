@@ -117,6 +117,8 @@ static void options(void) {
     EXPECT(OK, dotpose_set_options(locator, NULL));
     EXPECT(NULL_POINTER, dotpose_set_options(NULL, &good));
     dotpose_locator_destroy(locator);
+    good.bits_per_error = DOTPOSE_MEASURED_ERROR_RATE;
+    CHECK(dotpose_bad_option(&good) == NULL);
     bad = good;
     bad.bits_per_error = 65537;
     EXPECT(BAD_ARGUMENT, dotpose_locator_create(DOTPOSE_KIND_LARGE, &bad, &locator));

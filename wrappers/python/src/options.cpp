@@ -66,7 +66,7 @@ void define_options(py::module_& module) {
         .def_readwrite("bits_per_error", &Given::bits_per_error,
                        "Minimum number of bits per misread bit, on average over frames of the "
                        "same print and camera. A known number makes smaller views certain. 0 if "
-                       "unknown. [0 to 65536]")
+                       "unknown. -1 measures the number over all frames so far. [-1 to 65536]")
         .def_readwrite("lens_k_per_px2", &Given::lens_k_per_px2,
                        "Radial distortion k in 1/px^2 (eq. 2 of the paper); negative for barrel "
                        "distortion. Set by a "

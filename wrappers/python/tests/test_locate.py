@@ -218,13 +218,24 @@ def test_options_have_the_defaults_of_cpp_and_are_checked(frames):
         dotpose.Options(effort="thrice")
     image = frames[0].image
     with pytest.raises(dotpose.BadArgument, match="bits_per_error"):
-        dotpose.Locator(options=dotpose.Options(bits_per_error=-1))
+        dotpose.Locator(options=dotpose.Options(bits_per_error=-2))
     strict = dotpose.Locator(options=dotpose.Options(max_p_wrong=1e-60))
     assert strict.locate(image).status == "not_certain"
     pale = dotpose.Locator(options=dotpose.Options(min_contrast=250))
     assert pale.locate(image).status == "no_contrast"
     with pytest.raises(dotpose.BadArgument, match="min_contrast"):
         dotpose.Locator(options=dotpose.Options(min_contrast=256))
+
+
+def test_a_measured_error_rate_makes_small_views_certain():
+    small = dotpose.simulate(60, seed=5, width_px=96, height_px=96)
+
+    def located(bits_per_error):
+        options = dotpose.Options(bits_per_error=bits_per_error)
+        locator = dotpose.Locator(options=options, code="anoto")
+        return sum(locator.locate(frame.image).ok for frame in small)
+
+    assert located(-1) > 2 * located(0)
 
 
 def test_errors_are_a_family():

@@ -51,9 +51,10 @@ export interface LocatorOptions {
     max_p_wrong?: number;
     /**
      * Minimum number of bits per misread bit, on average over frames of the same print and camera.
-     * A known number makes smaller views certain. 0 to 65536. Default: 0, which means unknown.
+     * A known number makes smaller views certain. 0 to 65536. "measured" measures the number over all
+     * frames so far. Default: 0, which means unknown.
      */
-    bits_per_error?: number;
+    bits_per_error?: number | "measured";
     /**
      * Sheets that may be in view. About 30 dots in view, in images of at least 24 x 24 px, are then
      * enough for a fix. Default: none, which makes all places possible.

@@ -11,13 +11,17 @@ const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
 const kLensCentreOffset = 32;
 const kPointerBytes = 4;
 const kDetectCode = -1;
+const kMeasuredErrorRate = -1;
 
 /** Sets up a locator and returns its address. Throws RangeError for invalid options. */
 export function newLocator(core: Instance, options: LocatorOptions): number {
     const { attempts = 2, bits_per_error = 0, code = "auto" } = options;
     if (attempts !== 1 && attempts !== 2) throw new RangeError(`attempts are 1 or 2, not ${String(attempts)}`);
-    if (!Number.isInteger(bits_per_error) || bits_per_error < 0 || bits_per_error > 65536) {
-        throw new RangeError(`bits_per_error is an integer from 0 to 65536, not ${String(bits_per_error)}`);
+    const isInRange = Number.isInteger(bits_per_error) && bits_per_error >= 0 && bits_per_error <= 65536;
+    if (bits_per_error !== "measured" && !isInRange) {
+        throw new RangeError(
+            `bits_per_error is "measured" or an integer from 0 to 65536, not ${String(bits_per_error)}`,
+        );
     }
     const given = core.reserve(kOptionsBytes);
     callOk(core, "dotpose_options_init", given, kOptionsBytes);
@@ -27,7 +31,7 @@ export function newLocator(core: Instance, options: LocatorOptions): number {
     set("code", code === "auto" ? kDetectCode : codeNumber(code));
     set("show_stages", options.dots || options.space || options.print_map ? 1 : 0);
     set("effort", attempts);
-    set("bits_per_error", bits_per_error);
+    set("bits_per_error", bits_per_error === "measured" ? kMeasuredErrorRate : bits_per_error);
     for (const name of Object.keys(kDoubleOffsets) as (keyof typeof kDoubleOffsets)[]) {
         const value = options[name];
         if (value !== undefined) view.setFloat64(kDoubleOffsets[name], value, true);

@@ -160,6 +160,8 @@ describe("Locator", () => {
         assert.ok(Math.abs(wide.x_mm - 2 * 560) < 0.006);
         await assert.rejects(Locator.create({ code: "morse" }), RangeError);
         await assert.rejects(Locator.create({ max_p_wrong: 2 }), RangeError);
+        await Locator.create({ bits_per_error: "measured" });
+        await assert.rejects(Locator.create({ bits_per_error: "unknown" }), RangeError);
         await assert.rejects(Locator.create({ bits_per_error: 65537 }), RangeError);
         await assert.rejects(Locator.create({ bits_per_error: 0.001 }), RangeError);
         await assert.rejects(Locator.create({ attempts: 0 }), RangeError);
