@@ -28,9 +28,10 @@ class PlaceList {
     }
     /// Computes the roll offsets and keys of the listed places.
     void set_offsets(const RankedLines& lines, std::size_t sequence, const Gaps& gaps) {
+        const RelativeOffsets set_relative(lines.ratios, sequence, gaps.before[0]);
         for (std::size_t n = 0; n < count_; ++n) {
             RollOffsets& offsets = offsets_[n];
-            set_relative_offsets(lines.ratios, sequence, places_[n], gaps.before[0], offsets);
+            set_relative(places_[n], offsets);
             const auto across = [&](std::size_t gap) {
                 return roll_offset(offsets[static_cast<std::size_t>(gaps.before[gap])],
                                    offsets[static_cast<std::size_t>(gaps.after[gap])]);

@@ -31,30 +31,54 @@ inline Bytes bytes_at(const RollOffsets& offsets, std::size_t line) {
 
 /// Reduces roll offsets modulo kSections. The arguments must be less than 2 * kSections.
 inline Bytes modulo_sections(Bytes offsets) {
-    return offsets - (static_cast<Bytes>(offsets >= kSections) & kSections);
+    // The difference wraps around, and is the larger number, if the offset needs no reduction.
+    const Bytes reduced = offsets - kSections;
+    return reduced < offsets ? reduced : offsets;
 }
 
-/// Sets the roll offsets of the single alternative at `place` in `sequence`. The shift is the one
-/// at which the alternative shares the line `shared`.
-inline void set_relative_offsets(const LikelihoodRatios& ratios, std::size_t sequence,
-                                 std::uint32_t place, int shared, RollOffsets& offsets) {
-    const std::uint8_t* const own = ratios.basis[sequence].rolls + ratios.places[sequence];
-    const std::uint8_t* const alternative = ratios.basis[sequence].rolls + place;
-    const auto back =
-        static_cast<std::uint8_t>(kSections - roll_offset(own[shared], alternative[shared]));
-    // Like the loop in `RankedLines::set_offsets`, this loop also accesses elements beyond the last
-    // line.
-    for (std::size_t line = 0; line < static_cast<std::size_t>(ratios.count());
-         line += sizeof(Bytes)) {
-        Bytes from;
-        Bytes to;
-        std::memcpy(&from, own + line, sizeof from);
-        std::memcpy(&to, alternative + line, sizeof to);
-        const Bytes offset = to - from + (static_cast<Bytes>(to < from) & kSections);
-        const Bytes relative = modulo_sections(offset + back);
-        std::memcpy(offsets.data() + line, &relative, sizeof relative);
-    }
+/// Returns the set of the lines whose roll offset is 0. Bit 0 represents the first of the 16 lines.
+inline LineSet shared_lines(const Bytes& offsets) {
+    constexpr Bytes kBitOfLine{1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
+    const Bytes bits = static_cast<Bytes>(offsets == 0) & kBitOfLine;
+    std::array<std::uint64_t, 2> halves;
+    std::memcpy(halves.data(), &bits, sizeof bits);
+    // The multiplication adds up the bytes, in either byte order.
+    constexpr std::uint64_t kOnes = 0x0101010101010101;
+    return halves[0] * kOnes >> 56 | halves[1] * kOnes >> 56 << 8;
 }
+
+/// Roll offsets of the single alternatives in one sequence, each at the shift at which it shares a
+/// given line.
+class RelativeOffsets {
+  public:
+    RelativeOffsets(const LikelihoodRatios& ratios, std::size_t sequence, int shared)
+        : rolls_(ratios.basis[sequence].rolls),
+          own_(rolls_ + ratios.places[sequence]),
+          count_(static_cast<std::size_t>(ratios.count())),
+          shared_(shared) {}
+
+    /// Sets `offsets` to the roll offsets of the alternative at `place`.
+    void operator()(std::uint32_t place, RollOffsets& offsets) const {
+        const std::uint8_t* const alternative = rolls_ + place;
+        const std::uint8_t back = roll_offset(alternative[shared_], own_[shared_]);
+        // Like the loop in `RankedLines::set_offsets`, this loop also accesses elements beyond the
+        // last line.
+        for (std::size_t line = 0; line < count_; line += sizeof(Bytes)) {
+            Bytes from;
+            Bytes to;
+            std::memcpy(&from, own_ + line, sizeof from);
+            std::memcpy(&to, alternative + line, sizeof to);
+            const Bytes relative = modulo_sections(modulo_sections(to - from + kSections) + back);
+            std::memcpy(offsets.data() + line, &relative, sizeof relative);
+        }
+    }
+
+  private:
+    const std::uint8_t* rolls_;
+    const std::uint8_t* own_;  ///< rolls at the place of the reading
+    std::size_t count_;
+    int shared_;
+};
 
 /// Finds the places that have the same digits as the reading at selected steps. Two positions can
 /// share two adjacent lines only if, at the step between these lines, they have the same digit in

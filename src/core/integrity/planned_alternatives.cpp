@@ -7,6 +7,7 @@
 
 #include "core/integrity/line_sets.hpp"
 #include "core/integrity/set_plan.hpp"
+#include "core/integrity/similar_places.hpp"
 #include "core/math/odds.hpp"
 
 namespace dotpose::core {
@@ -28,9 +29,20 @@ constexpr int kSkippedBits = 46;
 
 /// The key of a place is kKeyStep * first + second. `first` and `second` are the roll offsets
 /// directly after the first gap and directly after the second gap, relative to the first shared
-/// line. The sum of two keys is less than kKeys, because both offsets are less than kSections.
-constexpr std::size_t kKeyStep = 128;
-constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
+/// line.
+constexpr std::uint32_t kKeyStep = 128;
+constexpr std::uint32_t kKeys = kKeyStep * (kSections + 1);
+
+/// Adds both offsets of two keys modulo kSections. The offsets of the result are one larger: they
+/// are in [1, kSections].
+constexpr std::uint32_t sum_of_keys(std::uint32_t a, std::uint32_t b) {
+    constexpr std::uint32_t kOnes = kKeyStep + 1;
+    // Each offset of this sum is in [1, 125]. Because 64 is 1 modulo 63, adding bit 6 to the other
+    // bits reduces the offset.
+    const std::uint32_t sum = a + b + kOnes;
+    return (sum & kSections * kOnes) + (sum >> 6 & kOnes);
+}
+static_assert(kSections == 63);
 
 /// Number of packed lines. Their roll offsets are packed into one word. For each alternative,
 /// `SetSearch` first computes the loss in these lines alone.
@@ -88,28 +100,29 @@ class KeyedPlaces {
     void list(const RankedLines& lines, std::size_t sequence, const PlaceBits& places,
               const Pattern& pattern, bool negates) {
         const Gaps& gaps = pattern.gaps;
-        count_ = 0;
-        for (std::size_t word = 0; word < places.size(); ++word) {
-            for (std::uint32_t rest = places[word]; rest != 0; rest &= rest - 1) {
-                places_[count_] = static_cast<std::uint8_t>(
-                    32 * word + static_cast<std::size_t>(std::countr_zero(rest)));
-                RollOffsets& offsets = offsets_[count_];
-                set_relative_offsets(lines.ratios, sequence, places_[count_], gaps.before[0],
-                                     offsets);
+        const RelativeOffsets set_offsets(lines.ratios, sequence, gaps.before[0]);
+        std::size_t n = 0;
+        const std::uint32_t words = lines.ratios.basis[sequence].length / 32 + 1U;
+        for (std::uint32_t word = 0; word < words; ++word) {
+            visit_places(places[word], word, [&](std::uint32_t place) {
+                places_[n] = static_cast<std::uint8_t>(place);
+                RollOffsets& offsets = offsets_[n];
+                set_offsets(place, offsets);
                 const auto change = [&](std::size_t gap) -> std::size_t {
                     const std::size_t offset = offsets[static_cast<std::size_t>(gaps.after[gap])];
                     return negates && offset != 0 ? kSections - offset : offset;
                 };
-                keys_[count_] = static_cast<std::uint16_t>(kKeyStep * change(0) + change(1));
-                packed_[count_++] = pattern.packed(offsets);
-            }
+                keys_[n] = static_cast<std::uint16_t>(kKeyStep * change(0) + change(1));
+                packed_[n++] = pattern.packed(offsets);
+            });
         }
+        count_ = n;
     }
     std::size_t count() const { return count_; }
     std::uint8_t place(std::size_t n) const { return places_[n]; }
     /// Returns the roll offsets of a place relative to the first shared line.
     const RollOffsets& offsets(std::size_t n) const { return offsets_[n]; }
-    std::size_t key(std::size_t n) const { return keys_[n]; }
+    std::span<const std::uint16_t> keys() const { return std::span(keys_).first(count_); }
     std::uint32_t packed(std::size_t n) const { return packed_[n]; }
 
   private:
@@ -141,17 +154,17 @@ class SetSearch {
         newest_.fill(kNone);
     }
 
-    /// Adds the odds of the far alternatives that share all lines of `sets[n]`. Skips alternatives
+    /// Adds the odds of the far alternatives that share all lines of `shared`. Skips alternatives
     /// that share all lines of an earlier set, because they have already been added. The set must
     /// not be empty. Returns false if the search must end, because the sum exceeds `max_odds` or
     /// because the search would exceed its work limit.
-    bool add(std::span<const PlannedSet> sets, std::size_t n) {
-        earlier_ = sets.first(n);
-        const LineSet shared = sets[n].shared;
+    bool add(LineSet shared) {
+        earlier_ = searched_.sets();
+        if (!searched_.add(shared)) return true;
         PlaceSets places = equal_places_.all();
         for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1)
             equal_places_.keep_equal(static_cast<std::size_t>(std::countr_zero(steps)), places);
-        if (equal_places_.count_different(places) < 2) return work_.spend(kWorkPerSet);
+        if (equal_places_.count_different(places) < 2) return spend(0, 0, 0, 0);
         const Pattern pattern(lines_, shared);
         if (!list(places, pattern)) return false;
         add_matches(pattern);
@@ -162,7 +175,6 @@ class SetSearch {
     }
 
   private:
-    static constexpr std::size_t kWorkPerSet = 1500;
     /// A pair of places is stored as kPlaces * (index in the list of a3) + (index in the list of
     /// a1).
     static constexpr std::size_t kPlaces = 256;
@@ -174,16 +186,17 @@ class SetSearch {
     bool list(const PlaceSets& places, const Pattern& pattern) {
         for (std::size_t k = 0; k < places.size(); ++k)
             lists_[k].list(lines_, k, places[k], pattern, k % 2 == 1);
-        const std::size_t tabled = lists_[0].count() * lists_[2].count();
-        const std::size_t looked_up = lists_[1].count() * lists_[3].count();
-        std::size_t listed = 0;
-        for (const KeyedPlaces& list : lists_)
-            listed += list.count();
-        std::size_t matches = tabled * looked_up;
+        const auto count = [&](std::size_t k) { return static_cast<float>(lists_[k].count()); };
+        const float tabled = count(0) * count(2);
+        const float looked_up = count(1) * count(3);
+        float matches = tabled * looked_up;
         for (std::size_t gap = 0; gap < pattern.gaps.count; ++gap)
             matches /= kSections;
-        return work_.spend(kWorkPerSet + 105 * listed + 38 * tabled + 11 * looked_up +
-                           25 * matches);
+        return spend(count(0) + count(1) + count(2) + count(3), tabled, looked_up, matches);
+    }
+    bool spend(float listed, float tabled, float looked_up, float matches) {
+        return work_.spend(
+            static_cast<std::size_t>(work_of_search(listed, tabled, looked_up, matches)));
     }
 
     /// Combines pairs of places in a2 and a4 with pairs of places in a1 and a3. Uses only
@@ -194,68 +207,72 @@ class SetSearch {
         for (std::size_t n = 0; n < third.count(); ++n) {
             for (std::size_t m = 0; m < first.count(); ++m) {
                 const auto pair = static_cast<std::uint16_t>(kPlaces * n + m);
-                const std::size_t key = reduced(third.key(n) + first.key(m));
+                const std::uint32_t key = sum_of_keys(third.keys()[n], first.keys()[m]);
                 packed_[pair] = third.packed(n) + first.packed(m);
                 before_[pair] = newest_[key];
                 keys_[pair] = static_cast<std::uint16_t>(key);
-                set_newest(key, pair);
+                newest_[key] = pair;
             }
         }
         for (std::size_t n = 0; n < second.count(); ++n) {
-            for (std::size_t m = 0; m < fourth.count(); ++m) {
-                const std::size_t key = second.key(n) + fourth.key(m);
-                for (std::uint16_t pair = newest_[key]; pair != kNone; pair = before_[pair]) {
-                    const std::uint32_t offsets =
-                        packed_[pair] + second.packed(n) + fourth.packed(m);
-                    // Most alternatives lose at least kSkippedBits in the packed lines.
-                    if (pattern.lost(offsets) >= skipped_loss_)
-                        ++skipped_;
-                    else
-                        add(pattern.shared, pair % kPlaces, n, pair / kPlaces, m);
-                }
+            const std::uint32_t key = second.keys()[n];
+            std::size_t m = 0;
+            for (const std::uint16_t other : fourth.keys()) {
+                const std::uint16_t pair = newest_[sum_of_keys(key, other)];
+                if (pair != kNone) add_pairs(pattern, pair, n, m);
+                ++m;
             }
         }
         for (std::size_t n = 0; n < third.count(); ++n) {
             for (std::size_t m = 0; m < first.count(); ++m)
-                set_newest(keys_[kPlaces * n + m], kNone);
+                newest_[keys_[kPlaces * n + m]] = kNone;
         }
     }
-    /// Reduces both parts of a key modulo kSections.
-    static std::size_t reduced(std::size_t key) {
-        constexpr std::size_t kTooMany = kKeyStep * kSections;
-        if (key % kKeyStep >= kSections) key -= kSections;
-        return key >= kTooMany ? key - kTooMany : key;
-    }
-    /// Sets the elements of `newest_` for all keys that are equal to `key` after both parts are
-    /// reduced modulo kSections.
-    void set_newest(std::size_t key, std::uint16_t pair) {
-        newest_[key] = newest_[key + kSections] = pair;
-        newest_[key + kKeyStep * kSections] = newest_[key + kKeyStep * kSections + kSections] =
-            pair;
+
+    /// Combines places `n` of a2 and `m` of a4 with `newest` and all older pairs of the same key.
+    /// Not inlined, because most keys have no pairs, and their loop then needs fewer registers.
+    [[gnu::noinline]] void add_pairs(const Pattern& pattern, std::uint16_t newest, std::size_t n,
+                                     std::size_t m) {
+        const std::uint32_t packed = lists_[1].packed(n) + lists_[3].packed(m);
+        for (std::uint16_t pair = newest; pair != kNone; pair = before_[pair]) {
+            // Most alternatives lose at least kSkippedBits in the packed lines.
+            if (pattern.lost(packed_[pair] + packed) >= skipped_loss_)
+                ++skipped_;
+            else
+                add(pattern.shared, pair % kPlaces, n, pair / kPlaces, m);
+        }
     }
 
     /// Adds the odds of the alternative with the given places, at the shift at which it shares the
     /// first line of the set `required`. Adds nothing if the alternative differs in fewer than two
     /// sequences, does not share all lines of `required`, or shares all lines of an earlier set.
     /// `a` to `d` are indices into the lists of places of a1 to a4.
-    void add(LineSet required, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+    [[gnu::noinline]] void add(LineSet required, std::size_t a, std::size_t b, std::size_t c,
+                               std::size_t d) {
         const auto& own = lines_.ratios.places;
         const int different = (lists_[0].place(a) != own[0]) + (lists_[1].place(b) != own[1]) +
                               (lists_[2].place(c) != own[2]) + (lists_[3].place(d) != own[3]);
         if (different < 2) return;
-        int lost = 0;
+        RollOffsets offsets;
         LineSet shared = 0;
-        for (std::size_t line = 0; line < count_; ++line) {
-            const int shift = lists_[0].offsets(a)[line] + lists_[1].offsets(b)[line] +
-                              lists_[2].offsets(c)[line] + lists_[3].offsets(d)[line];
-            lost += lines_.loss(static_cast<int>(line), shift);
-            shared |= LineSet{shift % kSections == 0} << line;
+        for (std::size_t line = 0; line < count_; line += sizeof(Bytes)) {
+            // The sum of four offsets fits in a byte.
+            const Bytes sum =
+                bytes_at(lists_[0].offsets(a), line) + bytes_at(lists_[1].offsets(b), line) +
+                bytes_at(lists_[2].offsets(c), line) + bytes_at(lists_[3].offsets(d), line);
+            const Bytes offset =
+                modulo_sections(sum - (static_cast<Bytes>(sum >= 2 * kSections) & 2 * kSections));
+            std::memcpy(offsets.data() + line, &offset, sizeof offset);
+            shared |= shared_lines(offset) << line;
         }
         const auto shares = [&](LineSet set) { return (shared & set) == set; };
         if (!shares(required)) return;
-        for (const PlannedSet& set : earlier_) {
-            if (shares(set.shared)) return;
+        for (const LineSet set : earlier_) {
+            if (shares(set)) return;
         }
+        int lost = 0;
+        for (std::size_t line = 0; line < count_; ++line)
+            lost += lines_.losses(line)[offsets[line]];
         sum_ += lines_.ratios.odds(lost);
     }
 
@@ -267,7 +284,8 @@ class SetSearch {
     int skipped_loss_;
     WorkLimit& work_;
     EqualPlaces equal_places_;
-    std::span<const PlannedSet> earlier_;  ///< sets before the current set
+    SearchedSets searched_;
+    std::span<const LineSet> earlier_;  ///< searched sets before the current set
     std::array<KeyedPlaces, 4> lists_;
     /// Linked lists of pairs of places, one list for each key. `newest_` contains the newest pair
     /// for each key. `before_` contains the next older pair for each pair.
@@ -297,7 +315,7 @@ std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, const
         if (may_end && rest <= std::min(fraction * (max_odds - search.odds()), kMaxRest))
             return search.odds() + rest;
         if (n == sets.size()) return {};
-        if (!plan.is_covered(n) && !search.add(sets, n)) return {};
+        if (!search.add(sets[n].shared)) return {};
     }
 }
 

@@ -21,6 +21,12 @@ constexpr int kSeam_q8 = -32 * 256;
 /// odds exclude the prior.
 constexpr int kMin_q8 = -8 * 256;
 
+/// Estimated costs per place, in processor instructions: of a place that is not excluded by its
+/// digits, and in addition of `QuickTest` and of `LossesByBorder`.
+constexpr std::size_t kWorkPerPlace = 140;
+constexpr std::size_t kWorkPerTest = 350;
+constexpr std::size_t kWorkPerSum = 1'900;
+
 /// For each border, the minimum loss of an alternative in the lines before the border, and in the
 /// lines after it. Each minimum is over all shifts, but shifts where the total loss cannot be below
 /// `loss_limit` may be skipped. If all shifts are skipped, the minimum is kNone.
@@ -87,40 +93,80 @@ class LossesByBorder {
     std::array<int, kMaxLines> from_;
 };
 
+/// The required lines: those whose minimum loss is at least the loss limit. The odds of a seam
+/// alternative are negligible if it does not share one of them. It has one shift before its border
+/// and another shift after it, so its roll offset changes at most once from one required line to
+/// the next.
+class RequiredLines {
+  public:
+    RequiredLines(const LikelihoodRatios& ratios, int loss_limit) : ratios_(ratios) {
+        for (int line = 0; line < ratios.count(); ++line) {
+            if (ratios.min_loss(line) >= loss_limit) lines_[count_++] = line;
+        }
+    }
+
+    std::size_t count() const { return count_; }
+    int operator[](std::size_t n) const { return lines_[n]; }
+
+    /// Removes the places whose digits differ from those of the reading at two or more steps
+    /// between required lines. Their roll offsets change more than once.
+    void keep_similar(std::size_t sequence, PlaceBits& places) const {
+        const code::Secondary& a = ratios_.basis[sequence];
+        PlaceBits once{};
+        PlaceBits twice{};
+        for (std::size_t n = 1; n < count_; ++n) {
+            const int step = lines_[n - 1];
+            if (lines_[n] != step + 1) continue;
+            const auto ahead = static_cast<std::uint32_t>(step);
+            const std::uint32_t own = (ratios_.places[sequence] + ahead) % a.length;
+            const std::uint32_t* equal = a.places_of[a.digit(own)] + ahead / 32;
+            for (std::size_t word = 0; word < once.size(); ++word) {
+                const std::uint32_t differ =
+                    ~(equal[word] >> ahead % 32 | equal[word + 1] << 1 << (31 - ahead % 32));
+                twice[word] |= once[word] & differ;
+                once[word] |= differ;
+            }
+        }
+        for (std::size_t word = 0; word < places.size(); ++word)
+            places[word] &= ~twice[word];
+    }
+
+    /// Returns the index of the first required line at which the roll offset changes, or `count()`
+    /// if there is no change. Returns 0 if the roll offset changes more than once.
+    std::size_t changed_at(const RollOffsets& offsets) const {
+        std::size_t changed = count_;
+        for (std::size_t n = 1; n < count_; ++n) {
+            if (offset(offsets, n) == offset(offsets, n - 1)) continue;
+            if (changed < count_) return 0;
+            changed = n;
+        }
+        return changed;
+    }
+
+  private:
+    std::uint8_t offset(const RollOffsets& offsets, std::size_t n) const {
+        return offsets[static_cast<std::size_t>(lines_[n])];
+    }
+
+    const LikelihoodRatios& ratios_;
+    std::size_t count_ = 0;
+    std::array<int, kMaxLines> lines_;
+};
+
 /// Tests whether a seam alternative may lose less than a loss limit. Uses only the minimum losses
-/// of the lines, and takes a tenth of the time of `LossesByBorder`.
+/// of the lines, and takes a fifth of the time of `LossesByBorder`.
 class QuickTest {
   public:
     QuickTest(const LikelihoodRatios& ratios, int loss_limit)
         : loss_limit_(loss_limit), count_(static_cast<std::size_t>(ratios.count())) {
-        for (std::size_t line = 0; line < count_; ++line) {
+        for (std::size_t line = 0; line < count_; ++line)
             losses_[line] = std::max(ratios.min_loss(static_cast<int>(line)), 0);
-            if (losses_[line] >= loss_limit) required_[required_count_++] = line;
-        }
     }
 
-    /// Returns true if a seam alternative with the given roll offsets may lose less than the limit.
+    /// Returns true if a seam alternative with the given roll offsets may lose less than the limit
+    /// for at least one border. Assumes the best shift on each side of the border, and the minimum
+    /// loss for each line that the alternative does not share.
     bool operator()(const RollOffsets& offsets) const {
-        return shares_required(offsets) && may_lose_less(offsets);
-    }
-
-  private:
-    /// Returns true if the alternative can share all required lines. The required lines are those
-    /// whose minimum loss is at least the limit, so the odds of an alternative are negligible if it
-    /// does not share one of them. The alternative has one shift before its border and another
-    /// shift after it. The roll offset can therefore change at most once from one required line to
-    /// the next.
-    bool shares_required(const RollOffsets& offsets) const {
-        int changes = 0;
-        for (std::size_t n = 1; n < required_count_ && changes < 2; ++n)
-            changes += offsets[required_[n]] != offsets[required_[n - 1]] ? 1 : 0;
-        return changes < 2;
-    }
-
-    /// Returns true if the alternative may lose less than the limit for at least one border.
-    /// Assumes the best shift on each side of the border, and the minimum loss for each line that
-    /// the alternative does not share.
-    bool may_lose_less(const RollOffsets& offsets) const {
         // For each line, the minimum loss in all lines before it, at the best shift.
         std::array<int, kMaxLines> before;
         std::array<int, kSections> kept{};  // for each shift, the avoided loss
@@ -146,11 +192,10 @@ class QuickTest {
         return false;
     }
 
+  private:
     int loss_limit_;
     std::size_t count_;
     std::array<int, kMaxLines> losses_;  ///< minimum losses, or 0 if they are negative
-    std::size_t required_count_ = 0;
-    std::array<std::size_t, kMaxLines> required_;
 };
 
 /// Sums the odds of the seam alternatives whose odds, without the prior, exceed kMin_q8.
@@ -166,14 +211,39 @@ class SeamAlternatives {
         const LossesByBorder losses(ratios_, offsets, loss_limit_);
         for (int line = 1; line < ratios_.count(); ++line) {
             const int lost = losses.with_border_before(line);
-            if (lost >= LossesByBorder::kNone) continue;
-            const int odds = ratios_.log2_odds_q8(lost);
-            if (odds > kMin_q8) sum_q8_ = add_log2(sum_q8_, odds + kSeam_q8);
+            if (lost < LossesByBorder::kNone) add_loss(lost);
+        }
+    }
+    /// Variant for an alternative that can only have its border after line `last_before` and before
+    /// or at line `first_after`, and must share these two lines.
+    void add_between(const RollOffsets& offsets, int last_before, int first_after) {
+        const auto loss_in = [&](int line, int shared) {
+            const int roll_offset =
+                offsets[static_cast<std::size_t>(line)] - offsets[static_cast<std::size_t>(shared)];
+            return roll_offset == 0 ? 0 : ratios_.loss(line, roll_offset);
+        };
+        int lost = 0;
+        for (int line = 0; line < last_before && lost < loss_limit_; ++line)
+            lost += loss_in(line, last_before);
+        for (int line = first_after + 1; line < ratios_.count() && lost < loss_limit_; ++line)
+            lost += loss_in(line, first_after);
+        if (lost >= loss_limit_) return;
+        for (int line = last_before + 1; line < first_after; ++line)
+            lost += loss_in(line, first_after);
+        add_loss(lost);
+        for (int line = last_before + 1; line < first_after; ++line) {
+            lost += loss_in(line, last_before) - loss_in(line, first_after);
+            add_loss(lost);
         }
     }
     int sum_q8() const { return sum_q8_; }
 
   private:
+    void add_loss(int lost) {
+        const int odds = ratios_.log2_odds_q8(lost);
+        if (odds > kMin_q8) sum_q8_ = add_log2(sum_q8_, odds + kSeam_q8);
+    }
+
     const LikelihoodRatios& ratios_;
     int loss_limit_;
     int sum_q8_ = kNever_q8;
@@ -232,26 +302,55 @@ int seam_alternatives_log2_q8(const LikelihoodRatios& ratios) {
     return alternatives.sum_q8();
 }
 
-int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared) {
+std::optional<int> seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared,
+                                             WorkLimit& work) {
     const LikelihoodRatios& ratios = unshared.ratios();
     const int loss_limit = loss_limit_of(ratios);
     SeamAlternatives alternatives(ratios, loss_limit);
     if (must_lose_with_border(ratios, loss_limit)) return alternatives.sum_q8();
     std::optional<StepLosses> steps;
-    const QuickTest may_matter(ratios, loss_limit);
+    std::optional<RequiredLines> required;
+    std::optional<QuickTest> may_matter;
+    bool is_complete = true;
+    const auto add = [&](const RelativeOffsets& set_offsets, std::uint32_t place) {
+        if (!work.spend(kWorkPerPlace)) return false;
+        RollOffsets offsets;
+        set_offsets(place, offsets);
+        const std::size_t changed = required->changed_at(offsets);
+        if (changed < required->count()) {
+            if (changed > 0)
+                alternatives.add_between(offsets, (*required)[changed - 1], (*required)[changed]);
+            return true;
+        }
+        if (!work.spend(kWorkPerTest)) return false;
+        if (!(*may_matter)(offsets)) return true;
+        if (!work.spend(kWorkPerSum)) return false;
+        alternatives.add(offsets);
+        return true;
+    };
     for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
         if (unshared.all_lose(k, Sharing::on_two_sides, loss_limit)) continue;
         if (!steps) steps = losses_of_steps(ratios, loss_limit);
-        const PlaceBits similar =
-            kernels.find_similar_places(ratios.basis[k], ratios.places[k], *steps);
+        PlaceBits similar = kernels.find_similar_places(ratios.basis[k], ratios.places[k], *steps);
+        if (similar == PlaceBits{}) continue;
+        if (!required) {
+            required.emplace(ratios, loss_limit);
+            may_matter.emplace(ratios, loss_limit);
+        }
+        required->keep_similar(k, similar);
+        const RelativeOffsets set_offsets(ratios, k, 0);
         for (std::uint32_t word = 0; word < similar.size(); ++word)
             visit_places(similar[word], word, [&](std::uint32_t place) {
-                RollOffsets offsets;
-                set_relative_offsets(ratios, k, place, 0, offsets);
-                if (may_matter(offsets)) alternatives.add(offsets);
+                is_complete = is_complete && add(set_offsets, place);
             });
     }
+    if (!is_complete) return {};
     return alternatives.sum_q8();
+}
+
+int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared) {
+    WorkLimit unlimited(SIZE_MAX);
+    return *seam_alternatives_log2_q8(kernels, unshared, unlimited);
 }
 
 }  // namespace dotpose::core

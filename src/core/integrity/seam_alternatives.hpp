@@ -3,8 +3,11 @@
 // likelihood_ratios.hpp defines the terms.
 #pragma once
 
+#include <optional>
+
 #include "core/integrity/likelihood_ratios.hpp"
 #include "core/integrity/unshared_lines.hpp"
+#include "core/integrity/work_limit.hpp"
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
@@ -17,5 +20,10 @@ int seam_alternatives_log2_q8(const LikelihoodRatios& ratios);
 
 /// Variant that uses kernels to search for the alternatives.
 int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared);
+
+/// Variant with a bounded amount of computation. Returns nullopt if the computation would exceed
+/// the work limit `work`.
+std::optional<int> seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared,
+                                             WorkLimit& work);
 
 }  // namespace dotpose::core

@@ -74,16 +74,21 @@ void SetPlan::set_numbers() {
     std::array<float, 4> places;
     for (std::size_t k = 0; k < places.size(); ++k)
         places[k] = static_cast<float>(lines_.ratios.basis[k].length);
-    ByDifferent returned{1, 1, 1};
-    for (std::size_t n = 0; n <= compared_count_; ++n) {
-        const auto& [a, b, c, d] = places_[n] = places;
-        number_[n] = {kUnevennessOfTwo * (a * b + (a + b) * (c + d) + c * d),
-                      kUnevennessOfThree * (a * b * (c + d) + (a + b) * c * d), a * b * c * d};
-        returned_[n] = returned;
+    for (std::size_t steps = 0; steps <= compared_count_; ++steps) {
+        const auto& [a, b, c, d] = places_[steps] = places;
+        float two = kUnevennessOfTwo * (a * b + (a + b) * (c + d) + c * d);
+        float three = kUnevennessOfThree * (a * b * (c + d) + (a + b) * c * d);
+        float four = a * b * c * d;
+        // A set has one line more than steps and gaps together.
+        const std::size_t max_gaps = std::min(kMaxGaps, compared_count_ - steps);
+        for (std::size_t gaps = 0; gaps <= max_gaps; ++gaps) {
+            number_[steps][gaps] = two + three + four;
+            two *= kReturnOfTwo;
+            three *= kReturnOfThree;
+            four *= kReturnOfFour;
+        }
         for (std::size_t k = 0; k < places.size(); ++k)
             places[k] *= lines_.ratios.basis[k].base == 2 ? 1.0F / 2 : 1.0F / 3;
-        returned = {returned.two * kReturnOfTwo, returned.three * kReturnOfThree,
-                    returned.four * kReturnOfFour};
     }
 }
 
@@ -91,11 +96,7 @@ void SetPlan::set_numbers() {
 /// compared lines are still undecided, the result is an upper bound on the total for all sets that
 /// extend `node`.
 float SetPlan::expected(const Node& node) const {
-    const ByDifferent& number = number_[node.steps];
-    const ByDifferent& returned = returned_[node.gaps];
-    const float sum =
-        number.two * returned.two + number.three * returned.three + number.four * returned.four;
-    return (node.shared == 0 ? kSections : 1) * node.odds * sum;
+    return (node.shared == 0 ? kSections : 1) * node.odds * number_[node.steps][node.gaps];
 }
 
 /// Returns the estimated cost of `SetSearch::add` for the set of `node`, in processor instructions.
@@ -108,7 +109,7 @@ float SetPlan::work(const Node& node) const {
     float matches = tabled * looked_up;
     for (unsigned gap = 0; gap < std::min(node.gaps, 2U); ++gap)
         matches /= kSections;
-    return 1500 + 105 * (a + b + c + d) + 38 * tabled + 11 * looked_up + 25 * matches;
+    return work_of_search(a + b + c + d, tabled, looked_up, matches);
 }
 
 /// Adds all sets that extend `node`. Compared lines with index `n` or higher are still undecided.
@@ -167,13 +168,6 @@ void SetPlan::sort_sets() {
     }
 }
 
-bool SetPlan::is_covered(std::size_t n) const {
-    for (std::size_t earlier = 0; earlier < n; ++earlier) {
-        if ((sets_[earlier].shared & ~sets_[n].shared) == 0) return true;
-    }
-    return false;
-}
-
 void SetPlan::sum_rests() {
     float rest = negligible_;
     rests_[count_] = rest;
@@ -190,8 +184,9 @@ std::size_t SetPlan::count_for(float max_rest) const {
 
 float SetPlan::work_of(std::size_t n) const {
     float sum = 0;
-    for (std::size_t set = 0; set < n; ++set)
-        sum += is_covered(set) ? 0 : sets_[set].work;
+    SearchedSets searched;
+    for (const PlannedSet& set : sets().first(n))
+        sum += searched.add(set.shared) ? set.work : 0;
     return sum;
 }
 

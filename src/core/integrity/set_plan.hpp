@@ -19,6 +19,36 @@ struct PlannedSet {
     bool is_required;  ///< true if the set must be searched because individual odds may be large
 };
 
+/// Returns the estimated cost of the search for the alternatives of one set, in processor
+/// instructions. `listed` is the number of places in all sequences that the search lists. `tabled`
+/// is the number of pairs of places in a1 and a3, `looked_up` the number of pairs in a2 and a4, and
+/// `matches` the number of alternatives that these pairs form.
+constexpr float work_of_search(float listed, float tabled, float looked_up, float matches) {
+    return 500 + 150 * listed + 24 * tabled + 12 * looked_up + 36 * matches;
+}
+
+/// Maximum number of sets in a `SetPlan`.
+inline constexpr std::size_t kMaxSets = 256;
+
+/// The sets of a `SetPlan` that are searched. A set that contains all lines of an earlier set is
+/// covered: the search of the earlier set also finds its alternatives.
+class SearchedSets {
+  public:
+    /// Adds a set and returns true. If the set is covered, returns false instead.
+    bool add(LineSet set) {
+        for (const LineSet earlier : sets()) {
+            if ((earlier & ~set) == 0) return false;
+        }
+        sets_[count_++] = set;
+        return true;
+    }
+    std::span<const LineSet> sets() const { return std::span(sets_).first(count_); }
+
+  private:
+    std::size_t count_ = 0;
+    std::array<LineSet, kMaxSets> sets_;
+};
+
 /// Lists the sets of lines that far alternatives may share, in the order in which these sets should
 /// be searched. The sets contain only lines with a positive minimum loss. The alternatives of a set
 /// may also share other lines.
@@ -30,9 +60,6 @@ class SetPlan {
     /// Returns the sets. The required sets come first. The other sets are sorted by decreasing
     /// ratio of `expected` to `work`.
     std::span<const PlannedSet> sets() const { return std::span(sets_).first(count_); }
-    /// Returns true if set n contains all lines of an earlier set. A search of the earlier set then
-    /// also finds the alternatives of set n.
-    bool is_covered(std::size_t n) const;
     /// Returns the rest: the summed expected odds of all far alternatives that are not in the first
     /// n sets.
     float rest(std::size_t n) const { return rests_[n]; }
@@ -46,13 +73,6 @@ class SetPlan {
 
   private:
     struct Node;
-    /// A value for each group of far alternatives: those that differ from the reading in two, in
-    /// three and in four sequences.
-    struct ByDifferent {
-        float two;
-        float three;
-        float four;
-    };
     void set_numbers();
     float expected(const Node& node) const;
     float work(const Node& node) const;
@@ -61,7 +81,7 @@ class SetPlan {
     void sort_sets();
     void sum_rests();
 
-    static constexpr std::size_t kMaxSets = 256;
+    static constexpr std::size_t kMaxGaps = (kMaxLines - 1) / 2;
 
     const RankedLines& lines_;
     int required_loss_;
@@ -73,11 +93,10 @@ class SetPlan {
     /// places_[n][k] is the expected number of places in sequence k that have the same digits as
     /// the reading at n given steps.
     std::array<std::array<float, 4>, kMaxLines + 1> places_;
-    /// number_[n] is the expected number of alternatives that have the same digits as the reading
-    /// in all four sequences at n given steps, times a correction factor (see kUnevennessOfTwo).
-    std::array<ByDifferent, kMaxLines + 1> number_;
-    /// returned_[n] is the probability that the roll offset is 0 again after each of n gaps.
-    std::array<ByDifferent, kMaxLines + 1> returned_;
+    /// number_[n][m] is the expected number of far alternatives that have the same digits as the
+    /// reading in all four sequences at n given steps, and whose roll offset is 0 again after each
+    /// of m gaps. Includes correction factors (see kUnevennessOfTwo).
+    std::array<std::array<float, kMaxGaps + 1>, kMaxLines + 1> number_;
     std::size_t count_ = 0;
     std::array<PlannedSet, kMaxSets> sets_;
     bool is_complete_ = true;

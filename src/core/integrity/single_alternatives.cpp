@@ -31,21 +31,47 @@ float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t 
     return lines.ratios.odds(lost);
 }
 
-/// Returns the loss of a single alternative at the shift where it shares the line `shared`. Adds up
-/// the losses of the lines in the order of `sorted`. Stops as soon as the sum exceeds `max_loss`,
-/// and returns the sum so far. `own` and `alternative` point to the rolls of the secondary sequence
-/// at the places of the reading and of the alternative.
-int loss_of_rolls(const RankedLines& lines, std::span<const LineLoss> sorted,
-                  const std::uint8_t* own, const std::uint8_t* alternative, std::size_t shared,
-                  int max_loss) {
-    const int base = 2 * kSections + own[shared] - alternative[shared];
-    int lost = 0;
-    for (const auto& [line, min_loss] : sorted) {
-        lost += lines.losses(line)[alternative[line] - own[line] + base];
-        if (lost > max_loss) break;
+/// Losses of the single alternatives in one sequence, which are computed line by line.
+class LossesInSequence {
+  public:
+    /// `sorted` contains the lines in the order in which their losses are added up: at least three.
+    LossesInSequence(const RankedLines& lines, std::size_t sequence,
+                     std::span<const LineLoss> sorted)
+        : rolls_(lines.ratios.basis[sequence].rolls),
+          own_(rolls_ + lines.ratios.places[sequence]),
+          end_(tables_.data() + sorted.size()) {
+        for (std::size_t n = 0; n < sorted.size(); ++n) {
+            const std::uint8_t line = sorted[n].line;
+            // Adding 126, which is 0 modulo 63, keeps the indices positive.
+            tables_[n] = {lines.losses(line) + 2 * kSections - own_[line], line};
+        }
     }
-    return lost;
-}
+
+    /// Returns the loss of the alternative at `place`, at the shift where it shares the line
+    /// `shared`. Stops as soon as the loss exceeds `max_loss`, and returns the loss so far.
+    int operator()(std::uint32_t place, std::size_t shared, int max_loss) const {
+        const std::uint8_t* const alternative = rolls_ + place;
+        const std::ptrdiff_t shift = own_[shared] - alternative[shared];
+        const auto loss_in = [&](const Table& table) {
+            return table.losses[alternative[table.line] + shift];
+        };
+        // Two lines seldom suffice to exceed `max_loss`.
+        int lost = loss_in(tables_[0]) + loss_in(tables_[1]) + loss_in(tables_[2]);
+        for (const Table* table = tables_.data() + 3; lost <= max_loss && table != end_; ++table)
+            lost += loss_in(*table);
+        return lost;
+    }
+
+  private:
+    struct Table {
+        const std::int16_t* losses;  ///< losses in a line, by roll of the alternative
+        std::size_t line;
+    };
+    const std::uint8_t* rolls_;
+    const std::uint8_t* own_;  ///< rolls at the place of the reading
+    std::array<Table, kMaxLines> tables_;
+    const Table* end_;
+};
 
 float sum_one_by_one(const RankedLines& lines) {
     const LikelihoodRatios& ratios = lines.ratios;
@@ -122,9 +148,8 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
     // contribute at most 2^-37 in total.
     constexpr int kSkippedBits = 51;
     constexpr int kEvaluatedBits = 43;
-    // Estimated cost per listed place, in processor instructions. Includes the cost of the seam
-    // alternatives.
-    constexpr std::size_t kWorkPerEntry = 85;
+    // Estimated cost per listed place, in processor instructions.
+    constexpr std::size_t kWorkPerEntry = 72;
     const LikelihoodRatios& ratios = lines.ratios;
     const CoarseLosses losses(ratios, kSkippedBits);
     std::array<LineLoss, kMaxLines> storage;
@@ -139,19 +164,23 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
     // An alternative whose losses in some of the lines add up to more than this limit has odds
     // below 2^-kSkippedBits, regardless of its gains in the other lines.
     const int max_loss = ratios.loss_for(-256 * kSkippedBits) + ratios.max_gain();
-    std::array<const std::uint8_t*, 4> own;
-    for (std::size_t k = 0; k < own.size(); ++k)
-        own[k] = ratios.basis[k].rolls + ratios.places[k];
-    for (const SimilarPlaceList::Entry& entry :
-         std::span(list.places).first(static_cast<std::size_t>(list.count))) {
-        if (entry.loss >= evaluated_limit) {
-            sum += power_of_two_exactly(-kEvaluatedBits);
-            continue;
+    auto rest = std::span<const SimilarPlaceList::Entry>(list.places)
+                    .first(static_cast<std::size_t>(list.count));
+    // The list is sorted by sequence.
+    while (!rest.empty()) {
+        const std::size_t sequence = rest.front().sequence;
+        const LossesInSequence loss_at(lines, sequence, sorted);
+        std::size_t n = 0;
+        for (; n < rest.size() && rest[n].sequence == sequence; ++n) {
+            const auto& [k, place, shared, min_loss] = rest[n];
+            if (min_loss >= evaluated_limit) {
+                sum += power_of_two_exactly(-kEvaluatedBits);
+                continue;
+            }
+            const int lost = loss_at(place, shared, max_loss);
+            sum += lost > max_loss ? power_of_two_exactly(-kSkippedBits) : ratios.odds(lost);
         }
-        const int lost =
-            loss_of_rolls(lines, sorted, own[entry.sequence],
-                          ratios.basis[entry.sequence].rolls + entry.place, entry.line, max_loss);
-        sum += lost > max_loss ? power_of_two_exactly(-kSkippedBits) : ratios.odds(lost);
+        rest = rest.subspan(n);
     }
     return sum;
 }

@@ -1,5 +1,8 @@
 #include "core/integrity/small_views.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "core/integrity/planned_alternatives.hpp"
 #include "core/integrity/ranked_lines.hpp"
 #include "core/integrity/seam_alternatives.hpp"
@@ -10,9 +13,14 @@
 namespace dotpose::core {
 namespace {
 
-/// Estimated cost per axis, in processor instructions, of constructing `RankedLines` and `SetPlan`,
-/// and of summing the single alternatives and the seam alternatives.
-constexpr std::size_t kPreparation = 80'000;
+/// Estimated cost per axis, in processor instructions, of all steps except the search for far
+/// alternatives, without the costs that depend on the number of alternatives or sets.
+constexpr std::size_t kPreparation = 56'000;
+/// Part of kPreparation for the seam alternatives of an axis. Only a cost above this value is
+/// subtracted from the work limit.
+constexpr std::size_t kWorkOfSeams = 27'000;
+/// Estimated cost per set of a `SetPlan`, in processor instructions.
+constexpr std::size_t kWorkPerSet = 320;
 
 /// Returns an upper bound on the summed odds of the reading's position in all other sections.
 float bound_of_other_sections(const LikelihoodRatios& ratios) {
@@ -39,6 +47,7 @@ class SmallView {
         const auto single = sum_of_single_alternatives(kernels_, lines, work_);
         if (!single || !spend(factor_ * (*single + bound_of_other_sections(ratios)))) return false;
         const SetPlan plan(lines);
+        if (!work_.spend(kWorkPerSet * plan.sets().size())) return false;
         const float fraction = 1 / static_cast<float>(n + 1);
         planned_work_ += work_of_planned_alternatives(plan, fraction * left_ / factor_);
         if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
@@ -55,10 +64,16 @@ class SmallView {
     static constexpr float kMargin = 1.03F;  ///< covers the rounding errors of the exponentials
 
     bool add_seams() {
+        const std::size_t left = work_.left();
+        work_ = WorkLimit(left + axes_.size() * kWorkOfSeams);
         float sum = 0;
-        for (const UnsharedLines* axis : axes_)
-            sum += 1.02F * power_of_two(seam_alternatives_log2_q8(kernels_, *axis));
-        return spend(sum);
+        for (const UnsharedLines* axis : axes_) {
+            const std::optional<int> odds_q8 = seam_alternatives_log2_q8(kernels_, *axis, work_);
+            if (!odds_q8) return false;
+            sum += 1.02F * power_of_two(*odds_q8);
+        }
+        work_ = WorkLimit(std::min(left, work_.left()));
+        return planned_work_ <= static_cast<float>(work_.left()) && spend(sum);
     }
     bool spend(float odds) {
         left_ -= odds;

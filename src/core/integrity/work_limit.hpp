@@ -10,9 +10,9 @@ class WorkLimit {
   public:
     /// Budget for summing the odds of alternatives in one frame with a small view. All places
     /// tested in the frame share this budget. For comparison, all other steps of a first attempt
-    /// together take about 200,000 instructions. docs/speed.md, "Small frames", compares several
-    /// budgets.
-    static constexpr std::size_t kOfFrame = 510'000;
+    /// together take 100,000 to 240,000 instructions. docs/speed.md, "Small frames", compares
+    /// several budgets.
+    static constexpr std::size_t kOfFrame = 460'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}
     /// Subtracts `work` from the budget and returns true. If less than `work` is left, sets the

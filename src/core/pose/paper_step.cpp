@@ -183,7 +183,7 @@ class Search {
             dot.at.y -= reference.y;
             reach = std::max(reach, dot.at.x * dot.at.x + dot.at.y * dot.at.y);
             if (dot.squared() > tuning::fit::kOutlier * variance_) outliers += 1;
-            dots_[count_++] = dot;
+            dots_[count_++] = Four{dot.at.x, dot.at.y, dot.residual.x, dot.residual.y};
         }
         const float length = std::sqrt(reach) + 0.1F + kBehind;
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
@@ -231,26 +231,30 @@ class Search {
 
   private:
     /// Returns the sums over the dots in each strip. A strip is the area between two adjacent lines
-    /// that are perpendicular to `direction`.
+    /// that are perpendicular to `direction`. The elements beyond `lines_` are not set.
     std::array<PartSums, kLines> strips_along(FloatVec direction) const {
-        std::array<PartSums, kLines> strips{};
+        std::array<PartSums, kLines> strips;
+        std::fill_n(strips.begin(), lines_, PartSums{});
         const auto last = static_cast<std::int32_t>(lines_) - 1;
         for (std::size_t k = 0; k < count_; ++k) {
-            const FloatVec at = dots_[k].at;
-            const float t = at.x * direction.x + at.y * direction.y + kBehind;
+            const Four& dot = dots_[k];
+            const float t = dot[0] * direction.x + dot[1] * direction.y + kBehind;
             const auto strip = static_cast<std::int32_t>(std::max(t, 0.0F) * per_spacing_);
             strips[static_cast<std::size_t>(std::min(strip, last))] += sums_[k];
         }
         return strips;
     }
 
-    PartSums sums_of(const DotOffset& dot) const {
-        const float squared = dot.squared();
+    PartSums sums_of(const Four& dot) const {
+        const float x = dot[0];
+        const float y = dot[1];
+        const float x_off = dot[2];
+        const float y_off = dot[3];
+        const float squared = x_off * x_off + y_off * y_off;
         const float on_plane = std::max(kOnPlane - squared / (2 * variance_), off_plane_);
         if (squared > tuned::kTogether * variance_) return {Four{1, on_plane}, Four{}, Four{}};
-        const auto& [x, y] = dot.at;
-        return {Four{1, on_plane, 1, squared}, Four{x, y, dot.residual.x, dot.residual.y},
-                Four{x * x, x * y, y * y, x * dot.residual.y - y * dot.residual.x}};
+        return {Four{1, on_plane, 1, squared}, dot,
+                Four{x * x, x * y, y * y, x * y_off - y * x_off}};
     }
 
     void fit_affine() {
@@ -259,11 +263,11 @@ class Search {
         for (std::size_t k = 0; k < count_; ++k) {
             all_ += sums_[k];
             if (sums_[k].dots() == 0) continue;
-            const auto& [at, residual] = dots_[k];
-            const Triple place{1, at.x, at.y};
+            const Four& dot = dots_[k];
+            const Triple place{1, dot[0], dot[1]};
             for (std::size_t i = 0; i < 3; ++i) {
-                x_off[i] += place[i] * residual.x;
-                y_off[i] += place[i] * residual.y;
+                x_off[i] += place[i] * dot[2];
+                y_off[i] += place[i] * dot[3];
             }
         }
         affine_ = AffineFit(all_, x_off, y_off);
@@ -309,7 +313,10 @@ class Search {
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
     }
 
-    std::array<DotOffset, kMaxDots> dots_;
+    /// Positions relative to the reference point, and residuals: x, y, and the residuals along x
+    /// and y. The elements of this type are not cleared, which would take longer than a small
+    /// search.
+    std::array<Four, kMaxDots> dots_;
     std::array<PartSums, kMaxDots> sums_;
     std::size_t count_ = 0;
     PartSums all_{};
