@@ -8,8 +8,8 @@
 // rate is unknown at the start of a series.
 //
 // The exit status is 1 if a fix of a nominal frame is wrong, if more fixes of frames with flipped
-// bits are wrong than p_wrong predicts although no false rate is declared, or if the run is
-// interrupted.
+// bits are wrong than p_wrong predicts although no false rate is declared, if the measured number
+// of bits per error exceeds the true number, or if the run is interrupted.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -148,6 +148,8 @@ bool print_flipped(int true_bits, int bits_per_error, std::uint64_t frames, cons
                frames * kViews.size(), all.located, all.wrong, all.predicted,
                all.measured / series);
     std::fflush(stdout);
+    const bool is_declared = bits_per_error != kMeasuredErrorRate;
+    if (!is_declared && all.measured / series > true_bits) return false;
     const bool is_true = bits_per_error <= true_bits;
     return is_complete && (!is_true || static_cast<double>(all.wrong) <= all.predicted);
 }

@@ -65,22 +65,27 @@ std::string require_spacing(const std::string& text) {
                        kMin_mm, kMax_mm, kDefaultSpacing_mm);
 }
 
-void add_error_rate_option(Command& command, int& bits_per_error) {
+void add_error_rate_option(Command& command, ErrorRates rates, int& bits_per_error) {
+    const bool may_measure = rates == ErrorRates::known_or_measured;
     command
         .add_option_function<std::string>(
             "--bits-per-error",
-            [&bits_per_error](const std::string& text) {
+            [&bits_per_error, may_measure](const std::string& text) {
                 constexpr std::uint32_t kMax = 65536;
+                if (may_measure && text == "measured") {
+                    bits_per_error = kMeasuredErrorRate;
+                    return;
+                }
                 const auto number = whole_numbers(text, "", kMax);
-                if (!number && text != "measured")
-                    throw ValidationError(
-                        "--bits-per-error",
-                        fmt::format("'{}' is neither 'measured' nor a number from 0 to {}", text,
-                                    kMax));
-                bits_per_error = number ? static_cast<int>(number->front()) : kMeasuredErrorRate;
+                if (!number)
+                    throw ValidationError("--bits-per-error",
+                                          fmt::format("'{}' is not {}a number from 0 to {}", text,
+                                                      may_measure ? "'measured' or " : "", kMax));
+                bits_per_error = static_cast<int>(number->front());
             },
-            "Minimum number of bits per misread bit with this print and camera, or 'measured' to "
-            "measure it over the images so far: smaller views suffice")
+            fmt::format("Minimum number of bits per misread bit with this print and camera{}: "
+                        "smaller views suffice",
+                        may_measure ? ", or 'measured' to measure it over the images so far" : ""))
         ->type_name("N")
         ->default_str("unknown");
 }
@@ -183,13 +188,13 @@ Option* add_camera_option(Command& command, CameraArgument& camera, const std::s
         ->type_name("FILE");
 }
 
-void add_attempt_options(Command& command, DeviceOptions& options) {
+void add_attempt_options(Command& command, ErrorRates rates, DeviceOptions& options) {
     add_named(command, "--decoder", kDecoders, name(options.decoder),
               "Dots from which the position is read",
               [&options](Decoder decoder) { options.decoder = decoder; });
     add_named(command, "--effort", kEfforts, name(options.effort), "How hard to try",
               [&options](Effort effort) { options.effort = effort; });
-    add_error_rate_option(command, options.integrity.bits_per_error);
+    add_error_rate_option(command, rates, options.integrity.bits_per_error);
 }
 
 void add_size_option(Command& command, CameraModel& camera) {

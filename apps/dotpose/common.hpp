@@ -54,8 +54,10 @@ struct CameraArgument {
 /// Adds --camera FILE. The file is read when the command line is parsed.
 Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help);
 
+/// Values of --bits-per-error. The rate can be measured only if the images are located in sequence.
+enum class ErrorRates : std::uint8_t { known, known_or_measured };
 /// Adds --decoder, --effort and --bits-per-error. `options` must outlive the command.
-void add_attempt_options(Command& command, DeviceOptions& options);
+void add_attempt_options(Command& command, ErrorRates rates, DeviceOptions& options);
 
 /// Adds --size WxH, the size of a simulated frame.
 void add_size_option(Command& command, CameraModel& camera);

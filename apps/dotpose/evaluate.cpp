@@ -331,11 +331,6 @@ int run(EvaluateArguments& arguments) {
         arguments.sources.fit_to(camera);
         use_camera(*camera, camera->width_px, camera->height_px, arguments.options);
     }
-    if (arguments.options.integrity.bits_per_error == kMeasuredErrorRate) {
-        throw BadArgument(
-            "--bits-per-error measured is not for evaluate, which locates each frame by itself: "
-            "name the number");
-    }
     arguments.setup.preset = arguments.preset.value_or(Preset::nominal);
     Pattern& pattern = arguments.setup.pattern;
     pattern.code = arguments.options.code;
@@ -384,7 +379,7 @@ void add_evaluate(Command& app, int& exit_code) {
         app.add_subcommand("evaluate", "Measure how often and how well frames are located");
     command->footer(kEvaluateExamples);
     add_jobs(*command, arguments);
-    add_attempt_options(*command, arguments->options);
+    add_attempt_options(*command, ErrorRates::known, arguments->options);
     add_code_option(*command, arguments->code);
     add_spacing_option(*command, arguments->spacing_mm);
     Option* camera =

@@ -109,7 +109,7 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
         ->type_name("NAME")
         ->default_str("plane")
         ->check(one_of({"plane", "space"}));
-    add_attempt_options(command, options.locate);
+    add_attempt_options(command, ErrorRates::known_or_measured, options.locate);
 }
 
 void invert(GreyImage& image) {

@@ -207,8 +207,8 @@ class Locator : public RowLocator {
     }
     void set_fixed_options(const DeviceOptions& options);
     core::DesktopWorkspace& workspace();
-    /// Returns the options for the next frame: `options_`, with the measured error rate if it is
-    /// wanted.
+    /// Returns the options for the next frame: `options_`, with the measured error rate if it
+    /// contains kMeasuredErrorRate.
     DeviceOptions options_of_frame() const;
     Fix locate_one(const ImageView& image, const Prediction* prediction);
     CodeReading read_one(const ImageView& image, const Prediction* prediction,

@@ -97,6 +97,7 @@ void Follower::set_camera(const Camera& camera) {
     validate(camera);
     if (options_.fits_space_pose) require_focal_length(camera);
     options_.camera = camera;
+    error_rate_ = {};
     use_flat_field();
     // Starts a new track, because the prediction depends on the lens of the previous camera.
     start_tracks();

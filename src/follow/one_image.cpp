@@ -39,8 +39,10 @@ Follower::Found Follower::read() {
     CodeVariant best = codes_.front();
     bool is_found = false;
     Found found;
+    ComparedBits compared;
     for (const CodeVariant code : codes_) {
         found = read_in(code);
+        if (found.compared.agrees_better_than(compared)) compared = found.compared;
         if (codes_.size() == 1 || find_sheet(options_.sheets, code, found.fix)) return found;
         if (found.fix.status == Status::ok && !is_found) {
             best = code;
@@ -49,7 +51,9 @@ Follower::Found Follower::read() {
     }
     // The trace must belong to the returned fix. If another variant was tried after the best one,
     // the image must therefore be located again.
-    return used_.code == best ? found : read_in(best);
+    if (used_.code != best) found = read_in(best);
+    if (!is_found) found.compared = compared;
+    return found;
 }
 
 Follower::Found Follower::read_in(CodeVariant code) {

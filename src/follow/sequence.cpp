@@ -84,14 +84,17 @@ Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Predict
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
     if (codes_.empty()) return look_in_any_code(expected);
     Found best;
+    ComparedBits compared;
     for (const CodeVariant code : codes_) {
         used_.code = code;
         const bool is_expected = expected && seen_ && seen_->code == code;
         Found found = look(image_, used_, is_expected ? expected : std::nullopt);
         if (options_.sheets.size() > 1) found = without_neighbours(found);
         if (found.place) return found;
+        if (found.compared.agrees_better_than(compared)) compared = found.compared;
         if (best.seen.status != Status::ok) best = found;
     }
+    if (best.seen.status != Status::ok) best.compared = compared;
     return best;
 }
 

@@ -44,19 +44,24 @@ Frame Attempts::frame_in(CodeVariant code) {
 
 bool Attempts::track(const Prediction& prediction) {
     const Frame frame = frame_in(options_.code);
-    return prediction.readout_turn_rad == 0 ? locate_tracked(frame, prediction, w_)
-                                            : locate_tracked_turning(frame, prediction, w_);
+    const bool is_made = prediction.readout_turn_rad == 0
+                             ? locate_tracked(frame, prediction, w_)
+                             : locate_tracked_turning(frame, prediction, w_);
+    note_compared_bits();
+    return is_made;
 }
 
 bool Attempts::make(Step step, CodeVariant code) {
     Frame frame = frame_in(code);
     frame.defers_if_rough = step == Step::first && may_try_twice();
     const bool is_made = make(step, frame);
-    const ComparedBits& compared = w_.measurement.compared;
-    if (compared.count > 0 &&
-        (w_.compared_bits.count == 0 || compared.wrong < w_.compared_bits.wrong))
-        w_.compared_bits = compared;
+    note_compared_bits();
     return is_made;
+}
+
+void Attempts::note_compared_bits() {
+    const ComparedBits& compared = w_.measurement.compared;
+    if (compared.agrees_better_than(w_.compared_bits)) w_.compared_bits = compared;
 }
 
 bool Attempts::make(Step step, const Frame& frame) {

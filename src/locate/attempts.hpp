@@ -68,6 +68,7 @@ class Attempts {
     Frame frame() const { return w_.frame(kernels(), image_, options_); }
     Frame frame_in(CodeVariant code);
     bool make(Step step, const Frame& frame);
+    void note_compared_bits();
     bool make_second(const Frame& frame);
     bool make_as_device();
 

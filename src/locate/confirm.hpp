@@ -60,8 +60,8 @@ struct Measurement {
     Hypothesis hypothesis;              ///< confirmed hypothesis, with the fitted plane
     PlaneFromImage pattern_from_image;  ///< plane of `hypothesis`, in fixed point
     TurnFit turn;                       ///< fitted rotation, if `Frame::removed_turn` is not null
-    /// Bits that were used to decide whether the place is certain. None if the hypothesis is
-    /// implausible.
+    /// Bits of the last hypothesis of an attempt whose bits were compared with the code within the
+    /// deciding distance. None if there was no such hypothesis.
     ComparedBits compared;
     /// True if the frame shows too few cells for a reliable position, so further attempts are
     /// skipped. `confirm` sets this flag only if its result is `too_few_bits` and at least one of

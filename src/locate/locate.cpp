@@ -42,7 +42,6 @@ class Cascade {
     /// Locates the frame. The arguments of the constructor must be valid.
     CodeReading locate(const Prediction* prediction) {
         w_.is_mirrored = w_.measurement.shows_too_few_cells = false;
-        w_.compared_bits = {};
         w_.work = WorkLimit(WorkLimit::kOfFrame);
         const auto tracked = track(prediction);
         CodeReading reading =
@@ -218,6 +217,7 @@ class Cascade {
 
 Fix locate(const ImageView& image, const DeviceOptions& options, const Prediction* prediction,
            DesktopWorkspace& w) {
+    w.compared_bits = {};
     const Status status = check(image, options, w);
     if (status != Status::ok) return refuse(status, w);
     if (options.effort == Effort::device) {
@@ -231,6 +231,7 @@ Fix locate(const ImageView& image, const DeviceOptions& options, const Predictio
 CodeReading locate_in_any_code(const ImageView& image, const DeviceOptions& options,
                                const Prediction* prediction, const CodeEvidence& evidence,
                                DesktopWorkspace& w) {
+    w.compared_bits = {};
     const Status status = check(image, options, w);
     if (status != Status::ok) return {refuse(status, w), options.code, evidence};
     if (const auto only = w.known.only_code()) {
@@ -245,6 +246,7 @@ CodeReading locate_in_any_code(const ImageView& image, const DeviceOptions& opti
 
 CodeReading locate_in_code(const ImageView& image, const DeviceOptions& options,
                            DesktopWorkspace& w) {
+    w.compared_bits = {};
     const Status status = check(image, options, w);
     if (status != Status::ok) return {refuse(status, w), options.code, {}};
     w.other_codes.are_wanted = true;

@@ -17,9 +17,10 @@ LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspac
 
 Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options)
     : RowLocator(workspace, options) {
-    // Clears the series of images and the known sheets that another locator may have left in the
-    // memory.
+    // Clears the series of images, the known sheets and the compared bits that another locator may
+    // have left in the memory.
     workspace->earlier.clear();
+    workspace->compared_bits = {};
     workspace->set_known({});
 }
 
@@ -132,6 +133,7 @@ CodeReading Locator::locate_in_code(const ImageView& image) {
 
 Status Locator::begin(int width_px, int height_px) {
     core::DesktopWorkspace& w = workspace();
+    w.compared_bits = {};
     Status status = core::check(width_px, height_px, options_, w);
     if (status == Status::ok && !w.pushed.begin(width_px, height_px))
         status = Status::image_too_large;

@@ -137,12 +137,17 @@ Status SecondAttempt::read_position(const PlaceEvidence& evidence) {
     }
     if (status == Status::ok && !is_possible(options.code, decoding, known))
         status = Status::not_certain;
+    const auto note_compared_bits = [&] {
+        if (decoding.bits > 0)
+            w_.measurement.compared = {middle_place(options.code, decoding).cell, decoding.bits,
+                                       w_.fix.bit_errors};
+    };
+    note_compared_bits();
     if (status != Status::ok && known.any() &&
-        read_on_sheets(kernels, options, grid, known, decoding, w_.fix))
+        read_on_sheets(kernels, options, grid, known, decoding, w_.fix)) {
         status = Status::ok;
-    if (decoding.bits > 0)
-        w_.measurement.compared = {middle_place(options.code, decoding).cell, decoding.bits,
-                                   w_.fix.bit_errors};
+        note_compared_bits();
+    }
     return status == Status::ok ? status : refused(status, w_);
 }
 

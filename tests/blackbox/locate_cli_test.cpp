@@ -79,7 +79,7 @@ TEST_F(LocateCommand, a_known_error_rate_locates_smaller_views) {
     EXPECT_GT(located(" --bits-per-error measured"), located(""));
     run("--bits-per-error 65537" + names);
     EXPECT_EQ(exit_code_, 2);
-    EXPECT_THAT(errors_, HasSubstr("'65537' is neither 'measured' nor a number"));
+    EXPECT_THAT(errors_, HasSubstr("'65537' is not 'measured' or a number"));
     run("--code anoto --threads 2 --bits-per-error measured" + names);
     EXPECT_EQ(exit_code_, 2);
     EXPECT_THAT(errors_, HasSubstr("--threads needs another --bits-per-error"));

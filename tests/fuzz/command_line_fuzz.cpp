@@ -30,7 +30,7 @@ void add_options(cli::Command& command, Values& values) {
     values.pattern.add_to(command);
     cli::add_cell_option(command, "--origin", values.cell, "");
     cli::add_lens_option(command, values.lens);
-    cli::add_attempt_options(command, values.options);
+    cli::add_attempt_options(command, cli::ErrorRates::known_or_measured, values.options);
     cli::add_size_option(command, values.camera);
     command.add_option("--number", values.number);
     command.add_option("--paper", values.paper);

@@ -120,7 +120,8 @@ enum {
     DOTPOSE_CODE_MICRODOTS = 2 /* printed by py-microdots */
 };
 
-/* Value of `bits_per_error` in options: measure the error rate over all frames so far. */
+/* Value of `bits_per_error` in options: measure the error rate over all frames so far. Device
+ * locators treat it as unknown. */
 #define DOTPOSE_MEASURED_ERROR_RATE (-1)
 
 #define DOTPOSE_POSITIONS_PER_AXIS 410815348u
@@ -411,7 +412,8 @@ dotpose_status dotpose_locator_create(int32_t kind, const dotpose_options* optio
  * `locator` is null. */
 void dotpose_locator_destroy(dotpose_locator* locator);
 
-/* Changes the options. Discards an unfinished frame. */
+/* Changes the options. Discards an unfinished frame and restarts the measurement of the error
+ * rate. */
 dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* options);
 
 /* Printed rectangle of the code plane (20 bytes). */

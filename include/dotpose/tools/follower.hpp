@@ -147,7 +147,8 @@ class Follower {
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
 
     /// Replaces the sheets, for example after a sheet was moved in the world. The next image starts
-    /// a new track. Invalidates `SheetPlace::entry` of earlier results. Throws BadArgument if there
+    /// a new track, but the error rate is still measured over all images. Invalidates
+    /// `SheetPlace::entry` of earlier results. Throws BadArgument if there
     /// are no sheets, or if the region of a sheet is not inside the code plane. Throws Error if the
     /// print map contains a page that is not among the sheets.
     void set_sheets(std::vector<SheetEntry> sheets);
@@ -159,8 +160,9 @@ class Follower {
     }
 
     /// Replaces the camera file, for example after a new calibration. The next image starts a new
-    /// track, because the reference point may have moved on the robot. Throws BadArgument if the
-    /// camera is invalid, or if it has no focal length and poses in space are required.
+    /// track, because the reference point may have moved on the robot, and a new measurement of the
+    /// error rate. Throws BadArgument if the camera is invalid, or if it has no focal length and
+    /// poses in space are required.
     void set_camera(const Camera& camera);
 
     /// Results for the latest image: the image as it was located (possibly flipped, downscaled, or

@@ -155,10 +155,11 @@ class SetSearch {
     }
 
     /// Adds the odds of the far alternatives that share all lines of `shared`. Skips alternatives
-    /// that share all lines of an earlier set, because they have already been added. The set must
-    /// not be empty. Returns false if the search must end, because the sum exceeds `max_odds` or
-    /// because the search would exceed its work limit.
+    /// that share all lines of an earlier set, because they have already been added. Returns false
+    /// if the search must end: because the sum exceeds `max_odds`, because the search would exceed
+    /// its work limit, or because the set is empty.
     bool add(LineSet shared) {
+        if (shared == 0) return false;  // the search for all alternatives takes too long
         earlier_ = searched_.sets();
         if (!searched_.add(shared)) return true;
         PlaceSets places = equal_places_.all();
@@ -195,8 +196,9 @@ class SetSearch {
         return spend(count(0) + count(1) + count(2) + count(3), tabled, looked_up, matches);
     }
     bool spend(float listed, float tabled, float looked_up, float matches) {
-        return work_.spend(
-            static_cast<std::size_t>(work_of_search(listed, tabled, looked_up, matches)));
+        constexpr float kMaxWork = 1e9F;  // can be converted to an integer with 32 bits
+        const float work = work_of_search(listed, tabled, looked_up, matches);
+        return work_.spend(static_cast<std::size_t>(std::min(work, kMaxWork)));
     }
 
     /// Combines pairs of places in a2 and a4 with pairs of places in a1 and a3. Uses only

@@ -1,10 +1,12 @@
 // Tests that small views are located if the rate of misread bits is known or measured.
 #include "dotpose/error_rate.hpp"
 
+#include <climits>
 #include <memory>
 
 #include <gtest/gtest.h>
 
+#include "../../altered_pattern.hpp"
 #include "shots.hpp"
 
 namespace dotpose::core_test::error_rate_test {
@@ -82,6 +84,43 @@ TEST_F(SmallViews, CountIfTheyAreRefused) {
     EXPECT_EQ(locator.compared_bits().count, 0);
 }
 
+TEST_F(SmallViews, GiveALowerLimitOfTheTrueNumber) {
+    constexpr int kTrueBitsPerError = 30;
+    Locator locator(*memory_, with_bits_per_error(kMeasuredErrorRate));
+    for (int i = 0; i < 200; ++i) {
+        const Shot shot = shot_of_small_view(i);
+        const GreyImage image = test::render_dots(shot, [&](Cell cell) {
+            return test::displacement_of(
+                test::flipped_symbol(shot.page.pattern, 1.0 / kTrueBitsPerError, shot.seed, cell));
+        });
+        const Fix fix = locator.locate(image.view());
+        EXPECT_TRUE(fix.status != Status::ok || is_right(fix, shot)) << "frame " << i;
+    }
+    EXPECT_GT(locator.error_rate().bits_per_error(), kTrueBitsPerError / 2);
+    EXPECT_LE(locator.error_rate().bits_per_error(), kTrueBitsPerError);
+}
+
+TEST_F(SmallViews, AreNotComparedAgainAfterAFailedCall) {
+    const GreyImage image = render(shot_of_small_view(0));
+    DeviceOptions options;
+    Locator locator(*memory_, options);
+    EXPECT_EQ(locator.compared_bits().count, 0) << "before the first frame";
+    (void)locator.locate(image.view());
+    EXPECT_GT(locator.compared_bits().count, 120);
+    EXPECT_EQ(locator.locate({nullptr, 96, 96, 96}).status, Status::bad_argument);
+    EXPECT_EQ(locator.compared_bits().count, 0);
+    (void)locator.locate(image.view());
+    EXPECT_EQ(Locator(*memory_, options).compared_bits().count, 0) << "of another locator";
+    (void)locator.locate(image.view());
+    EXPECT_EQ(locator.begin(1, 96), Status::image_too_small);
+    EXPECT_EQ(locator.compared_bits().count, 0);
+    (void)locator.locate(image.view());
+    options.effort = Effort::device;
+    locator.set_options(options);
+    (void)locator.locate(image.view());
+    EXPECT_EQ(locator.compared_bits().count, 0);
+}
+
 /// Adds `frames` frames of 150 bits at different places.
 void add_frames(int frames, int wrong_bits, ErrorRate& rate) {
     static std::uint32_t x = 0;
@@ -97,7 +136,7 @@ TEST(ErrorRate, IsAnUpperLimitFromTheCounts) {
     add_frames(20, 0, rate);
     EXPECT_EQ(rate.bits_per_error(), 20 * 150 / 3);
     add_frames(1, 4, rate);
-    EXPECT_EQ(rate.bits_per_error(), 21 * 150 / (4 + 2 * 2 + 3)) << "wrong bits count at once";
+    EXPECT_EQ(rate.bits_per_error(), 21 * 150 / (4 + 2 * 2 + 3)) << "wrong bits count immediately";
     rate.add({});
     EXPECT_EQ(rate.bits_per_error(), 21 * 150 / (4 + 2 * 2 + 3)) << "nothing was compared";
 }
@@ -121,6 +160,28 @@ TEST(ErrorRate, CountsASlowCameraAtEachPlace) {
     EXPECT_EQ(rate.bits_per_error(), 999 / 17 * 150 / 3);
 }
 
+/// A robot that drives to and fro sees the same dots again.
+TEST(ErrorRate, CountsAPlaceOnceIfTheCameraReturnsToIt) {
+    ErrorRate rate;
+    constexpr std::uint32_t kPlaces = 32;
+    static_assert(kPlaces == ErrorRate::kPlaces);
+    for (std::uint32_t i = 0; i < 1000; ++i)
+        rate.add({.cell = {1000 * (i % kPlaces), 40}, .count = 150, .wrong = 0});
+    EXPECT_EQ(rate.bits_per_error(), 31 * 150 / 3);
+}
+
+TEST(ErrorRate, IsInTheRangeOfTheOptionForAnyCounts) {
+    ErrorRate rate;
+    for (std::uint32_t i = 0; i < 100; ++i)
+        rate.add({.cell = {100'000 * i, 40}, .count = 1 << 20, .wrong = 0});
+    EXPECT_EQ(rate.bits_per_error(), ErrorRate::kMaxBitsPerError);
+    const ErrorRate before = rate;
+    for (const ComparedBits& impossible :
+         {ComparedBits{{}, INT_MAX, 0}, ComparedBits{{}, 150, -1}, ComparedBits{{}, 150, 151}})
+        rate.add(impossible);
+    EXPECT_EQ(rate.bits_per_error(), before.bits_per_error());
+}
+
 TEST(ErrorRate, ForgetsOldFrames) {
     ErrorRate rate;
     add_frames(2000, 5, rate);
@@ -128,7 +189,8 @@ TEST(ErrorRate, ForgetsOldFrames) {
     add_frames(2000, 0, rate);
     EXPECT_GT(rate.bits_per_error(), 2000);
     add_frames(100'000, 0, rate);
-    EXPECT_LE(rate.bits_per_error(), (1 << 15) / 3);
+    // 32 places are counted beside the 2^15 settled bits.
+    EXPECT_LE(rate.bits_per_error(), ((1 << 15) + 32 * 150) / 3);
 }
 
 }  // namespace

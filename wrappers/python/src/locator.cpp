@@ -52,6 +52,8 @@ void PyLocator::set_options(CodeVariant code, bool show_stages) {
     DeviceOptions options = options_;
     options.code = code;
     options.show_stages |= show_stages;
+    int& bits_per_error = options.integrity.bits_per_error;
+    if (bits_per_error == kMeasuredErrorRate) bits_per_error = newest_.bits_per_error;
     locator_.set_options(options);
 }
 
@@ -84,11 +86,13 @@ PyFix PyLocator::locate_locked(const ImageView& image,
     newest_.code = locator_.options().code;
     newest_.expected = expected;
     newest_.motion = motion;
-    if (expected && !setup_.code && expected->code != newest_.code) {
-        newest_.code = expected->code;
-        set_options(newest_.code, false);
-    }
+    newest_.bits_per_error = error_rate_.bits_per_error();
+    const bool is_measured = options_.integrity.bits_per_error == kMeasuredErrorRate;
+    const bool is_other_code = expected && !setup_.code && expected->code != newest_.code;
+    if (is_other_code) newest_.code = expected->code;
+    if (is_other_code || is_measured) set_options(newest_.code, false);
     const CodeReading reading = read(image, newest_);
+    error_rate_.add(locator_.compared_bits());
     newest_.fix = reading.fix;
     if (!setup_.code) evidence_ = reading.evidence;
     PyFix seen = seen_fix(reading);
@@ -157,7 +161,7 @@ double PyLocator::cpp_us(const py::object& image, int repeats) {
     use_options_for(view.width_px, view.height_px);
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < repeats; ++i)
-        read(view, {0, evidence_, locator_.options().code, {}, {}, {}});
+        read(view, {.evidence = evidence_, .code = locator_.options().code});
     const std::chrono::duration<double, std::micro> elapsed =
         std::chrono::steady_clock::now() - start;
     return elapsed.count() / repeats;

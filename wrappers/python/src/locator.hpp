@@ -50,12 +50,15 @@ class PyLocator : public StageSource, public std::enable_shared_from_this<PyLoca
         std::uint64_t number = 0;
         CodeEvidence evidence;  ///< evidence before the frame was located
         CodeVariant code = CodeVariant::anoto;
+        int bits_per_error = 0;  ///< measured before the frame was located
         std::optional<SeenPrediction> expected;
         std::optional<MeasuredMotion> motion;
         Fix fix;  ///< fix before the camera file is applied
     };
 
     void use_options_for(int width_px, int height_px);
+    /// Sets the options for the newest frame: in the given code, and with the error rate that was
+    /// measured before this frame, if it is measured.
     void set_options(CodeVariant code, bool show_stages);
     CodeReading read(const ImageView& image, const Request& request);
     PyFix locate_locked(const ImageView& image, const std::optional<SeenPrediction>& expected,
@@ -68,6 +71,7 @@ class PyLocator : public StageSource, public std::enable_shared_from_this<PyLoca
     int width_px_ = 0;
     int height_px_ = 0;
     CodeEvidence evidence_;
+    ErrorRate error_rate_;
     Request newest_;
 
     // Guarded by the GIL.

@@ -230,12 +230,27 @@ def test_options_have_the_defaults_of_cpp_and_are_checked(frames):
 def test_a_measured_error_rate_makes_small_views_certain():
     small = dotpose.simulate(60, seed=5, width_px=96, height_px=96)
 
-    def located(bits_per_error):
-        options = dotpose.Options(bits_per_error=bits_per_error)
-        locator = dotpose.Locator(options=options, code="anoto")
+    def new_locator(bits_per_error):
+        return dotpose.Locator(options=dotpose.Options(bits_per_error=bits_per_error), code="anoto")
+
+    def located(locator):
         return sum(locator.locate(frame.image).ok for frame in small)
 
-    assert located(-1) > 2 * located(0)
+    assert located(new_locator(-1)) > 2 * located(new_locator(0))
+
+
+def test_dots_of_a_fix_are_found_with_the_error_rate_measured_before_it():
+    small = dotpose.simulate(60, seed=5, width_px=96, height_px=96)
+    measuring, unknown = (
+        dotpose.Locator(options=dotpose.Options(bits_per_error=n), code="anoto") for n in (-1, 0)
+    )
+    helped = 0
+    for frame in small:
+        fix = measuring.locate(frame.image)
+        if fix.ok and not unknown.locate(frame.image).ok:
+            helped += 1
+            assert len(fix.dots) > 60
+    assert helped > 20
 
 
 def test_errors_are_a_family():

@@ -104,7 +104,8 @@ RatiosCase clear_lines(Rng& rng, int lines) {
 TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
     Rng rng(kSeed);
     int some = 0;
-    int none = 0;
+    int no_terms = 0;
+    int unfinished = 0;
     for (int i = 0; i < 250; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
         RatiosCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(12)));
@@ -122,16 +123,22 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
         const int counted_q8 = seam_alternatives_log2_q8(ratios);
         const double counted = std::exp2(counted_q8 / 256.0);
         const Kernels& desktop = kernels();
-        EXPECT_EQ(seam_alternatives_log2_q8(desktop, UnsharedLines(desktop, ratios)), counted_q8);
+        const UnsharedLines unshared(desktop, ratios);
+        EXPECT_EQ(seam_alternatives_log2_q8(desktop, unshared), counted_q8);
+        WorkLimit none(0);
+        const auto without_work = seam_alternatives_log2_q8(desktop, unshared, none);
+        EXPECT_TRUE(!without_work || *without_work == counted_q8);
+        unfinished += without_work ? 0 : 1;
         const Sum sum = sum_of_all(c);
         const double log2_ratio = std::log2((counted + limit) / (sum.odds + limit));
         EXPECT_GE(log2_ratio, -0.1);
         // Every addition rounds log2 of the sum up by at most 0.012.
         EXPECT_LE(log2_ratio, 0.1 + sum.terms * 0.012);
-        ++(sum.terms > 0 ? some : none);
+        ++(sum.terms > 0 ? some : no_terms);
     }
     EXPECT_GE(some, 30) << "seed " << kSeed;
-    EXPECT_GE(none, 30) << "seed " << kSeed;
+    EXPECT_GE(no_terms, 30) << "seed " << kSeed;
+    EXPECT_GE(unfinished, some) << "seed " << kSeed;
 }
 
 TEST(SeamAlternatives, ASeamExplainsTenLinesAsWell) {
