@@ -4,6 +4,7 @@
 
 #include "core/math/odds.hpp"
 #include "dotpose/locate.hpp"
+#include "locate/near_cells.hpp"
 
 namespace dotpose {
 namespace {
@@ -14,11 +15,6 @@ constexpr std::uint32_t kSamePlace_cells = 64;
 /// Maximum number of frames that are counted at one place. Further frames are ignored. The limit
 /// ensures that the number of frames can be converted to a float without rounding.
 constexpr std::uint32_t kMaxFrames = 1U << 23;
-
-bool is_near(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t apart = a > b ? a - b : b - a;
-    return std::min(apart, kPositionsPerAxis - apart) < kSamePlace_cells;
-}
 
 /// Returns the log2 odds of each code relative to the most likely code, clamped to at least
 /// -`max_log2`. `log2_q8` and the result are in units of 2^-8.
@@ -69,7 +65,7 @@ float CodeEvidence::p_wrong(CodeVariant code) const {
 
 void CodeEvidence::add(Cell cell, const LogOdds& log2_q8) {
     const LogOdds frame = against_likeliest(log2_q8, kMax_log2);
-    if (frames_here_ == 0 || !is_near(cell.x, here_.x) || !is_near(cell.y, here_.y)) {
+    if (frames_here_ == 0 || !core::are_near(cell, here_, kSamePlace_cells)) {
         before_log2_q8_ = sum();
         factors_here_ = {};
         here_ = cell;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "locate/near_cells.hpp"
+
 namespace dotpose {
 namespace {
 
@@ -18,11 +20,7 @@ constexpr int kMaxCount = 1 << 20;
 bool are_near(const ComparedBits& a, const ComparedBits& b) {
     const auto side =
         static_cast<std::uint32_t>(std::sqrt(2 * static_cast<float>(std::max(a.count, b.count))));
-    const auto is_near = [side](std::uint32_t c, std::uint32_t d) {
-        const std::uint32_t apart = c > d ? c - d : d - c;
-        return std::min(apart, kPositionsPerAxis - apart) < side;
-    };
-    return is_near(a.cell.x, b.cell.x) && is_near(a.cell.y, b.cell.y);
+    return core::are_near(a.cell, b.cell, side);
 }
 
 }  // namespace
