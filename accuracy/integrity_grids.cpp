@@ -192,8 +192,9 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityT
         return;
     }
     Fix fix;
+    core::WorkLimit work(core::WorkLimit::kOfImage);
     const Status status = core::verify(core::kernels(), reading.grid, reading.code, nullptr,
-                                       decoding, kAcceptAll, storage, fix);
+                                       kAcceptAll, storage, work, decoding, fix);
     if (status != Status::ok) {
         ++tally.unread;
         return;

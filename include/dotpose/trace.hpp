@@ -11,7 +11,6 @@
 /// Fixed point: the suffix _qN marks a value in units of 2^-N.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -112,9 +111,6 @@ struct Decoding {
     /// `pattern_from_grid`.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits that were compared with the code at `place`; two per dot
-    /// Upper bounds on the probability that the position is wrong along x and along y, as log2 in
-    /// units of 2^-8.
-    std::array<int, 2> p_wrong_log2_q8{};
 };
 
 /// The matrices P^(x) and P^(y) (paper, figure 8), for a rectangle of grid cells.

@@ -33,7 +33,6 @@ bool read(const DeviceOptions& options, DeviceWorkspace& w) {
     decoding.pattern_from_grid = turn;
     decoding.place = moved(options.code, found->corner, -corner.x, -corner.y);
     decoding.bits = 2 * block.dots();
-    decoding.p_wrong_log2_q8 = {256 * w.fix.p_wrong_log2, kNever_q8};
     return true;
 }
 

@@ -8,6 +8,7 @@
 #include "device/locate.hpp"
 #include "locate/first.hpp"
 #include "locate/tracked.hpp"
+#include "locate/tuning.hpp"
 #include "locate/turning.hpp"
 
 namespace dotpose::core {
@@ -29,8 +30,11 @@ std::span<const CodeVariant> Attempts::codes_for(Step step) const {
 }
 
 /// Selects the code of the next attempt and returns the input of that attempt. Discards the odds
-/// that the previous attempt stored for the other codes.
+/// that the previous attempt stored for the other codes, and renews the work limit.
 Frame Attempts::frame_in(CodeVariant code) {
+    const bool is_small =
+        image_.width_px * image_.height_px <= tuning::confirm::kMaxPixelsOfSmallView;
+    w_.work = WorkLimit(is_small ? WorkLimit::kOfSmallImage : WorkLimit::kOfImage);
     options_.code = code;
     w_.measurement.compared = {};
     if (w_.other_codes.are_wanted) w_.other_codes.of = {};
@@ -54,6 +58,8 @@ bool Attempts::track(const Prediction& prediction) {
 bool Attempts::make(Step step, CodeVariant code) {
     Frame frame = frame_in(code);
     frame.defers_if_rough = step == Step::first && may_try_twice();
+    // The place of filtered bits often needs more work.
+    if (step == Step::second || step == Step::resampled) w_.work = WorkLimit(WorkLimit::kOfImage);
     const bool is_made = make(step, frame);
     note_compared_bits();
     return is_made;
@@ -103,6 +109,13 @@ Judgement Attempts::judge(CodeVariant read) const {
 }
 
 bool Attempts::shows_turn() {
+    // Estimated cost in processor instructions. With many dots, the place is certain without much
+    // work, so only the cost of kMaxDots dots is subtracted from the limit.
+    constexpr std::size_t kWorkPerDot = 1900;
+    constexpr std::size_t kMaxDots = 200;
+    const std::size_t dots =
+        std::min(static_cast<std::size_t>(w_.measurement.dots.count), kMaxDots);
+    if (w_.fix.surface != Surface::even && !w_.work.spend(kWorkPerDot * dots)) return false;
     return core::shows_turn(frame(), w_.fix, w_.rolling_pixels, w_.measurement);
 }
 

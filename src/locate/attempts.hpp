@@ -53,7 +53,8 @@ class Attempts {
     /// of the fix, and the most likely other code with its odds.
     Judgement judge(CodeVariant read) const;
     /// Returns true if a rotation of the scene during the readout may explain the residuals of the
-    /// fix. A search for this rotation (`Step::turning`) may then give a better fix.
+    /// fix. A search for this rotation (`Step::turning`) may then give a better fix. Returns false
+    /// if the attempt has already taken too much work (see `WorkLimit`).
     bool shows_turn();
     /// Returns true if the last `Step::first` attempt ended early because its fix would be rough.
     bool is_rough() const { return w_.measurement.is_rough; }

@@ -29,8 +29,7 @@ struct Hypothesis {
     bool reads_cut_dots = false;
     /// True if the pattern may cover only a part of the image, around `from_centre`.
     bool is_partial_view = false;
-    /// True if the image is small and shows few cells. The effort spent on testing the place is
-    /// then limited (see `PlaceEvidence::work`).
+    /// True if the image is small and shows few cells. A second attempt then rarely succeeds.
     bool is_small_view = false;
     /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
     int dot_contrast_q8 = 0;

@@ -42,7 +42,6 @@ class Cascade {
     /// Locates the frame. The arguments of the constructor must be valid.
     CodeReading locate(const Prediction* prediction) {
         w_.is_mirrored = w_.measurement.shows_too_few_cells = false;
-        w_.work = WorkLimit(WorkLimit::kOfFrame);
         const auto tracked = track(prediction);
         CodeReading reading =
             tracked ? accept(options_.code, *tracked) : locate_without_prediction();

@@ -30,9 +30,9 @@ bool is_certain_alone(const PlaceEvidence& evidence, const Hypothesis& hypothesi
     }
     if (known.any() && is_certain_on_sheets(kernels, options, place, block, known, fix))
         return true;
-    return is_certain(
-        kernels, evidence_of(kernels, options.code, place, block, confidences, line_scores),
-        options.code, options.integrity, fix, others, hypothesis.is_small_view ? &work : nullptr);
+    return is_certain(kernels,
+                      evidence_of(kernels, options.code, place, block, confidences, line_scores),
+                      options.code, options.integrity, work, fix, others);
 }
 
 /// Returns true if `block` and the bits of earlier frames together make the place certain.
@@ -52,9 +52,11 @@ bool is_certain_together(const PlaceEvidence& evidence, const Place& place,
     if (!is_on_sheet) {
         if (known.are_all()) return false;
         const auto confidences = compared_with_code(options.code, place, all);
+        // The test of the frame alone may have used up the work limit of the attempt.
+        WorkLimit own_work(WorkLimit::kOfImage);
         if (!is_certain(kernels,
                         evidence_of(kernels, options.code, place, all, confidences, line_scores),
-                        options.code, half.integrity, fix, others))
+                        options.code, half.integrity, own_work, fix, others))
             return false;
     }
     fix.p_wrong_log2 = 1 + std::max(fix.p_wrong_log2, joined->p_mismatch_log2);

@@ -29,8 +29,7 @@ struct PlaceEvidence {
     EarlierBits& earlier;
     std::span<ScoredLine> line_scores;  ///< memory for the line scores of a block
     OtherCodes* others;                 ///< receives the odds of the other codes, unless it is null
-    /// Remaining effort that may be spent on testing places in this frame. Applies only to small
-    /// views.
+    /// Remaining effort that may be spent on testing places in this attempt.
     WorkLimit& work;
 };
 

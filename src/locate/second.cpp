@@ -132,8 +132,8 @@ Status SecondAttempt::read_position(const PlaceEvidence& evidence) {
     // Finds the orientation and the position (paper, sections II-B.6 and II-B.7).
     Status status = decode(options, grid, line_scores, decoding);
     if (status == Status::ok) {
-        status = verify(kernels, grid, options.code, others, decoding, options.integrity,
-                        line_scores, w_.fix);
+        status = verify(kernels, grid, options.code, others, options.integrity, line_scores, work,
+                        decoding, w_.fix);
     }
     if (status == Status::ok && !is_possible(options.code, decoding, known))
         status = Status::not_certain;
@@ -172,7 +172,6 @@ Status SecondAttempt::resample(const Frame& frame, const PlaceEvidence& evidence
     if (!fit_pattern(frame, {w_.grid, options.code, w_.decoding}, fit)) return Status::not_certain;
     w_.grid_from_image = w_.pattern_from_image;
     w_.decoding.pattern_from_grid = {};
-    w_.decoding.p_wrong_log2_q8 = {};  // these values are for the previous bits
     if (!sample_cells(frame.image, w_.smoothing.paper, options.lens, w_.grid_from_image, w_.grid))
         return Status::not_certain;
     return read_position(evidence);

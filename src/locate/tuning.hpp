@@ -220,9 +220,9 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// off by the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
 /// Maximum number of pixels in a small view. A view is small if it also contains fewer than
-/// kMaxCellsWithCutDots cells. The effort spent on testing a place in a small view is limited.
-/// Images with more pixels rarely contain so few cells unless a rolling shutter stretches the
-/// cells.
+/// kMaxCellsWithCutDots cells. First and tracked attempts in images of at most this size have the
+/// smaller budget (`WorkLimit::kOfSmallImage`). Images with more pixels rarely contain so few cells
+/// unless a rolling shutter stretches the cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Minimum number of cells in a small view for which a second attempt is made. Of 241 frames of 72
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,

@@ -30,7 +30,7 @@ struct DesktopWorkspace : DeviceWorkspace {
     Measurement measurement;  ///< memory and results of `confirm`
     OtherCodes other_codes;   ///< odds of the codes other than the one that was read
     EarlierBits earlier;
-    WorkLimit work{WorkLimit::kOfFrame};  ///< see `PlaceEvidence::work`
+    WorkLimit work{WorkLimit::kOfImage};  ///< see `PlaceEvidence::work`
     PushedImage pushed;
     std::span<std::uint8_t> rolling_pixels;  ///< memory for the derotated image
     bool is_mirrored = false;                ///< true if an attempt found the mirrored code

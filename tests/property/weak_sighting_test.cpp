@@ -83,8 +83,9 @@ int claim(View& view) {
     Fix fix;
     if (core::decode_all(grid, view.code, storage, decoding) != Status::ok) return 1;
     const IntegrityOptions all{0, 256};
-    if (core::verify(core::kernels(), grid, view.code, nullptr, decoding, all, storage, fix) !=
-        Status::ok)
+    core::WorkLimit work(core::WorkLimit::kOfImage);
+    if (core::verify(core::kernels(), grid, view.code, nullptr, all, storage, work, decoding,
+                     fix) != Status::ok)
         return 1;
     return decoding.place == view.place && decoding.pattern_from_grid.quarters == 0
                ? fix.p_wrong_log2

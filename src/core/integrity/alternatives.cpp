@@ -1,33 +1,31 @@
 #include "core/integrity/alternatives.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
-#include "core/integrity/double_alternatives.hpp"
-#include "core/integrity/expected_alternatives.hpp"
-#include "core/integrity/likely_alternatives.hpp"
-#include "core/integrity/near_alternatives.hpp"
-#include "core/integrity/ranked_lines.hpp"
+#include "core/integrity/loss_tables.hpp"
+#include "core/integrity/planned_alternatives.hpp"
+#include "core/integrity/seam_alternatives.hpp"
+#include "core/integrity/set_plan.hpp"
 #include "core/integrity/single_alternatives.hpp"
 #include "core/math/odds.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two positions can share in `anoto` and `microdots`. Two
-/// positions that share six adjacent lines would be equal, because they would have five equal
-/// digits in each sequence, and five digits determine a place. In `libdots`, some positions share
-/// more lines. The near alternatives include these positions.
-constexpr int kMaxSharedInARow = code::kOrder;
-/// The far alternatives are evaluated in detail only if their expected odds are below this value.
-/// If the expected odds are larger, a detailed evaluation is unlikely to make the fix certain.
-constexpr float kMaxOddsForDetail = 1e-4F;
-/// Default limit on the summed odds.
-constexpr float kUsualLimit = 0x1p-30F;
+/// Estimated cost per axis, in processor instructions, of all steps except the search for far
+/// alternatives, without the costs that depend on the number of alternatives or sets.
+constexpr std::size_t kPreparation = 56'000;
+/// Part of kPreparation for the seam alternatives of an axis. Only a cost above this value is
+/// subtracted from the work limit.
+constexpr std::size_t kWorkOfSeams = 27'000;
 
-/// Returns the summed odds of the reading's position in all other sections. In each of these
-/// sections, the rolls of all lines differ from the rolls of the reading by the same shift.
-float sum_of_other_sections(const RankedLines& lines) {
+/// Returns the summed odds of the reading's position in all other sections, or an upper bound if it
+/// is negligible compared to `max_odds`. In each of these sections, the rolls of all lines differ
+/// from the rolls of the reading by the same shift.
+float sum_of_other_sections(const LossTables& lines, float max_odds) {
+    const float bound = (kSections - 1) * lines.ratios.odds(lines.ratios.min_loss_of_all());
+    if (bound < max_odds / 1024) return bound;
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
         int lost = 0;
@@ -38,76 +36,81 @@ float sum_of_other_sections(const RankedLines& lines) {
     return sum;
 }
 
-int log2_rounded_up(float sum) {
-    if (sum >= 1) return 0;  // including infinity
-    int exponent = 0;
-    std::frexp(sum, &exponent);  // sum < 2^exponent
-    return exponent;
-}
+/// Adds up the probabilities of all alternatives on one or two axes, including the seam
+/// alternatives.
+class Alternatives {
+  public:
+    Alternatives(const Kernels& kernels, std::span<const UnsharedLines* const> axes, float codes,
+                 float max_wrong, WorkLimit& work)
+        : kernels_(kernels),
+          axes_(axes),
+          factor_(kMargin * codes),
+          extra_bits_(extra_bits_for(max_wrong / codes)),
+          left_(max_wrong),
+          work_(work) {}
 
-/// Expected total odds of the far alternatives. The expectation is over all places.
-struct Expectation {
-    float of_two;   ///< alternatives that differ in two sequences
-    float of_more;  ///< alternatives that differ in three or four sequences
-};
-
-/// Returns the summed odds of all alternatives. `known` is the sum of the odds of the single
-/// alternatives, the other sections, and the near alternatives that share kMaxSharedInARow lines.
-/// The function adds the odds of the remaining alternatives. Double alternatives, and near
-/// alternatives that share kMaxSharedInARow - 1 lines, are counted one by one, because their true
-/// odds may exceed their expected odds. Expected odds replace only sums that are negligible, or
-/// that would take too long to compute. Stops when the sum reaches `limit`.
-float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
-                        Expectation expected, float limit) {
-    // The smaller of the caller's limit and the default limit. A sum is negligible if it is small
-    // relative to this value.
-    const float usual = std::min(limit, kUsualLimit);
-    float sum = kMargin * expected.of_more;
-    if (sum > usual / 16) {
-        sum = sum_of_expected_alternatives(kernels, lines, kMaxSharedInARow - 2, 3, 4);
-        // Skips the slowest sum if the other sums already exceed the limit.
-        if (known + sum < limit)
-            sum += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow - 1);
+    /// Adds the probabilities on axis `n` and all later axes. Calls itself for the next axis before
+    /// it searches for far alternatives, because that search takes the longest. The faster sums are
+    /// therefore complete on all axes before the first search begins. Returns false if the sum
+    /// reaches the maximum, or if the computation would exceed the work limit.
+    bool add(std::size_t n) {
+        if (n == axes_.size()) return add_seams();
+        if (!work_.spend(kPreparation)) return false;
+        const LossTables lines(axes_[n]->ratios());
+        const auto single = sum_of_single_alternatives(kernels_, lines, extra_bits_, work_);
+        if (!single) return false;
+        if (!spend(factor_ * (*single + sum_of_other_sections(lines, left_ / factor_))))
+            return false;
+        const SetPlan plan(lines, extra_bits_, work_);
+        if (!plan.is_complete()) return false;
+        const float fraction = 1 / static_cast<float>(n + 1);
+        planned_work_ += work_of_planned_alternatives(plan, fraction * left_ / factor_);
+        if (planned_work_ > static_cast<float>(work_.left()) || !add(n + 1)) return false;
+        // The last axis is searched first. On each axis, the total expected odds of the sets that
+        // are not searched must be at most `fraction` times the remaining probability `left_`. The
+        // rest is reserved for the axes that are searched later.
+        const auto far =
+            sum_of_planned_alternatives(lines, plan, extra_bits_, fraction, left_ / factor_, work_);
+        return far && spend(factor_ * *far);
     }
-    sum += known;
-    if (sum >= limit) return sum;
-    // Limit on the expected odds of the double alternatives that are not counted one by one. It is
-    // at most an eighth of the difference between `limit` and the sum so far, so the expected odds
-    // alone normally do not raise the sum to `limit`.
-    const float negligible = std::min(sum < usual / 8 ? usual / 16 : sum / 8, (limit - sum) / 8);
-    return sum +
-           sum_of_double_alternatives(kernels, lines, expected.of_two, negligible, limit - sum);
-}
+    /// Returns the maximum probability minus the sum so far.
+    float left() const { return left_; }
+
+  private:
+    static constexpr float kMargin = 1.03F;  ///< covers the rounding errors of the exponentials
+
+    bool add_seams() {
+        const std::size_t left = work_.left();
+        work_ = WorkLimit(left + axes_.size() * kWorkOfSeams);
+        float sum = 0;
+        for (const UnsharedLines* axis : axes_) {
+            const std::optional<int> odds_q8 = seam_alternatives_log2_q8(kernels_, *axis, work_);
+            if (!odds_q8) return false;
+            sum += 1.02F * power_of_two(*odds_q8);
+        }
+        work_ = WorkLimit(std::min(left, work_.left()));
+        return planned_work_ <= static_cast<float>(work_.left()) && spend(sum);
+    }
+    bool spend(float odds) {
+        left_ -= odds;
+        return left_ > 0;
+    }
+
+    const Kernels& kernels_;
+    std::span<const UnsharedLines* const> axes_;
+    float factor_;
+    int extra_bits_;
+    float left_;  ///< maximum probability minus the sum so far
+    WorkLimit& work_;
+    float planned_work_ = 0;  ///< estimated cost of the searches for far alternatives
+};
 
 }  // namespace
 
-float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2) {
-    if (ratios.lines.count() <= kMaxSharedInARow) return 1;
-    const RankedLines lines(ratios);
-    const float limit = power_of_two_exactly(limit_log2);
-    // Computes the cheapest sums first, and stops when their total exceeds the limit.
-    float known = sum_of_single_alternatives(kernels, lines) + sum_of_other_sections(lines);
-    if (known >= limit) return known;
-    const float max_rest = std::min(limit, kUsualLimit) / 4;
-    if (const auto others = sum_of_likely_alternatives(kernels, lines, max_rest, limit - known))
-        return known + *others;
-    const auto expected_of = [&](int min_different, int max_different) {
-        return sum_of_expected_alternatives(kernels, lines, kMaxSharedInARow - 1, min_different,
-                                            max_different);
-    };
-    const Expectation expected{expected_of(2, 2), expected_of(3, 4)};
-    const float far = expected.of_two + expected.of_more;
-    if (far >= std::max(limit, kMaxOddsForDetail)) return far;
-    known += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow);
-    const float sum = known + far;
-    const bool needs_detail =
-        sum > std::min(limit, kUsualLimit) / 1024 && far > known && far < kMaxOddsForDetail;
-    if (known >= limit || !needs_detail) return sum;
-    return counted_in_detail(kernels, lines, known, expected, limit);
-}
-
-int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2) {
-    return log2_rounded_up(sum_of_alternatives(kernels, ratios, limit_log2));
+float wrong_by_alternatives(const Kernels& kernels, std::span<const UnsharedLines* const> axes,
+                            float codes, float max_wrong, WorkLimit& work) {
+    Alternatives alternatives(kernels, axes, codes, max_wrong, work);
+    return alternatives.add(0) ? max_wrong - alternatives.left() : 1;
 }
 
 }  // namespace dotpose::core

@@ -1,21 +1,23 @@
-// Alternatives: the summed odds of all positions except the reading. Most of the sum comes from
-// positions that share lines with the reading. likelihood_ratios.hpp defines the terms. See
-// docs/integrity.md, "Alternatives: odds".
+// Alternatives: estimates the probability that an alternative is correct rather than the reading,
+// with a bounded amount of computation. See docs/integrity.md, "Alternatives: odds".
+// likelihood_ratios.hpp defines the terms.
 #pragma once
 
-#include "core/integrity/likelihood_ratios.hpp"
+#include <span>
+
+#include "core/integrity/unshared_lines.hpp"
+#include "core/integrity/work_limit.hpp"
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
-/// Returns the summed odds of all alternatives except seam alternatives, accurate to 2 %. Each
-/// alternative contributes its odds or an upper bound on its odds, except that some far
-/// alternatives contribute their expected odds. The summation stops when the sum reaches
-/// 2^limit_log2. A result of 2^limit_log2 or more may therefore be incomplete. Returns 1 if there
-/// are at most 5 lines, or if the ratios come from hard bits.
-float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2);
-
-/// Returns log2 of `sum_of_alternatives`, rounded up to an integer and clamped to at most 0.
-int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0);
+/// Returns an upper estimate of the probability that an alternative, rather than the reading, is
+/// correct on at least one of the axes. Includes the seam alternatives. `axes` contains one or two
+/// axes, and each axis must have more than kMaxShared lines. `codes` is the weighted number of
+/// possible codes. Returns 1 if the estimate reaches `max_wrong`, or if it cannot be computed
+/// within the work limit `work`. Usually, both cases are detected before the search for far
+/// alternatives begins.
+float wrong_by_alternatives(const Kernels& kernels, std::span<const UnsharedLines* const> axes,
+                            float codes, float max_wrong, WorkLimit& work);
 
 }  // namespace dotpose::core

@@ -7,10 +7,8 @@
 #include "code/rolls.hpp"
 #include "core/integrity/alternative_sets.hpp"
 #include "core/integrity/alternatives.hpp"
-#include "core/integrity/min_losses.hpp"
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/seam_alternatives.hpp"
-#include "core/integrity/small_views.hpp"
 #include "core/integrity/tabled_alternatives.hpp"
 #include "core/integrity/unshared_lines.hpp"
 #include "core/integrity/weigh_codes.hpp"
@@ -170,7 +168,6 @@ struct Query {
     int odds_per_bit_q8;
     int limit_log2;
     OtherCodes* others;  ///< odds of the other codes; null if not requested
-    WorkLimit* work;     ///< remaining work budget; null if unlimited
 };
 
 bool is_code_in_question(const Query& query) {
@@ -194,42 +191,17 @@ float codes_in_question(const Query& query) {
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns an upper bound on the probability that the position is wrong along one axis. Returns 1
-/// if chance and alternatives together exceed 2^limit_log2. Tries up to three bounds on the
-/// alternatives, each slower and tighter than the preceding bound. If the ratios come from hard
-/// bits, only the first bound is available.
-float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
-                 const Query& query) {
-    const LikelihoodRatios& ratios = unshared.ratios();
-    const int limit_log2 = query.limit_log2;
-    const float limit = power_of_two_exactly(limit_log2);
-    const float chance = chance_of(bits, query);
-    if (chance > limit) return 1;
-    const float codes = codes_in_question(query);
-    const auto with = [&](float alternatives) { return chance + codes * alternatives; };
-    // Each axis may use half of the limit. A tighter bound is computed only if the previous bound
-    // exceeds this half.
-    const float enough = limit / 2;
-    float sum = with(alternatives(kernels, ratios, unshared, limit));
-    if (sum > enough && !ratios.is_of_bits())
-        sum = with(power_of_two_rounded_up(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
-    if (sum > enough && !ratios.is_of_bits()) {
-        // The factor covers the rounding errors of the exponentials in the sum.
-        sum = with(1.03F * sum_of_alternatives(kernels, ratios, limit_log2));
-    }
-    if (sum > limit) return 1;
-    return sum + seam_alternatives(kernels, unshared);
-}
-
-/// In small views, the quick bound is computed only if the first bound is below this value. If the
-/// first bound is larger, the quick bound seldom suffices, because it is rarely much tighter.
+/// The quick bound is computed only if the first bound is below this value. If the first bound is
+/// larger, the quick bound seldom suffices, because it is rarely much tighter.
 constexpr float kMaxForQuickBound = 0x1p-20F;
 
-/// Returns an upper bound on the probability that the position in a small view is wrong along at
-/// least one axis. Returns 1 or more if the bound exceeds 2^limit_log2. The first two bounds on the
-/// alternatives are those of `axis_wrong`.
-float small_view_wrong(const Kernels& kernels, const std::array<Confidence, 2>& bits,
-                       const std::array<const UnsharedLines*, 2>& axes, const Query& query) {
+/// Returns an upper bound on the probability that the position is wrong along at least one axis.
+/// The result may be 1 if the bound exceeds 2^limit_log2. Tries up to three bounds on the
+/// alternatives, each slower and tighter than the preceding bound; the second is skipped if it is
+/// unlikely to suffice. If the ratios come from hard bits, only the first bound is available.
+float wrong_on_any_axis(const Kernels& kernels, const std::array<Confidence, 2>& bits,
+                        const std::array<const UnsharedLines*, 2>& axes, const Query& query,
+                        WorkLimit& work) {
     const float limit = power_of_two_exactly(query.limit_log2);
     const float codes = codes_in_question(query);
     float wrong = 0;
@@ -237,16 +209,21 @@ float small_view_wrong(const Kernels& kernels, const std::array<Confidence, 2>& 
     std::size_t count = 0;
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const UnsharedLines& unshared = *axes[i];
+        const LikelihoodRatios& ratios = unshared.ratios();
         const float chance = chance_of(bits[i], query);
         wrong += chance;
         if (wrong > limit) return 1;
+        // Each axis may use half of the limit. A tighter bound is computed only if the previous
+        // bound exceeds this half.
         const float enough = limit / 2 - chance;
-        float sum = codes * alternatives(kernels, unshared.ratios(), unshared, limit);
-        if (sum > enough && sum < kMaxForQuickBound) {
-            sum = codes * power_of_two_rounded_up(quick_alternatives_log2_q8(
-                              unshared.ratios(), 256 * query.limit_log2));
+        float sum = codes * alternatives(kernels, ratios, unshared, limit);
+        if (ratios.is_of_bits()) {
+            if (sum > limit) return 1;
+        } else if (sum > enough && sum < kMaxForQuickBound) {
+            sum = codes * power_of_two_rounded_up(
+                              quick_alternatives_log2_q8(ratios, 256 * query.limit_log2));
         }
-        if (sum > enough) {
+        if (sum > enough && !ratios.is_of_bits()) {
             in_doubt[count++] = &unshared;
         } else {
             wrong += sum + seam_alternatives(kernels, unshared);
@@ -254,8 +231,8 @@ float small_view_wrong(const Kernels& kernels, const std::array<Confidence, 2>& 
     }
     if (count == 0) return wrong;
     // The factor covers the rounding errors of the sums.
-    return wrong + wrong_in_small_view(kernels, std::span(in_doubt).first(count), codes,
-                                       0.999F * limit - wrong, *query.work);
+    return wrong + wrong_by_alternatives(kernels, std::span(in_doubt).first(count), codes,
+                                         0.999F * limit - wrong, work);
 }
 
 /// Returns true if the bounds on the error probabilities of both axes add up to at most
@@ -263,18 +240,11 @@ float small_view_wrong(const Kernels& kernels, const std::array<Confidence, 2>& 
 /// of the other codes. On failure, `fix.p_wrong_log2` may be set or left unchanged.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
-                 Fix& fix) {
+                 WorkLimit& work, Fix& fix) {
     const UnsharedLines x_unshared(kernels, x);
     const UnsharedLines y_unshared(kernels, y);
-    float wrong = 0;
-    if (query.work != nullptr) {
-        wrong = small_view_wrong(kernels, bits, {&x_unshared, &y_unshared}, query);
-        if (wrong >= 1) return false;
-    } else {
-        wrong = axis_wrong(kernels, bits[0], x_unshared, query);
-        if (wrong >= 1) return false;
-        wrong += axis_wrong(kernels, bits[1], y_unshared, query);
-    }
+    const float wrong = wrong_on_any_axis(kernels, bits, {&x_unshared, &y_unshared}, query, work);
+    if (wrong >= 1) return false;
     if (!is_within_limit(wrong, query.limit_log2, fix)) return false;
     if (query.others == nullptr) return true;
     weigh_other_codes(kernels, x_unshared, y_unshared, query.code, *query.others);
@@ -326,8 +296,9 @@ bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>&
     const auto ratios_of = [&](const AxisBits& axis) {
         return LikelihoodRatios(code, axis.lines, axis.reading, odds_q8, axis.rolls);
     };
+    WorkLimit none(0);  // this test does not count alternatives one by one
     return are_certain(kernels, {x.confidence, y.confidence}, ratios_of(x), ratios_of(y),
-                       {code, odds_q8, options.max_p_wrong_log2, others, nullptr}, fix);
+                       {code, odds_q8, options.max_p_wrong_log2, others}, none, fix);
 }
 
 std::array<Confidence, 2> compared_with_code(CodeVariant code, const Place& place,
@@ -359,7 +330,7 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
 }
 
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
-                const IntegrityOptions& options, Fix& fix, OtherCodes* others, WorkLimit* work) {
+                const IntegrityOptions& options, WorkLimit& work, Fix& fix, OtherCodes* others) {
     const auto& [x_bits, y_bits] = evidence.bits;
     const int odds_q8 = odds_of_bits_q8(x_bits, y_bits, options, fix);
     if (odds_q8 == 0) return false;
@@ -367,7 +338,7 @@ bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant co
     const auto [x, y] = readings_at(evidence.corner, code);
     return are_certain(kernels, evidence.bits, LikelihoodRatios(code, evidence.columns, x, odds_q8),
                        LikelihoodRatios(code, evidence.rows, y, odds_q8),
-                       {code, odds_q8, options.max_p_wrong_log2, others, work}, fix);
+                       {code, odds_q8, options.max_p_wrong_log2, others}, work, fix);
 }
 
 void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, CodeVariant code,

@@ -63,12 +63,12 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
 /// 2^max_p_wrong_log2, and at most max_bit_error_q8 / 256 of the bits on each axis are wrong (see
 /// IntegrityOptions). Returns false if the evidence has at most kMaxShared columns, or at most
 /// kMaxShared rows. Sets `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless
-/// `others` is null, the odds of the other codes. On failure, `fix.p_wrong_log2` is not valid. If
-/// `work` is not null, it limits the amount of computation, and the function returns false if more
-/// would be necessary.
+/// `others` is null, the odds of the other codes. On failure, `fix.p_wrong_log2` is not valid.
+/// `work` limits the amount of computation, and the function returns false if more would be
+/// necessary.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
-                const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr,
-                WorkLimit* work = nullptr);
+                const IntegrityOptions& options, WorkLimit& work, Fix& fix,
+                OtherCodes* others = nullptr);
 
 /// Sets `fix.p_wrong_log2` to the smallest integer above log2(wrong), but at most 0. `wrong` is an
 /// upper bound on the error probability, and must be positive. Returns true if `fix.p_wrong_log2`

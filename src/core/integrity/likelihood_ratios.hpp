@@ -14,9 +14,7 @@
 //   determine its roll offsets only up to a shift, which depends on its section.
 // - Shared line: a line in which the roll offset is 0. Its loss is 0.
 // - Single alternative: an alternative whose place differs in one sequence.
-// - Double alternative: an alternative whose places differ in two sequences.
 // - Far alternative: an alternative whose places differ in two or more sequences.
-// - Near alternative: an alternative that shares at least four adjacent lines with the reading.
 // - Seam alternative: an alternative with one shift before a border between two lines, and a
 //   different shift after the border.
 #pragma once

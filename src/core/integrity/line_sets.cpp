@@ -4,7 +4,7 @@
 
 namespace dotpose::core {
 
-EqualPlaces::EqualPlaces(const RankedLines& lines) {
+EqualPlaces::EqualPlaces(const LossTables& lines) {
     const auto line_count = static_cast<std::size_t>(lines.count());
     for (std::size_t k = 0; k < all_.size(); ++k) {
         const code::Secondary& sequence = lines.ratios.basis[k];

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/integrity/ranked_lines.hpp"
+#include "core/integrity/loss_tables.hpp"
 
 namespace dotpose::core {
 
@@ -61,7 +61,7 @@ class RelativeOffsets {
     void operator()(std::uint32_t place, RollOffsets& offsets) const {
         const std::uint8_t* const alternative = rolls_ + place;
         const std::uint8_t back = roll_offset(alternative[shared_], own_[shared_]);
-        // Like the loop in `RankedLines::set_offsets`, this loop also accesses elements beyond the
+        // Like the loop in `LossTables::set_offsets`, this loop also accesses elements beyond the
         // last line.
         for (std::size_t line = 0; line < count_; line += sizeof(Bytes)) {
             Bytes from;
@@ -85,7 +85,7 @@ class RelativeOffsets {
 /// each of the four sequences.
 class EqualPlaces {
   public:
-    explicit EqualPlaces(const RankedLines& lines);
+    explicit EqualPlaces(const LossTables& lines);
 
     /// All places.
     const PlaceSets& all() const { return all_; }

@@ -18,9 +18,9 @@ namespace {
 /// the ratio was at most 9, and exceeded 4 on only 6 axes.
 constexpr float kPlanMargin = 4;
 
-/// Upper limit on kPlanMargin * (expected odds of the sets that are not searched). Keeps the result
-/// precise even if the caller's limit is large.
-constexpr float kMaxRest = 0x1p-31F;
+/// Upper limit on kPlanMargin * (expected odds of the sets that are not searched), as log2. Keeps
+/// the result precise if the sum so far is far below the caller's limit.
+constexpr int kMaxRest_log2 = -31;
 
 /// Number of lost bits beyond which an alternative is not evaluated further. If the loss in the
 /// packed lines shows that the total loss is at least this large, the alternative contributes the
@@ -50,7 +50,7 @@ constexpr std::size_t kPackedLines = 4;
 
 /// A set of shared lines, and the packed lines: the unshared lines with the largest minimum losses.
 struct Pattern {
-    Pattern(const RankedLines& lines, LineSet shared_) : shared(shared_), gaps(shared_) {
+    Pattern(const LossTables& lines, LineSet shared_) : shared(shared_), gaps(shared_) {
         std::array<int, kPackedLines> min_losses{-1, -1, -1, -1};
         losses.fill(kNoLosses.data());
         for (int line = 0; line < lines.count(); ++line) {
@@ -88,7 +88,7 @@ struct Pattern {
     static constexpr std::array<std::int16_t, 256> kNoLosses{};
 
     std::array<std::uint8_t, kPackedLines> unshared{};
-    /// Losses in the packed lines, by roll offset (see `RankedLines::losses`). If fewer than
+    /// Losses in the packed lines, by roll offset (see `LossTables::losses`). If fewer than
     /// kPackedLines lines are unshared, the remaining elements point to kNoLosses.
     std::array<const std::int16_t*, kPackedLines> losses;
 };
@@ -97,7 +97,7 @@ struct Pattern {
 class KeyedPlaces {
   public:
     /// Lists the places. If `negates` is true, computes their keys from negated roll offsets.
-    void list(const RankedLines& lines, std::size_t sequence, const PlaceBits& places,
+    void list(const LossTables& lines, std::size_t sequence, const PlaceBits& places,
               const Pattern& pattern, bool negates) {
         const Gaps& gaps = pattern.gaps;
         const RelativeOffsets set_offsets(lines.ratios, sequence, gaps.before[0]);
@@ -144,11 +144,12 @@ class KeyedPlaces {
 /// the ends of these gaps.
 class SetSearch {
   public:
-    SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)
+    SetSearch(const LossTables& lines, int skipped_bits, float max_odds, WorkLimit& work)
         : lines_(lines),
           count_(static_cast<std::size_t>(lines.count())),
           max_odds_(max_odds),
-          skipped_loss_(lines.ratios.loss_for(-256 * kSkippedBits) + lines.ratios.max_gain()),
+          skipped_odds_(power_of_two_exactly(-skipped_bits)),
+          skipped_loss_(lines.ratios.loss_for(-256 * skipped_bits) + lines.ratios.max_gain()),
           work_(work),
           equal_places_(lines) {
         newest_.fill(kNone);
@@ -169,11 +170,9 @@ class SetSearch {
         const Pattern pattern(lines_, shared);
         if (!list(places, pattern)) return false;
         add_matches(pattern);
-        return odds() <= max_odds_;
+        return !is_exhausted_ && odds() <= max_odds_;
     }
-    float odds() const {
-        return sum_ + static_cast<float>(skipped_) * power_of_two_exactly(-kSkippedBits);
-    }
+    float odds() const { return sum_ + static_cast<float>(skipped_) * skipped_odds_; }
 
   private:
     /// A pair of places is stored as kPlaces * (index in the list of a3) + (index in the list of
@@ -237,7 +236,7 @@ class SetSearch {
                                      std::size_t m) {
         const std::uint32_t packed = lists_[1].packed(n) + lists_[3].packed(m);
         for (std::uint16_t pair = newest; pair != kNone; pair = before_[pair]) {
-            // Most alternatives lose at least kSkippedBits in the packed lines.
+            // Most alternatives are skipped.
             if (pattern.lost(packed_[pair] + packed) >= skipped_loss_)
                 ++skipped_;
             else
@@ -269,6 +268,10 @@ class SetSearch {
         }
         const auto shares = [&](LineSet set) { return (shared & set) == set; };
         if (!shares(required)) return;
+        if (!work_.spend(2 * earlier_.size())) {
+            is_exhausted_ = true;
+            return;
+        }
         for (const LineSet set : earlier_) {
             if (shares(set)) return;
         }
@@ -278,11 +281,12 @@ class SetSearch {
         sum_ += lines_.ratios.odds(lost);
     }
 
-    const RankedLines& lines_;
+    const LossTables& lines_;
     std::size_t count_;
     float max_odds_;
+    float skipped_odds_;  ///< odds that a skipped alternative contributes
     /// An alternative is skipped if its loss in the packed lines is at least this value. Its total
-    /// loss is then at least kSkippedBits, even if all other lines have their maximum gain.
+    /// loss is then at least `skipped_bits`, even if all other lines have their maximum gain.
     int skipped_loss_;
     WorkLimit& work_;
     EqualPlaces equal_places_;
@@ -296,7 +300,8 @@ class SetSearch {
     std::array<std::uint16_t, kMaxPairs> keys_;  ///< key of each pair
     /// For each pair of places, the sum of their packed roll offsets.
     std::array<std::uint32_t, kMaxPairs> packed_;
-    std::size_t skipped_ = 0;  ///< number of skipped alternatives
+    std::size_t skipped_ = 0;    ///< number of skipped alternatives
+    bool is_exhausted_ = false;  ///< true if the work limit was reached
     float sum_ = 0;
 };
 
@@ -306,15 +311,16 @@ float work_of_planned_alternatives(const SetPlan& plan, float max_rest) {
     return plan.work_of(plan.count_for(max_rest / kPlanMargin));
 }
 
-std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, const SetPlan& plan,
-                                                 float fraction, float max_odds, WorkLimit& work) {
-    if (!plan.is_complete()) return {};
-    SetSearch search(lines, max_odds, work);
+std::optional<float> sum_of_planned_alternatives(const LossTables& lines, const SetPlan& plan,
+                                                 int extra_bits, float fraction, float max_odds,
+                                                 WorkLimit& work) {
+    const float max_rest = power_of_two_exactly(kMaxRest_log2 - extra_bits);
+    SetSearch search(lines, kSkippedBits + extra_bits, max_odds, work);
     const std::span<const PlannedSet> sets = plan.sets();
     for (std::size_t n = 0;; ++n) {
         const float rest = kPlanMargin * plan.rest(n);
         const bool may_end = n == sets.size() || !sets[n].is_required;
-        if (may_end && rest <= std::min(fraction * (max_odds - search.odds()), kMaxRest))
+        if (may_end && rest <= std::min(fraction * (max_odds - search.odds()), max_rest))
             return search.odds() + rest;
         if (n == sets.size()) return {};
         if (!search.add(sets[n].shared)) return {};

@@ -1,28 +1,38 @@
 #include "core/integrity/set_plan.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <bit>
+
+#include "core/math/odds.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// A set must be searched if its alternatives may lose less than this number of bits. Alternatives
-/// that are not counted individually therefore have odds of at most 2^-24.
+/// A listed set must be searched if its alternatives may lose less than kRequiredBits bits, without
+/// gains in other lines, and the search takes less than kMaxRequiredWork processor instructions. A
+/// longer search is worthwhile only if the expected odds are large.
 constexpr int kRequiredBits = 24;
+constexpr float kMaxRequiredWork = 1e6F;
 
-/// A set with expected odds below this value is not listed, unless the set is required.
-constexpr float kNegligibleOdds = 0x1p-42F;
+/// A set with expected odds below 2^-kNegligibleBits is not listed. In large views, most of these
+/// sets consist of many lines, and alternatives that share all of them are unlikely to exist.
+constexpr int kNegligibleBits = 42;
+
+/// Estimated cost of a node of the search tree and of a listed set, in processor instructions.
+constexpr std::size_t kWorkPerNode = 48;
+constexpr std::size_t kWorkPerSet = 80;
 
 /// Number of possible changes of the roll from one line to the next. If an alternative differs in
 /// all four sequences, its roll changes are approximately uniformly distributed over these values.
 constexpr float kChanges = 54;
 
-/// Correction factors for the expected odds of alternatives that differ in two and in three
+/// Correction factors for the expected odds of alternatives that differ in one, two and three
 /// sequences. The model assumes that the roll offsets in unshared lines are uniformly distributed.
 /// However, if few sequences differ, few changes of the roll are possible. On 700 axes of nominal
-/// frames, the results of `sum_of_expected_alternatives` were on average 10 to 17 times the model's
-/// odds if two sequences differ, and 2 times if three differ. If all four differ, they were only
-/// 0.6 times the model's odds, so no factor is applied.
+/// frames, the expected odds for the actual digits of the reading were on average 10 to 17 times
+/// the model's odds if two sequences differ, and 2 times if three differ. If all four differ, they
+/// were only 0.6 times the model's odds, so no factor is applied.
+constexpr float kUnevennessOfOne = 256;
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
 /// Probabilities that the roll offset is 0 again after a gap, that is, after one or more unshared
@@ -30,11 +40,6 @@ constexpr float kUnevennessOfThree = 2;
 constexpr float kReturnOfTwo = 1.0F / 20;
 constexpr float kReturnOfThree = 1.0F / 35;
 constexpr float kReturnOfFour = 1 / kChanges;
-
-/// Returns the summed odds of all rolls of a line except the roll of the reading.
-float odds_of_others(const OddsByOffset& odds) {
-    return std::accumulate(odds.begin() + 1, odds.begin() + kSections, 0.0F);
-}
 
 }  // namespace
 
@@ -51,23 +56,35 @@ struct SetPlan::Node {
     int run = 0;    ///< length of the run of shared lines that ends with `last`
 };
 
-SetPlan::SetPlan(const RankedLines& lines)
-    : lines_(lines), required_loss_(lines.ratios.loss_for(-256 * kRequiredBits)) {
+SetPlan::SetPlan(const LossTables& lines, int extra_bits, WorkLimit& work)
+    : lines_(lines),
+      work_(work),
+      required_loss_(lines.ratios.loss_for(-256 * (kRequiredBits + extra_bits))),
+      negligible_odds_(power_of_two_exactly(-kNegligibleBits - extra_bits)) {
     Node all;
     for (int line = 0; line < lines.count(); ++line) {
-        const OddsByOffset& odds = lines.odds()[static_cast<std::size_t>(line)];
-        const float others = odds_of_others(odds);
+        const float others = lines.odds_of_others(line);
         if (lines.ratios.min_loss(line) > 0) {
             mean_odds_[compared_count_] = others / kChanges;
             compared_[compared_count_++] = static_cast<std::uint8_t>(line);
         } else {
-            all.odds *= (others + odds[0]) / kChanges;
+            all.odds *= (others + 1) / kChanges;
         }
     }
+    set_growth();
     set_numbers();
     visit(0, all);
     sort_sets();
     sum_rests();
+}
+
+void SetPlan::set_growth() {
+    // Probability that an alternative that differs in two sequences has the digits of the reading
+    // at a step, at most. For other alternatives, it is smaller.
+    constexpr float kMaxEqual = 1.0F / 4;
+    growth_[compared_count_] = 1;
+    for (std::size_t n = compared_count_; n-- > 0;)
+        growth_[n] = growth_[n + 1] * std::max(mean_odds_[n] + kMaxEqual, 1.0F);
 }
 
 void SetPlan::set_numbers() {
@@ -90,11 +107,15 @@ void SetPlan::set_numbers() {
         for (std::size_t k = 0; k < places.size(); ++k)
             places[k] *= lines_.ratios.basis[k].base == 2 ? 1.0F / 2 : 1.0F / 3;
     }
+    // Includes the single alternatives that share no line. Those that share lines are counted
+    // separately.
+    const auto& [a, b, c, d] = places_[0];
+    number_[0][0] += kUnevennessOfOne * (a + b + c + d);
 }
 
-/// Returns the summed expected odds of the far alternatives that share the lines of `node`. If some
-/// compared lines are still undecided, the result is an upper bound on the total for all sets that
-/// extend `node`.
+/// Returns the summed expected odds of the far alternatives that share exactly the lines of `node`,
+/// if no compared line is undecided. Otherwise, the product with `growth_` is an upper bound on the
+/// total for all sets that extend `node`.
 float SetPlan::expected(const Node& node) const {
     return (node.shared == 0 ? kSections : 1) * node.odds * number_[node.steps][node.gaps];
 }
@@ -114,26 +135,27 @@ float SetPlan::work(const Node& node) const {
 
 /// Adds all sets that extend `node`. Compared lines with index `n` or higher are still undecided.
 void SetPlan::visit(std::size_t n, const Node& node) {
-    const float expected = this->expected(node);
-    if (expected < kNegligibleOdds && node.min_loss >= required_loss_) {
-        negligible_ += expected;
-        return;
-    }
-    if (n == compared_count_) {
-        is_complete_ = is_complete_ && count_ < kMaxSets;
-        if (is_complete_)
-            sets_[count_++] = {node.shared, expected, work(node), node.min_loss < required_loss_};
-        return;
-    }
     if (!is_complete_) return;
-    visit_shared(n, node);
+    if (!work_.spend(kWorkPerNode + 2 * required_.sets().size())) {
+        is_complete_ = false;
+        return;
+    }
+    const float expected = this->expected(node);
+    if (expected < negligible_odds_) {
+        negligible_ += growth_[n] * expected;
+        return;
+    }
+    if (n == compared_count_) return add(node, expected);
+    // Sets with fewer lines are visited first, because they may cover sets with more lines.
     Node without = node;
     without.odds *= mean_odds_[n];
     without.min_loss += lines_.ratios.min_loss(compared_[n]);
     visit(n + 1, without);
+    visit_shared(n, node);
 }
 
-/// Adds all sets that extend `node` and contain the compared line with index `n`.
+/// Adds all sets that extend `node` and contain the compared line with index `n`. Skips sets that a
+/// required set covers.
 void SetPlan::visit_shared(std::size_t n, Node node) {
     const int line = compared_[n];
     if (node.last == line - 1) {
@@ -146,26 +168,32 @@ void SetPlan::visit_shared(std::size_t n, Node node) {
     }
     node.shared |= LineSet{1} << line;
     node.last = line;
-    visit(n + 1, node);
+    if (!required_.covers(node.shared)) visit(n + 1, node);
+}
+
+void SetPlan::add(const Node& node, float expected) {
+    is_complete_ = count_ < kMaxSets && work_.spend(kWorkPerSet);
+    if (!is_complete_) return;
+    const float work = this->work(node);
+    const bool is_required = node.min_loss < required_loss_ && work < kMaxRequiredWork;
+    if (is_required) required_.add(node.shared);
+    sets_[count_++] = {node.shared, expected, work, is_required};
 }
 
 /// Sorts the sets. The required sets come first, sorted by increasing number of lines. The other
-/// sets follow, sorted by decreasing ratio of `expected` to `work`.
+/// sets follow, sorted by decreasing ratio of `expected` to `work`. Ties are broken by the lines,
+/// so that the order is the same with every standard library.
 void SetPlan::sort_sets() {
-    std::array<float, kMaxSets> keys;
-    for (std::size_t n = 0; n < count_; ++n) {
-        const PlannedSet set = sets_[n];
-        const float key = set.is_required
-                              ? static_cast<float>(kMaxLines - std::popcount(set.shared))
-                              : set.expected / set.work;
-        std::size_t i = n;
-        for (; i > 0 && keys[i - 1] < key; --i) {
-            sets_[i] = sets_[i - 1];
-            keys[i] = keys[i - 1];
-        }
-        sets_[i] = set;
-        keys[i] = key;
-    }
+    const auto key = [](const PlannedSet& set) {
+        return set.is_required ? static_cast<float>(kMaxLines - std::popcount(set.shared))
+                               : set.expected / set.work;
+    };
+    std::ranges::sort(std::span(sets_).first(count_),
+                      [&](const PlannedSet& a, const PlannedSet& b) {
+                          const float key_a = key(a);
+                          const float key_b = key(b);
+                          return key_a != key_b ? key_a > key_b : a.shared < b.shared;
+                      });
 }
 
 void SetPlan::sum_rests() {

@@ -1,13 +1,15 @@
 // Set plan: chooses the sets of shared lines whose alternatives are counted one by one. The
-// alternatives of all other sets contribute their expected odds. See docs/integrity.md, "Small
-// views". likelihood_ratios.hpp defines the terms.
+// alternatives of all other sets contribute their expected odds. See docs/integrity.md, "Far
+// alternatives". likelihood_ratios.hpp defines the terms.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 
 #include "core/integrity/line_sets.hpp"
-#include "core/integrity/ranked_lines.hpp"
+#include "core/integrity/loss_tables.hpp"
+#include "core/integrity/work_limit.hpp"
 
 namespace dotpose::core {
 
@@ -28,7 +30,7 @@ constexpr float work_of_search(float listed, float tabled, float looked_up, floa
 }
 
 /// Maximum number of sets in a `SetPlan`.
-inline constexpr std::size_t kMaxSets = 256;
+inline constexpr std::size_t kMaxSets = 1024;
 
 /// The sets of a `SetPlan` that are searched. A set that contains all lines of an earlier set is
 /// covered: the search of the earlier set also finds its alternatives.
@@ -36,11 +38,13 @@ class SearchedSets {
   public:
     /// Adds a set and returns true. If the set is covered, returns false instead.
     bool add(LineSet set) {
-        for (const LineSet earlier : sets()) {
-            if ((earlier & ~set) == 0) return false;
-        }
+        if (covers(set)) return false;
         sets_[count_++] = set;
         return true;
+    }
+    bool covers(LineSet set) const {
+        return std::ranges::any_of(sets(),
+                                   [set](LineSet earlier) { return (earlier & ~set) == 0; });
     }
     std::span<const LineSet> sets() const { return std::span(sets_).first(count_); }
 
@@ -54,8 +58,11 @@ class SearchedSets {
 /// may also share other lines.
 class SetPlan {
   public:
-    explicit SetPlan(const RankedLines& lines);
-    /// Returns false if there are too many sets. The list is then incomplete.
+    /// Sets with negligible expected odds are not listed. The threshold is lower if `extra_bits` is
+    /// larger (see `extra_bits_for`).
+    SetPlan(const LossTables& lines, int extra_bits, WorkLimit& work);
+    /// Returns false if there are too many sets, or if listing them would exceed the work limit.
+    /// The list is then incomplete.
     bool is_complete() const { return is_complete_; }
     /// Returns the sets. The required sets come first. The other sets are sorted by decreasing
     /// ratio of `expected` to `work`.
@@ -73,23 +80,30 @@ class SetPlan {
 
   private:
     struct Node;
+    void set_growth();
     void set_numbers();
     float expected(const Node& node) const;
     float work(const Node& node) const;
     void visit(std::size_t n, const Node& node);
     void visit_shared(std::size_t n, Node node);
+    void add(const Node& node, float expected);
     void sort_sets();
     void sum_rests();
 
     static constexpr std::size_t kMaxGaps = (kMaxLines - 1) / 2;
 
-    const RankedLines& lines_;
+    const LossTables& lines_;
+    WorkLimit& work_;
     int required_loss_;
+    float negligible_odds_;
     std::size_t compared_count_ = 0;
     std::array<std::uint8_t, kMaxLines> compared_;  ///< lines with a positive minimum loss
     /// For each line in `compared_`, the summed odds of all rolls except the roll of the reading,
     /// divided by kChanges.
     std::array<float, kMaxLines> mean_odds_;
+    /// growth_[n] is an upper bound on the sum of the expected odds over all choices of the
+    /// compared lines with index `n` or higher, relative to a set without these lines.
+    std::array<float, kMaxLines + 1> growth_;
     /// places_[n][k] is the expected number of places in sequence k that have the same digits as
     /// the reading at n given steps.
     std::array<std::array<float, 4>, kMaxLines + 1> places_;
@@ -99,6 +113,7 @@ class SetPlan {
     std::array<std::array<float, kMaxGaps + 1>, kMaxLines + 1> number_;
     std::size_t count_ = 0;
     std::array<PlannedSet, kMaxSets> sets_;
+    SearchedSets required_;  ///< the required sets in `sets_`
     bool is_complete_ = true;
     float negligible_ = 0;  ///< summed expected odds of the sets that are not listed
     std::array<float, kMaxSets + 1> rests_;  ///< rests_[n] is the result of rest(n)

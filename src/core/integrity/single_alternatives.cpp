@@ -9,17 +9,20 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the loss limit for skipping alternatives, in bits. An alternative whose loss reaches
-/// this limit is not evaluated line by line. Instead, it contributes the odds at this limit once
-/// for each line. The limit is lower for views with at most 16 lines. In such views, many
-/// alternatives lose 52 to 56 bits, and would be evaluated with the higher limit. For 16 lines, the
-/// skipped alternatives contribute at most 2^-38 in total.
-int bits_of_skipped(int lines) {
-    return lines <= 16 ? 52 : 56;
-}
+/// Number of lost bits beyond which an alternative is not evaluated. It contributes the odds at
+/// this loss, once for each line. With 16 lines, all these alternatives contribute at most 2^-37.
+constexpr int kSkippedBits = 51;
+/// In small views, many alternatives lose 44 to 51 bits by the minimum losses of the lines, and
+/// evaluating all of them would take too long. An alternative that loses at least this number of
+/// bits by the minimum losses is therefore not evaluated, but contributes the odds at this loss.
+constexpr int kEvaluatedBits = 43;
+/// Estimated cost of evaluating one listed place, in processor instructions.
+constexpr std::size_t kWorkPerEntry = 72;
+/// Estimated cost per line of evaluating all places, in processor instructions.
+constexpr std::size_t kWorkOfAll = 16'000;
 
 /// Returns the odds of a single alternative at the shift where it shares the line `shared`.
-float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t shared) {
+float odds_at(const LossTables& lines, const RollOffsets& offsets, std::size_t shared) {
     // Adding `base` makes the offset in the shared line 126, which is 0 modulo 63, and keeps the
     // other offsets positive.
     const int base = 2 * kSections - offsets[shared];
@@ -35,7 +38,7 @@ float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t 
 class LossesInSequence {
   public:
     /// `sorted` contains the lines in the order in which their losses are added up: at least three.
-    LossesInSequence(const RankedLines& lines, std::size_t sequence,
+    LossesInSequence(const LossTables& lines, std::size_t sequence,
                      std::span<const LineLoss> sorted)
         : rolls_(lines.ratios.basis[sequence].rolls),
           own_(rolls_ + lines.ratios.places[sequence]),
@@ -73,7 +76,7 @@ class LossesInSequence {
     const Table* end_;
 };
 
-float sum_one_by_one(const RankedLines& lines) {
+float sum_one_by_one(const LossTables& lines) {
     const LikelihoodRatios& ratios = lines.ratios;
     float sum = 0;
     RollOffsets offsets;
@@ -103,19 +106,8 @@ void sort_losses(const CoarseLosses& losses, std::span<LineLoss> sorted) {
     }
 }
 
-/// Lists the places of the alternatives that may lose less than `losses.limit`. Sets `sorted` to
-/// the lines, sorted by decreasing loss. Returns false if `Kernels::list_similar_places` returns
-/// false.
-bool list_similar(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses,
-                  std::span<LineLoss> sorted, SimilarPlaceList& list) {
-    sort_losses(losses, sorted);
-    const LikelihoodRatios& ratios = lines.ratios;
-    return kernels.list_similar_places(ratios.basis, ratios.places, 15, sorted, losses.limit, list);
-}
-
-/// Returns an upper bound on the summed odds of the alternatives at places that are not listed. For
-/// each of these places and each line, the bound includes the odds at a loss of `skipped_bits`.
-float sum_of_skipped(const RankedLines& lines, int skipped_bits) {
+/// Returns an upper bound on the summed odds of the alternatives at places that are not listed.
+float sum_of_skipped(const LossTables& lines, int skipped_bits) {
     constexpr float kPlaces =
         code::kA1.size() + code::kA2.size() + code::kA3.size() + code::kA4Restored.size();
     return kPlaces * static_cast<float>(lines.count()) * power_of_two_exactly(-skipped_bits);
@@ -123,47 +115,27 @@ float sum_of_skipped(const RankedLines& lines, int skipped_bits) {
 
 }  // namespace
 
-float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines) {
-    const int skipped_bits = bits_of_skipped(lines.count());
-    std::array<LineLoss, kMaxLines> storage;
-    const auto sorted = std::span(storage).first(static_cast<std::size_t>(lines.count()));
-    SimilarPlaceList list;
-    if (!list_similar(kernels, lines, CoarseLosses(lines.ratios, skipped_bits), sorted, list))
-        return sum_one_by_one(lines);
-    float sum = sum_of_skipped(lines, skipped_bits);
-    RollOffsets offsets;
-    for (const auto& [sequence, place, shared, loss] :
-         std::span(list.places).first(static_cast<std::size_t>(list.count))) {
-        lines.set_offsets(sequence, place, offsets);
-        sum += odds_at(lines, offsets, shared);
-    }
-    return sum;
-}
-
-std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines,
-                                                WorkLimit& work) {
-    // In small views, many alternatives lose 44 to 52 bits. Evaluating all of them would take too
-    // long. Each listed place with a minimum loss of at least kEvaluatedBits therefore contributes
-    // odds of 2^-kEvaluatedBits. In views with at most 16 lines, the places that are not listed
-    // contribute at most 2^-37 in total.
-    constexpr int kSkippedBits = 51;
-    constexpr int kEvaluatedBits = 43;
-    // Estimated cost per listed place, in processor instructions.
-    constexpr std::size_t kWorkPerEntry = 72;
+std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const LossTables& lines,
+                                                int extra_bits, WorkLimit& work) {
     const LikelihoodRatios& ratios = lines.ratios;
-    const CoarseLosses losses(ratios, kSkippedBits);
+    const int skipped_bits = kSkippedBits + extra_bits;
+    const int evaluated_bits = kEvaluatedBits + extra_bits;
+    const CoarseLosses losses(ratios, skipped_bits);
     std::array<LineLoss, kMaxLines> storage;
     const auto sorted = std::span(storage).first(static_cast<std::size_t>(lines.count()));
+    sort_losses(losses, sorted);
     SimilarPlaceList list;
     list.max_count = SimilarPlaceList::kMax;
-    if (!list_similar(kernels, lines, losses, sorted, list) ||
-        !work.spend(kWorkPerEntry * static_cast<std::size_t>(list.count)))
-        return {};
-    float sum = sum_of_skipped(lines, kSkippedBits);
-    const int evaluated_limit = losses.limit * kEvaluatedBits / kSkippedBits + 1;
+    if (!kernels.list_similar_places(ratios.basis, ratios.places, 15, sorted, losses.limit, list)) {
+        if (!work.spend(kWorkOfAll * sorted.size())) return {};
+        return sum_one_by_one(lines);
+    }
+    if (!work.spend(kWorkPerEntry * static_cast<std::size_t>(list.count))) return {};
+    float sum = sum_of_skipped(lines, skipped_bits);
+    const int evaluated_limit = losses.loss_for(ratios, evaluated_bits);
     // An alternative whose losses in some of the lines add up to more than this limit has odds
-    // below 2^-kSkippedBits, regardless of its gains in the other lines.
-    const int max_loss = ratios.loss_for(-256 * kSkippedBits) + ratios.max_gain();
+    // below 2^-skipped_bits, regardless of its gains in the other lines.
+    const int max_loss = ratios.loss_for(-256 * skipped_bits) + ratios.max_gain();
     auto rest = std::span<const SimilarPlaceList::Entry>(list.places)
                     .first(static_cast<std::size_t>(list.count));
     // The list is sorted by sequence.
@@ -174,11 +146,11 @@ std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const Ra
         for (; n < rest.size() && rest[n].sequence == sequence; ++n) {
             const auto& [k, place, shared, min_loss] = rest[n];
             if (min_loss >= evaluated_limit) {
-                sum += power_of_two_exactly(-kEvaluatedBits);
+                sum += power_of_two_exactly(-evaluated_bits);
                 continue;
             }
             const int lost = loss_at(place, shared, max_loss);
-            sum += lost > max_loss ? power_of_two_exactly(-kSkippedBits) : ratios.odds(lost);
+            sum += lost > max_loss ? power_of_two_exactly(-skipped_bits) : ratios.odds(lost);
         }
         rest = rest.subspan(n);
     }

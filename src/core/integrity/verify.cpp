@@ -8,7 +8,9 @@
 #include "core/integrity/confidence.hpp"
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/seam_alternatives.hpp"
+#include "core/integrity/unshared_lines.hpp"
 #include "core/integrity/weigh_codes.hpp"
+#include "core/math/odds.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -99,40 +101,43 @@ Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOpt
 /// the bound on the probability of a chance match and the odds of the alternatives. Adds the odds
 /// of seam alternatives only if this sum is at most `limit_q8`. All values are log2 in units of
 /// 2^-8.
-int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
-                      int alternatives_q8) {
+int with_seams(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
+               int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
     if (sum_q8 <= limit_q8) sum_q8 = add_log2(sum_q8, seam_alternatives_log2_q8(ratios));
     return std::min(sum_q8, 0);
 }
 
-/// Returns, for each axis, an upper bound on the probability that the position is wrong along this
-/// axis, as log2 in units of 2^-8. `alternatives_q8(axis, ratios)` must return the odds of the
-/// alternatives. The result is 0 (probability 1) for an axis whose bound on the probability of a
-/// chance match exceeds `limit_q8`.
-template <typename Alternatives>
-std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
-                                     std::span<ScoredLine> storage, const Doubt& doubt,
-                                     int limit_q8, Alternatives alternatives_q8) {
+/// Scores the lines of one axis in the decoded region, or reuses the scores of the decoder, and
+/// returns their likelihood ratios.
+LikelihoodRatios ratios_of(Axis axis, const Grid& grid, CodeVariant code, const Decoding& decoding,
+                           std::span<ScoredLine> storage, int odds_per_bit_q8) {
     const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
+    const auto half = scores_of(axis, storage);
+    const Lines lines = decoding.lines_are_scored ? scored_lines(upright, axis, half)
+                                                  : score_lines(upright, axis, half);
     const Place place = corner_place(code, decoding, upright);
-    std::array<int, 2> p_wrong_q8{};
-    for (const Axis axis : {Axis::x, Axis::y}) {
-        const auto i = static_cast<std::size_t>(axis);
-        if (doubt.by_chance_q8[i] > limit_q8) continue;
-        const auto half = scores_of(axis, storage);
-        const Lines lines = decoding.lines_are_scored ? scored_lines(upright, axis, half)
-                                                      : score_lines(upright, axis, half);
-        const LikelihoodRatios ratios(code, lines, reading_of(code, place, axis),
-                                      doubt.odds_per_bit_q8);
-        p_wrong_q8[i] =
-            with_alternatives(ratios, doubt.by_chance_q8[i], limit_q8, alternatives_q8(i, ratios));
-    }
-    return p_wrong_q8;
+    return {code, lines, reading_of(code, place, axis), odds_per_bit_q8};
 }
 
-int sum(const std::array<int, 2>& p_wrong_q8) {
-    return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
+/// Returns an upper bound on the probability that the position is wrong, as log2 in units of 2^-8.
+/// Uses the bound on the alternatives from quick_alternatives.hpp. `log2_codes_q8` is log2 of the
+/// weighted number of possible codes, in units of 2^-8. Returns 0 (probability 1) if the bound on
+/// the probability of a chance match exceeds `limit_q8` on an axis.
+int estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
+                     std::span<ScoredLine> storage, const Doubt& doubt, int limit_q8,
+                     int log2_codes_q8) {
+    int p_wrong_q8 = kNever_q8;
+    for (const Axis axis : {Axis::x, Axis::y}) {
+        const int by_chance_q8 = doubt.by_chance_q8[static_cast<std::size_t>(axis)];
+        if (by_chance_q8 > limit_q8) return 0;
+        const LikelihoodRatios ratios =
+            ratios_of(axis, grid, code, decoding, storage, doubt.odds_per_bit_q8);
+        const int alternatives_q8 = quick_alternatives_log2_q8(ratios, limit_q8) + log2_codes_q8;
+        p_wrong_q8 =
+            add_log2(p_wrong_q8, with_seams(ratios, by_chance_q8, limit_q8, alternatives_q8));
+    }
+    return p_wrong_q8;
 }
 
 /// Returns true if the position must be rejected regardless of the alternatives:
@@ -140,38 +145,28 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
 /// - if too many bits are wrong, or
 /// - if the bounds on the probability of a chance match, summed over both axes, exceed `limit_q8`.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
-    return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
+    return doubt.odds_per_bit_q8 == 0 ||
+           add_log2(doubt.by_chance_q8[0], doubt.by_chance_q8[1]) > limit_q8;
 }
 
-Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& decoding, Fix& fix) {
-    fix.p_wrong_log2 = std::min((sum(decoding.p_wrong_log2_q8) + 255) >> 8, 0);
+Status judge(const Doubt& doubt, int p_wrong_q8, const IntegrityOptions& options, Fix& fix) {
+    fix.p_wrong_log2 = std::min((p_wrong_q8 + 255) >> 8, 0);
     const bool is_sure = !is_hopeless(doubt, 256 * options.max_p_wrong_log2) &&
                          fix.p_wrong_log2 <= options.max_p_wrong_log2;
     return is_sure ? Status::ok : Status::not_certain;
-}
-
-/// Returns, for each axis, an upper bound on the probability that the position is wrong along this
-/// axis, as log2 in units of 2^-8. Uses the bound on the alternatives from quick_alternatives.hpp.
-std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
-                                    int limit_q8, std::span<ScoredLine> storage,
-                                    const Doubt& doubt) {
-    return with_alternatives(grid, code, decoding, storage, doubt, limit_q8,
-                             [&](std::size_t, const LikelihoodRatios& ratios) {
-                                 return quick_alternatives_log2_q8(ratios, limit_q8);
-                             });
 }
 
 }  // namespace
 
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
-    decoding.p_wrong_log2_q8 = {};
     const int limit_q8 = 256 * options.max_p_wrong_log2;
     const Doubt doubt = compare_with_chance(grid, code, options, decoding, fix);
-    if (!is_hopeless(doubt, limit_q8)) {
-        decoding.p_wrong_log2_q8 = estimate_quickly(grid, code, decoding, limit_q8, storage, doubt);
-    }
-    return judge(doubt, options, decoding, fix);
+    const int p_wrong_q8 =
+        is_hopeless(doubt, limit_q8)
+            ? 0
+            : estimate_quickly(grid, code, decoding, storage, doubt, limit_q8, 0);
+    return judge(doubt, p_wrong_q8, options, fix);
 }
 
 namespace {
@@ -216,22 +211,18 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
 
 Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, const Place& corner,
                       const IntegrityOptions& options, Decoding& decoding, Fix& fix) {
-    decoding.p_wrong_log2_q8 = {};
     const std::array axes{tracked_axis(code, lines, corner, Axis::x),
                           tracked_axis(code, lines, corner, Axis::y)};
     const Doubt doubt = doubt_of({axes[0].confidence, axes[1].confidence}, options, decoding, fix);
     const int limit_q8 = 256 * options.max_p_wrong_log2;
-    if (!is_hopeless(doubt, limit_q8)) {
-        for (std::size_t i = 0; i < axes.size(); ++i) {
-            if (doubt.by_chance_q8[i] > limit_q8) continue;
-            const LikelihoodRatios ratios(code, axes[i].lines, axes[i].reading,
-                                          doubt.odds_per_bit_q8);
-            decoding.p_wrong_log2_q8[i] =
-                with_alternatives(ratios, doubt.by_chance_q8[i], limit_q8,
-                                  quick_alternatives_log2_q8(ratios, limit_q8));
-        }
+    if (is_hopeless(doubt, limit_q8)) return judge(doubt, 0, options, fix);
+    int p_wrong_q8 = kNever_q8;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const LikelihoodRatios ratios(code, axes[i].lines, axes[i].reading, doubt.odds_per_bit_q8);
+        p_wrong_q8 = add_log2(p_wrong_q8, with_seams(ratios, doubt.by_chance_q8[i], limit_q8,
+                                                     quick_alternatives_log2_q8(ratios, limit_q8)));
     }
-    return judge(doubt, options, decoding, fix);
+    return judge(doubt, p_wrong_q8, options, fix);
 }
 
 namespace {
@@ -256,6 +247,23 @@ void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
     }
 }
 
+/// Returns an upper bound on the probability that the position is wrong, as log2 in units of 2^-8,
+/// or 0 (probability 1) if it exceeds 2^limit_log2 or cannot be computed within the work limit.
+/// Counts alternatives one by one.
+int count_alternatives(const Kernels& kernels, const LikelihoodRatios& x, const LikelihoodRatios& y,
+                       const Doubt& doubt, int limit_log2, int log2_codes_q8, WorkLimit& work) {
+    if (std::min(x.count(), y.count()) <= kMaxShared) return 0;
+    const UnsharedLines x_unshared(kernels, x);
+    const UnsharedLines y_unshared(kernels, y);
+    const std::array axes{&x_unshared, &y_unshared};
+    constexpr float kMargin = 1.02F;  // covers the rounding errors of `power_of_two`
+    const float chance =
+        kMargin * power_of_two(add_log2(doubt.by_chance_q8[0], doubt.by_chance_q8[1]));
+    const float wrong = wrong_by_alternatives(kernels, axes, kMargin * power_of_two(log2_codes_q8),
+                                              power_of_two_exactly(limit_log2) - chance, work);
+    return wrong >= 1 ? 0 : log2_of_odds_q8(chance + wrong);
+}
+
 }  // namespace
 
 void weigh_other_codes(const Kernels& kernels, const Grid& grid, CodeVariant code,
@@ -266,49 +274,33 @@ void weigh_other_codes(const Kernels& kernels, const Grid& grid, CodeVariant cod
     both.add(of_y);
     const int odds_q8 = odds_per_bit_q8(both);
     if (odds_q8 == 0) return;
-    const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
-    const Place corner = corner_place(code, decoding, upright);
-    const auto ratios_of = [&](Axis axis) {
-        const Lines lines = score_lines(upright, axis, scores_of(axis, storage));
-        return LikelihoodRatios(code, lines, reading_of(code, corner, axis), odds_q8);
-    };
-    const LikelihoodRatios x = ratios_of(Axis::x);
-    const LikelihoodRatios y = ratios_of(Axis::y);
+    const LikelihoodRatios x = ratios_of(Axis::x, grid, code, decoding, storage, odds_q8);
+    const LikelihoodRatios y = ratios_of(Axis::y, grid, code, decoding, storage, odds_q8);
     weigh_other_codes(kernels, UnsharedLines(kernels, x), UnsharedLines(kernels, y), code, *others);
 }
 
 Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const OtherCodes* others,
-              Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
-              Fix& fix) {
-    decoding.p_wrong_log2_q8 = {};
+              const IntegrityOptions& options, std::span<ScoredLine> storage, WorkLimit& work,
+              Decoding& decoding, Fix& fix) {
     const int limit_q8 = 256 * options.max_p_wrong_log2;
     Doubt doubt = compare_with_chance(grid, code, options, decoding, fix);
-    if (doubt.odds_per_bit_q8 == 0) return judge(doubt, options, decoding, fix);
+    if (doubt.odds_per_bit_q8 == 0) return judge(doubt, 0, options, fix);
     const bool is_code_given = others == nullptr || others->log2_in_question_q8 < 0;
     const int codes_q8 = is_code_given ? 0 : others->log2_in_question_q8;
     if (!is_code_given) count_hypotheses_of(codes_q8, grid, code, decoding, doubt);
-    std::array<int, 2>& p_wrong_q8 = decoding.p_wrong_log2_q8;
-    p_wrong_q8 =
-        with_alternatives(grid, code, decoding, storage, doubt, limit_q8,
-                          [&](std::size_t, const LikelihoodRatios& ratios) {
-                              return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
-                          });
-    // A tighter bound is computed if the quick bound exceeds this value: the caller's limit, but at
-    // most the default limit.
-    const int doubtful_q8 = std::min(limit_q8, -30 * 256);
-    if (sum(p_wrong_q8) > doubtful_q8) {
-        const auto counted_q8 = with_alternatives(
-            grid, code, decoding, storage, doubt, limit_q8,
-            [&](std::size_t axis, const LikelihoodRatios& ratios) {
-                const bool is_in_doubt = p_wrong_q8[axis] > doubtful_q8 - 4 * 256;
-                if (!is_in_doubt) return 0;
-                return 256 * alternatives_log2(kernels, ratios, options.max_p_wrong_log2) +
-                       codes_q8;
-            });
-        for (std::size_t i = 0; i < counted_q8.size(); ++i)
-            p_wrong_q8[i] = std::min(p_wrong_q8[i], counted_q8[i]);
+    if (is_hopeless(doubt, limit_q8)) return judge(doubt, 0, options, fix);
+    int p_wrong_q8 = estimate_quickly(grid, code, decoding, storage, doubt, limit_q8, codes_q8);
+    // A tighter bound is computed if the quick bound exceeds the caller's limit or the default
+    // limit.
+    if (p_wrong_q8 > std::min(limit_q8, -30 * 256)) {
+        const auto ratios = [&](Axis axis) {
+            return ratios_of(axis, grid, code, decoding, storage, doubt.odds_per_bit_q8);
+        };
+        p_wrong_q8 = std::min(p_wrong_q8,
+                              count_alternatives(kernels, ratios(Axis::x), ratios(Axis::y), doubt,
+                                                 options.max_p_wrong_log2, codes_q8, work));
     }
-    return judge(doubt, options, decoding, fix);
+    return judge(doubt, p_wrong_q8, options, fix);
 }
 
 }  // namespace dotpose::core

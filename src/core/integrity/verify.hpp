@@ -6,6 +6,7 @@
 #include "core/decode/grid.hpp"
 #include "core/decode/lines.hpp"
 #include "core/integrity/compared_line.hpp"
+#include "core/integrity/work_limit.hpp"
 #include "core/kernels/kernels.hpp"
 #include "core/other_codes.hpp"
 #include "dotpose/device_options.hpp"
@@ -14,19 +15,21 @@
 
 namespace dotpose::core {
 
-/// Verifies a decoded position. Sets `fix.bit_errors`, `fix.p_wrong_log2`, `decoding.bits` and
-/// `decoding.p_wrong_log2_q8`. The probability accounts for chance matches, alternatives and seams
-/// between sections.
+/// Verifies a decoded position. Sets `fix.bit_errors`, `fix.p_wrong_log2` and `decoding.bits`. The
+/// probability accounts for chance matches, alternatives and seams between sections.
 /// - `others` contains log2 of the number of possible codes (`log2_in_question_q8`). May be null if
 ///   the code is given.
 /// - If `decoding.lines_are_scored` is true, `storage` must contain the line scores computed by the
 ///   decoder.
+/// - `work` limits the amount of computation for counting alternatives one by one. If an axis has
+/// at
+///   most kMaxShared lines, they are not counted, and only the quick bound is used.
 ///
-/// Error: not_certain, if the probability exceeds the limit in `options`, or if the fraction of
-/// wrong bits on an axis exceeds its limit.
+/// Error: not_certain, if the probability exceeds the limit in `options`, if it cannot be computed
+/// within the work limit, or if the fraction of wrong bits on an axis exceeds its limit.
 Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const OtherCodes* others,
-              Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
-              Fix& fix);
+              const IntegrityOptions& options, std::span<ScoredLine> storage, WorkLimit& work,
+              Decoding& decoding, Fix& fix);
 
 /// Verifies a decoded position in integer arithmetic and in bounded time. Rejects more positions
 /// than `verify`, because it uses only the bound on the alternatives from quick_alternatives.hpp.

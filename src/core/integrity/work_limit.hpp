@@ -1,4 +1,4 @@
-// Work limit: the computation budget for summing the odds of alternatives.
+// Work limit: the computation budget of an attempt.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,13 @@ namespace dotpose::core {
 /// Remaining computation budget, in estimated processor instructions.
 class WorkLimit {
   public:
-    /// Budget for summing the odds of alternatives in one frame with a small view. All places
-    /// tested in the frame share this budget. For comparison, all other steps of a first attempt
-    /// together take 100,000 to 240,000 instructions. docs/speed.md, "Small frames", compares
-    /// several budgets.
-    static constexpr std::size_t kOfFrame = 460'000;
+    /// Budget of one attempt for summing the odds of alternatives, and for `Attempts::shows_turn`.
+    /// All places tested in the attempt share this budget. First and tracked attempts in images of
+    /// at most 96 x 96 px have the budget kOfSmallImage. For comparison, all other steps of a first
+    /// attempt in such an image together take 100,000 to 240,000 instructions. docs/speed.md,
+    /// "Small frames", compares several budgets.
+    static constexpr std::size_t kOfSmallImage = 470'000;
+    static constexpr std::size_t kOfImage = 10'000'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}
     /// Subtracts `work` from the budget and returns true. If less than `work` is left, sets the

@@ -244,20 +244,6 @@ struct FarAlternatives {
     std::array<float, 8> number{};  ///< number of alternatives in each group
 };
 
-/// Roll offsets of 32 combinations, indexed by line. A *combination* consists of one place in each
-/// of several sequences. Its roll offset is the roll that these places contribute to an
-/// alternative, minus the roll that the places of the reading contribute.
-struct OffsetBatch {
-    std::array<std::array<std::uint8_t, 32>, kMaxLines> offsets;
-};
-
-/// Odds, indexed by roll offset. The last element is padding.
-using OddsByOffset = std::array<float, kRollEntries>;
-
-/// Expected odds, indexed by the number of shared anchors (0 to 6). *Anchors* are the lines with
-/// the most information (docs/integrity.md, "Alternatives: odds").
-using OddsByShared = std::array<float, 7>;
-
 /// Sums of the smallest losses. Element n is the sum of the n smallest losses, for n = 0 to 8.
 using SmallestSums = std::array<std::int32_t, 9>;
 
@@ -384,31 +370,6 @@ struct Kernels {
     /// Sets `sums[n]` to the sum of the n smallest losses, for n = 0 to 8. `losses` must have 8 to
     /// 16 elements. Negative losses are treated as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
-    /// Combines each of the 32 combinations in a batch with one combination of places in the other
-    /// sequences. Returns one bit per resulting alternative: 1 if the alternative may lose less
-    /// than `limit` (at most 255). `losses[i]` is the loss if line i is not shared. `opposite[i]`
-    /// is the negated roll offset of the other combination in line i. The line is shared if this
-    /// number equals the offset in the batch.
-    std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
-                                      std::span<const std::uint8_t> losses, int limit);
-    /// Returns the expected total odds of the alternatives that differ from the reading in the
-    /// sequences `different` (one bit per sequence), and share at most `max_shared` (up to 8)
-    /// adjacent lines with the reading. Assumes that the digits of the alternatives are uniformly
-    /// distributed, except for the safety factor `kUnevenness`. `places` are the places of the
-    /// reading at the first line. `lines` contains the odds of an alternative in each line, indexed
-    /// by roll offset. The odds at offset 0 are 1, and the padding is 0.
-    float (*sum_expected_alternatives)(const code::Basis& basis,
-                                       const std::array<std::uint32_t, 4>& places,
-                                       unsigned different, std::span<const OddsByOffset> lines,
-                                       int max_shared);
-    /// Computes the expected total odds of the alternatives that differ from the reading in two
-    /// sequences, for each number of shared anchors. Excludes alternatives that share more than 6
-    /// anchors. Bit n of `anchors` is 1 if line n is an anchor. The other arguments are those of
-    /// `sum_expected_alternatives`.
-    void (*sum_expected_doubles)(const code::Basis& basis,
-                                 const std::array<std::uint32_t, 4>& places,
-                                 std::span<const OddsByOffset> lines, std::uint64_t anchors,
-                                 OddsByShared& totals);
 };
 
 }  // namespace dotpose::core

@@ -49,6 +49,7 @@ struct ReadoutTurn {
     /// Returns the image point at which the scene point seen at `seen` would appear without
     /// rotation.
     FloatVec without_turn(FloatVec seen) const {
+        if (rad_per_row == 0) return seen;
         const float row = seen.y;
         const FloatVec moved = displacement(row);
         const FloatVec turned{seen.x - axis.x - moved.x, seen.y - axis.y - moved.y};
@@ -62,6 +63,7 @@ struct ReadoutTurn {
     /// approximate row of the result. The result is correct only where the scene moves down by less
     /// than one row while a row is read. Otherwise, several rows or none may show the scene point.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
+        if (rad_per_row == 0) return still;
         constexpr float kMinClosing = 0.05F;
         constexpr float kMaxRow = 4096;  // larger than any row number
         const FloatVec p{still.x - still.y * drift.x - axis.x,

@@ -185,7 +185,8 @@ class Search {
             if (dot.squared() > tuning::fit::kOutlier * variance_) outliers += 1;
             dots_[count_++] = Four{dot.at.x, dot.at.y, dot.residual.x, dot.residual.y};
         }
-        const float length = std::sqrt(reach) + 0.1F + kBehind;
+        reach_ = std::sqrt(reach);
+        const float length = reach_ + 0.1F + kBehind;
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
@@ -198,6 +199,10 @@ class Search {
         fit_affine();
     }
 
+    /// Returns the distance from the reference point to the farthest dot, in spacings.
+    float reach() const { return reach_; }
+    /// Returns the distance between adjacent lines, in spacings.
+    float line_distance() const { return 1 / per_spacing_; }
     /// Replaces `best` if a line perpendicular to `direction` has a larger gain.
     void try_direction(FloatVec direction, PaperStep& best) const {
         std::array<PartSums, kLines> beyond = strips_along(direction);
@@ -326,6 +331,7 @@ class Search {
     /// dot.
     float off_plane_;
     float weight_ = 1;  ///< number of dots that each sample represents
+    float reach_ = 0;
     std::size_t lines_ = 0;
     float per_spacing_ = 0;  ///< number of lines per spacing
 };
@@ -350,8 +356,11 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
     // would have to more than double to reach kPossible, and a small rotation of the line rarely
     // changes it that much.
     if (best.gain < PaperStep::kPossible / 2) return best;
+    // Ends when a further rotation would move the farthest part of the line by at most the distance
+    // to the next line.
+    constexpr int kMaxHalvings = 5;
     float s = kSin;
-    for (int halving = 0; halving < 5; ++halving) {
+    for (int n = 0; n < kMaxHalvings && s / 2 * search.reach() > search.line_distance(); ++n) {
         s /= 2;
         const float c = std::sqrt(1 - s * s);
         const FloatVec around = best.direction;

@@ -72,12 +72,13 @@ bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     split.step = find_paper_step(dots, split.plane, split.fit, reference_px);
     const float gain = split.step.gain;
     if (gain < PaperStep::kPossible) return false;
-    for (int round = 0; round < tuned::kRounds; ++round) {
+    const int rounds = dots.count < tuned::kFewDots ? 1 : tuned::kRounds;
+    for (int round = 0; round < rounds; ++round) {
         const HalfPlane only(HalfPlane::Side::here, dots, split.plane, reference_px, split.step);
         if (!fit_plane(kernels, dots, split.fit.reach_px, tuned::kFarOff, displacement, split.plane,
                        split.fit))
             return false;
-        if (round + 1 == tuned::kRounds) break;
+        if (round + 1 == rounds) break;
         // Searches for the line again. The residuals are now relative to the plane of one side, so
         // the search is more precise than with the plane of all dots. The gain of this search is
         // ignored: it is not a valid likelihood ratio, because the plane was not fitted to the dots

@@ -199,8 +199,11 @@ inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
 /// Number of iterations in `fit_this_side`. Each iteration fits a plane to the reference point's
-/// side. Each iteration except the last then searches for the line again.
+/// side. Each iteration except the last then searches for the line again. Below kFewDots dots,
+/// there is only one iteration: on displaced sheets at 9 px per spacing, in views of 96 x 96 px,
+/// three iterations increase the 95 % quantile of the error from 6.5 to 7.7 µm.
 inline constexpr int kRounds = 3;
+inline constexpr int kFewDots = 144;
 }  // namespace paper_step
 
 /// Rotation during the readout of a rolling shutter (pose/turn_fit).

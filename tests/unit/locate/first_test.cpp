@@ -17,7 +17,7 @@ Fix outwards(const GreyImage& image, const DeviceOptions& options = {},
              const core::Kernels& kernels = core::kernels()) {
     core::DesktopWorkspace& w = large_workspace();
     w.fix = {};
-    w.work = core::WorkLimit(core::WorkLimit::kOfFrame);
+    w.work = core::WorkLimit(core::WorkLimit::kOfImage);
     if (core::locate_first(w.frame(kernels, image.view(), options), w)) {
         EXPECT_EQ(w.fix.status, Status::ok);
         EXPECT_EQ(w.fix.attempt, Attempt::first);

@@ -122,9 +122,10 @@ bool carries_position(const Shot& shot) {
     std::array<core::ScoredLine, 128> scores{};
     const auto bits = core::compared_with_code(code, place, block);
     Fix fix;
+    core::WorkLimit work(core::WorkLimit::kOfImage);
     return core::is_certain(core::kernels(),
                             core::evidence_of(core::kernels(), code, place, block, bits, scores),
-                            code, IntegrityOptions{}, fix);
+                            code, IntegrityOptions{}, work, fix);
 }
 
 TEST(RollingShutter, SmallFramesAreLocatedAtTheFirstAttemptIfTheirDotsCarryThePosition) {

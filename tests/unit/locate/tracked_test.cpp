@@ -54,7 +54,7 @@ Prediction turned_and_moved(const Shot& shot, const Prediction& prediction, Vec2
 Fix tracked(const GreyImage& image, const Prediction& prediction, const DeviceOptions& options = {},
             const core::Kernels& kernels = core::kernels()) {
     core::DesktopWorkspace& w = large_workspace();
-    w.work = core::WorkLimit(core::WorkLimit::kOfFrame);
+    w.work = core::WorkLimit(core::WorkLimit::kOfImage);
     if (core::locate_tracked(w.frame(kernels, image.view(), options), prediction, w)) {
         EXPECT_EQ(w.fix.status, Status::ok);
         EXPECT_EQ(w.fix.attempt, Attempt::tracked);

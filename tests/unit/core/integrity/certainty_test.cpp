@@ -43,8 +43,9 @@ Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& 
     evidence.columns = lines.columns;
     evidence.rows = lines.rows;
     Verdict verdict;
+    core::WorkLimit work(core::WorkLimit::kOfImage);
     verdict.is_certain =
-        core::is_certain(core::kernels(), evidence, block.code, options, verdict.fix);
+        core::is_certain(core::kernels(), evidence, block.code, options, work, verdict.fix);
     return verdict;
 }
 
@@ -178,8 +179,9 @@ Verdict verify_block(const Block& block, const IntegrityOptions& options) {
     decoding.place = block.place;
     std::array<core::ScoredLine, 2 * core::kMaxLines> storage;
     Verdict verdict;
-    verdict.is_certain = core::verify(core::kernels(), grid, block.code, nullptr, decoding, options,
-                                      storage, verdict.fix) == Status::ok;
+    core::WorkLimit work(core::WorkLimit::kOfImage);
+    verdict.is_certain = core::verify(core::kernels(), grid, block.code, nullptr, options, storage,
+                                      work, decoding, verdict.fix) == Status::ok;
     return verdict;
 }
 

@@ -11,14 +11,13 @@
 #include "code/rolls.hpp"
 #include "code/tables.hpp"
 #include "core/integrity/alternative_sets.hpp"
-#include "core/integrity/alternatives.hpp"
 #include "core/integrity/likelihood_ratios.hpp"
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/unshared_lines.hpp"
-#include "core/kernels/select.hpp"
 #include "core/math/fixed.hpp"
 #include "dotpose/tools/random.hpp"
 #include "locate/workspace.hpp"
+#include "single_odds.hpp"
 
 namespace dotpose::core_test::likelihood_ratios_of_bits_test {
 namespace {
@@ -96,49 +95,6 @@ TEST(LikelihoodRatiosOfBits, LosesAsWeightsDo) {
             EXPECT_EQ(loss_of_offsets(bits, offsets, line),
                       loss_of_offsets(weights, offsets, line));
     }
-}
-
-TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
-    Rng rng(9);
-    int settled = 0;
-    int compared = 0;
-    for (int round = 0; round < 200; ++round) {
-        Columns columns(rng);
-        const int estimate_q8 = quick_alternatives_log2_q8(columns.of_bits());
-        // The exact sum is rounded up to a power of two several times, so it may be up to four
-        // times too large.
-        const int counted = alternatives_log2(kernels(), columns.of_weights());
-        // The exact sum counts small odds as 2^-56, which adds up to 2^-42 for several thousand
-        // alternatives. Smaller sums are not compared.
-        if (counted > -41) {
-            EXPECT_GE(estimate_q8, 256 * (counted - 2));
-            ++compared;
-        }
-        settled += estimate_q8 < -30 * 256 ? 1 : 0;
-    }
-    EXPECT_GT(compared, 10);
-    EXPECT_GT(settled, 80);
-}
-
-/// Returns the sum of the odds of all alternatives that differ in one sequence.
-double single_odds(const LikelihoodRatios& ratios) {
-    double sum = 0;
-    for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
-        for (std::uint32_t place = 0; place < ratios.basis[k].length; ++place) {
-            if (place == ratios.places[k]) continue;
-            RollOffsets offsets;
-            set_roll_offsets(ratios, k, place, offsets);
-            for (int shift = 0; shift < kSections; ++shift) {
-                int lost = 0;
-                for (int line = 0; line < ratios.count(); ++line) {
-                    const int shifted = offsets[static_cast<std::size_t>(line)] - shift;
-                    lost += ratios.loss(line, shifted);
-                }
-                sum += std::exp2(ratios.log2_odds_q8(lost) / 256.0);
-            }
-        }
-    }
-    return sum;
 }
 
 /// The estimate must be an upper bound, whether it comes from tables or from an enumeration of

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/integrity/alternatives.hpp"
-#include "core/kernels/select.hpp"
 #include "ratios_case.hpp"
 
 namespace dotpose::core_test::quick_alternatives_test {
@@ -25,42 +23,6 @@ RatiosCase random_case(Rng& rng) {
     }
     c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
     return c;
-}
-
-/// Returns the sum of the odds of all other places in one sequence. A place is counted once for
-/// each shift at which it shares a line with the reading.
-double sum_of_singles(const RatiosCase& c) {
-    const auto texts = code_test::secondary_texts(c.code);
-    const std::size_t count = c.rolls.size();
-    double sum = 0;
-    for (std::size_t k = 0; k < texts.size(); ++k) {
-        const std::size_t length = texts[k].size();
-        for (std::size_t place = 0; place < length; ++place) {
-            if (place == c.position % length) continue;
-            std::vector<int> rolls;  // rolls of the alternative at shift 0
-            int offset = 0;
-            for (std::size_t line = 0; line < count; ++line) {
-                rolls.push_back(c.rolls[line] + offset);
-                offset += code_test::kWeights[k] *
-                          (code_test::digit_at(texts[k], place + line) -
-                           code_test::digit_at(texts[k], c.position % length + line));
-            }
-            for (int shift = 0; shift < 63; ++shift) {
-                bool shares = false;
-                double lost = 0;
-                for (std::size_t line = 0; line < count; ++line) {
-                    const int other = ((rolls[line] + shift) % 63 + 63) % 63;
-                    shares = shares || other == c.rolls[line];
-                    lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
-                            c.storage[line].scores[static_cast<std::size_t>(other)];
-                }
-                // The loss is halved, because each bit that disagrees only with the alternative
-                // reduces the score by twice its weight.
-                if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
-            }
-        }
-    }
-    return sum;
 }
 
 /// Returns log2 of the quick estimate, and expects the estimate to be at least the sum of the odds
@@ -121,28 +83,6 @@ TEST(QuickAlternatives, CountOthersThatLinesFitBetter) {
         c.odds_q8 = static_cast<int>(256 * rng.uniform(1, 4));
         told += checked(c) < 0;
     }
-    EXPECT_GE(told, 40) << "seed " << kSeed;
-}
-
-TEST(QuickAlternatives, AreNoFewerThanACloseLookShows) {
-    Rng rng(kSeed);
-    int told = 0;
-    int compared = 0;
-    for (int i = 0; i < 200; ++i) {
-        const RatiosCase c = random_case(rng);
-        const double quick = quick_alternatives_log2_q8(c.ratios()) / 256.0;
-        if (quick == 0) continue;
-        ++told;
-        const int counted = alternatives_log2(kernels(), c.ratios());
-        // The exact sum may be up to four times too large because it counts some alternatives twice
-        // and is rounded up to a power of two. Sums up to 2^-31 are not compared, because they may
-        // consist largely of expected odds. These odds are multiplied by 32 and contribute up to
-        // 2^-32.
-        if (counted <= -31) continue;
-        EXPECT_GE(quick, counted - 2) << "case " << i << ", seed " << kSeed;
-        ++compared;
-    }
-    EXPECT_GE(compared, 15) << "seed " << kSeed;
     EXPECT_GE(told, 40) << "seed " << kSeed;
 }
 

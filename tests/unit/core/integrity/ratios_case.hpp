@@ -121,4 +121,40 @@ inline std::size_t first_shared(const RatiosCase& c, const std::vector<int>& rol
     return line;
 }
 
+/// Returns the sum of the odds of all other places in one sequence. A place is counted once for
+/// each shift at which it shares a line with the reading.
+inline double sum_of_singles(const RatiosCase& c) {
+    const auto texts = code_test::secondary_texts(c.code);
+    const std::size_t count = c.rolls.size();
+    double sum = 0;
+    for (std::size_t k = 0; k < texts.size(); ++k) {
+        const std::size_t length = texts[k].size();
+        for (std::size_t place = 0; place < length; ++place) {
+            if (place == c.position % length) continue;
+            std::vector<int> rolls;  // rolls of the alternative at shift 0
+            int offset = 0;
+            for (std::size_t line = 0; line < count; ++line) {
+                rolls.push_back(c.rolls[line] + offset);
+                offset += code_test::kWeights[k] *
+                          (code_test::digit_at(texts[k], place + line) -
+                           code_test::digit_at(texts[k], c.position % length + line));
+            }
+            for (int shift = 0; shift < 63; ++shift) {
+                bool shares = false;
+                double lost = 0;
+                for (std::size_t line = 0; line < count; ++line) {
+                    const int other = ((rolls[line] + shift) % 63 + 63) % 63;
+                    shares = shares || other == c.rolls[line];
+                    lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
+                            c.storage[line].scores[static_cast<std::size_t>(other)];
+                }
+                // The loss is halved, because each bit that disagrees only with the alternative
+                // reduces the score by twice its weight.
+                if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
+            }
+        }
+    }
+    return sum;
+}
+
 }  // namespace dotpose::core_test

@@ -1,9 +1,8 @@
-#include "core/integrity/ranked_lines.hpp"
+#include "core/integrity/loss_tables.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <span>
 
 namespace dotpose::core {
@@ -39,11 +38,10 @@ class OddsByLoss {
 
 }  // namespace
 
-RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
+LossTables::LossTables(const LikelihoodRatios& of) : ratios(of) {
     OddsByLoss odds_of(ratios);
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
         auto& losses = losses_[line];
-        OddsByOffset& odds = odds_[line];
         const LineScores& scores = ratios.lines[static_cast<int>(line)];
         const auto own = static_cast<std::size_t>(ratios.own_roll(static_cast<int>(line)));
         // Two loops without a branch, so that compilers can vectorise them.
@@ -52,9 +50,9 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
             losses[roll - own] = static_cast<std::int16_t>(own_score - scores[roll]);
         for (std::size_t roll = 0; roll < own; ++roll)
             losses[roll + kSections - own] = static_cast<std::int16_t>(own_score - scores[roll]);
-        for (std::size_t offset = 0; offset < kSections; ++offset)
-            odds[offset] = odds_of(losses[offset]);
-        odds.back() = 0;
+        odds_of_others_[line] = 0;
+        for (std::size_t offset = 1; offset < kSections; ++offset)
+            odds_of_others_[line] += odds_of(losses[offset]);
         for (std::size_t n = kSections; n < losses.size(); n += kSections) {
             const auto end = losses.begin() +
                              std::min<std::ptrdiff_t>(
@@ -62,30 +60,10 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
             std::copy(losses.begin(), end, losses.begin() + static_cast<std::ptrdiff_t>(n));
         }
     }
-    rank_lines();
 }
 
-/// Ranks the lines by their summed odds over all nonzero roll offsets. The line with the smallest
-/// sum has the most information and gets rank 0.
-void RankedLines::rank_lines() {
-    std::array<float, kMaxLines> sums;
-    std::array<std::uint8_t, kMaxLines> lines;
-    for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
-        const OddsByOffset& odds = odds_[line];
-        sums[line] = std::accumulate(odds.begin() + 1, odds.end(), 0.0F);
-        // Insertion sort, because `std::sort` would generate more machine code than the rest of
-        // this file.
-        std::size_t rank = line;
-        for (; rank > 0 && sums[lines[rank - 1]] > sums[line]; --rank)
-            lines[rank] = lines[rank - 1];
-        lines[rank] = static_cast<std::uint8_t>(line);
-    }
-    for (std::size_t n = 0; n < static_cast<std::size_t>(count()); ++n)
-        ranks_[lines[n]] = static_cast<std::uint8_t>(n);
-}
-
-void RankedLines::set_offsets(std::size_t sequence, std::uint32_t place,
-                              RollOffsets& offsets) const {
+void LossTables::set_offsets(std::size_t sequence, std::uint32_t place,
+                             RollOffsets& offsets) const {
     using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
     // The loop also accesses elements beyond the last line, up to a multiple of the vector size.
     // The roll tables and the array of offsets are large enough for these elements.
@@ -104,9 +82,8 @@ void RankedLines::set_offsets(std::size_t sequence, std::uint32_t place,
 
 CoarseLosses::CoarseLosses(const LikelihoodRatios& ratios, int skipped_bits) {
     constexpr int kMaxLimit = 200;
-    const int loss_limit = ratios.loss_for(-skipped_bits * 256) + ratios.max_gain();
-    const int unit = loss_limit / kMaxLimit + 1;
-    limit = loss_limit / unit + 1;
+    unit = (ratios.loss_for(-skipped_bits * 256) + ratios.max_gain()) / kMaxLimit + 1;
+    limit = loss_for(ratios, skipped_bits);
     for (int line = 0; line < ratios.count(); ++line) {
         losses[static_cast<std::size_t>(line)] =
             static_cast<std::uint8_t>(std::min(std::max(ratios.min_loss(line), 0) / unit, limit));

@@ -1,25 +1,24 @@
-// Ranked lines: ranks the lines in view by decreasing information, and tabulates the losses and
-// odds of alternatives in each line. A line contains more information if alternatives that do not
-// share the line have smaller odds. likelihood_ratios.hpp defines the terms.
+// Loss tables: the losses and odds of alternatives in each line. likelihood_ratios.hpp defines the
+// terms.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "core/integrity/likelihood_ratios.hpp"
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
-/// The losses, the odds and the rank of each line. The line with the most information has rank 0.
-class RankedLines {
+/// The losses and odds of alternatives in each line, indexed by roll offset.
+class LossTables {
   public:
-    explicit RankedLines(const LikelihoodRatios& ratios);
+    explicit LossTables(const LikelihoodRatios& ratios);
 
     int count() const { return ratios.lines.count(); }
-    int rank(std::uint32_t line) const { return ranks_[line]; }
-    /// Returns one table per line: the odds of an alternative in this line, indexed by roll offset.
-    /// The odds are at least kNegligible. The last element of each table is padding and is 0.
-    std::span<const OddsByOffset> odds() const {
-        return std::span(odds_).first(static_cast<std::size_t>(count()));
-    }
+    /// Returns the summed odds of the alternatives that differ from the reading in this line, over
+    /// all rolls except the roll of the reading.
+    float odds_of_others(int line) const { return odds_of_others_[static_cast<std::size_t>(line)]; }
     /// Sets the roll offsets of the single alternative at `place` in `sequence`. Vectorised variant
     /// of `set_roll_offsets`.
     void set_offsets(std::size_t sequence, std::uint32_t place, RollOffsets& offsets) const;
@@ -35,13 +34,21 @@ class RankedLines {
     const LikelihoodRatios& ratios;
 
   private:
-    void rank_lines();
-
-    std::array<std::uint8_t, kMaxLines> ranks_{};
-    std::array<OddsByOffset, kMaxLines> odds_;
+    std::array<float, kMaxLines> odds_of_others_;
     /// Losses, indexed by line and by the second argument of `loss`.
     std::array<std::array<std::int16_t, 256>, kMaxLines> losses_;
 };
+
+/// Returns the number of bits by which the thresholds for negligible odds are lowered if the sum of
+/// all odds must be at most `max_odds`. The result is 0 for limits in [2^-32, 2^-30), up to 16 for
+/// smaller limits, and down to -20 for larger limits.
+inline int extra_bits_for(float max_odds) {
+    constexpr int kDefaultLimit_log2 = -30;
+    int exponent = 0;
+    std::frexp(max_odds, &exponent);  // max_odds < 2^exponent
+    const int below = kDefaultLimit_log2 - exponent;
+    return below > 0 ? std::min(below - 1, 16) : std::max(below, -20);
+}
 
 /// Minimum losses of the lines, rounded down to coarse units so that sums of losses fit in bytes.
 /// Each loss is at most `limit`.
@@ -50,6 +57,13 @@ struct CoarseLosses {
     /// losses add up to `limit` or more, regardless of its gains in other lines.
     CoarseLosses(const LikelihoodRatios& ratios, int skipped_bits);
 
+    /// Returns the coarse loss at which an alternative loses at least `bits` bits, regardless of
+    /// its gains in other lines.
+    int loss_for(const LikelihoodRatios& ratios, int bits) const {
+        return (ratios.loss_for(-bits * 256) + ratios.max_gain()) / unit + 1;
+    }
+
+    int unit;
     int limit;  ///< at most 200, the maximum that `Kernels::list_similar_places` accepts
     std::array<std::uint8_t, kMaxLines> losses;
 };
