@@ -31,7 +31,8 @@ constexpr float kChanges = 54;
 /// However, if few sequences differ, few changes of the roll are possible. On 700 axes of nominal
 /// frames, the expected odds for the actual digits of the reading were on average 10 to 17 times
 /// the model's odds if two sequences differ, and 2 times if three differ. If all four differ, they
-/// were only 0.6 times the model's odds, so no factor is applied.
+/// were only 0.6 times the model's odds, so no factor is applied. The factor for one sequence was
+/// not measured. It is the square of the factor for two.
 constexpr float kUnevennessOfOne = 256;
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
