@@ -87,14 +87,19 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
     return doubt;
 }
 
+/// Returns the agreement of all x bits and of all y bits with the code at the decoded position.
+std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
+                                       const Decoding& decoding) {
+    const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
+                      decoding.pattern_from_grid);
+    const Place corner = corner_place(code, decoding, all);
+    return {compare(code, all, Axis::x, reading_of(code, corner, Axis::x)),
+            compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
+}
+
 Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOptions& options,
                           Decoding& decoding, Fix& fix) {
-    const Upright upright(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
-                          decoding.pattern_from_grid);
-    const Place place = corner_place(code, decoding, upright);
-    const std::array agreements{compare(code, upright, Axis::x, reading_of(code, place, Axis::x)),
-                                compare(code, upright, Axis::y, reading_of(code, place, Axis::y))};
-    return doubt_of(agreements, options, decoding, fix);
+    return doubt_of(compare_both(grid, code, decoding), options, decoding, fix);
 }
 
 /// Returns an upper bound on the probability that the position is wrong along one axis: the sum of
@@ -226,15 +231,6 @@ Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, con
 }
 
 namespace {
-
-std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
-                                       const Decoding& decoding) {
-    const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
-                      decoding.pattern_from_grid);
-    const Place corner = corner_place(code, decoding, all);
-    return {compare(code, all, Axis::x, reading_of(code, corner, Axis::x)),
-            compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
-}
 
 /// Replaces the bounds on the probability of a chance match, which assume a single code, with
 /// bounds for several candidate codes. `log2_codes_q8` is log2 of the number of candidate codes,
