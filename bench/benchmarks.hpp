@@ -100,18 +100,25 @@ std::string tilt_table(const std::vector<TiltTimes>& times);
 
 // ---- Small frames: small.cpp ----
 
-/// Results for square nominal frames of one size and one spacing.
+/// Results for nominal frames of one size and one spacing. The frames take turns, so neither caches
+/// nor branch prediction adapt to individual frames.
 struct SmallTimes {
-    int side_px = 0;
+    int width_px = 0;
+    int height_px = 0;
     double spacing_px = 0;
     int frames = 0;
     int located = 0;
     int by_first_attempt = 0;  ///< number of frames located by the first attempt
     double median_us = 0;
+    double longest_first_us = 0;  ///< longest time of a frame without a second attempt
     double longest_us = 0;
 };
-/// Measures how long `locate` takes for small frames. Throws Error if a fix is wrong.
+/// Measures how long `locate` takes for small square frames, and for comparison, as the first
+/// element, for frames of 188 x 120 px. Throws Error if a fix is wrong.
 std::vector<SmallTimes> time_small_frames(bool is_quick);
+/// Returns the longest time of a small frame without a second attempt, relative to the median time
+/// of the frames of 188 x 120 px.
+double longest_first_ratio(const std::vector<SmallTimes>& times);
 std::string small_table(const std::vector<SmallTimes>& times);
 
 // ---- Hard frames: hard.cpp ----

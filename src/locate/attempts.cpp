@@ -111,7 +111,7 @@ Judgement Attempts::judge(CodeVariant read) const {
 bool Attempts::shows_turn() {
     // Estimated cost in processor instructions. With many dots, the place is certain without much
     // work, so only the cost of kMaxDots dots is subtracted from the limit.
-    constexpr std::size_t kWorkPerDot = 1900;
+    constexpr std::size_t kWorkPerDot = 2300;
     constexpr std::size_t kMaxDots = 200;
     const std::size_t dots =
         std::min(static_cast<std::size_t>(w_.measurement.dots.count), kMaxDots);

@@ -195,6 +195,17 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
+/// In a small view, subtracts the cost of the search for a line that divides the sheet from the
+/// work limit, if `fit_uneven` will probably search for one.
+void reserve_line_search(const Kernels& kernels, const MeasuredDots& dots,
+                         const Hypothesis& hypothesis, const PoseFit& fit, WorkLimit& work) {
+    // Estimated cost in processor instructions.
+    constexpr std::size_t kWorkPerDot = 900;
+    if (hypothesis.is_small_view &&
+        may_be_divided(kernels, dots, hypothesis.pattern_from_image, fit))
+        work.spend(kWorkPerDot * static_cast<std::size_t>(dots.count));
+}
+
 /// Distance from `Hypothesis::from_centre` within which dots are read, in px along each axis. The
 /// distance grows from round to round.
 struct Reach {
@@ -305,6 +316,7 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
                     finish(frame, reader, view, bits, hypothesis, pose, measurement, fix);
                 return finished == Confirmation::ok ? Confirmation::rough : finished;
             }
+            reserve_line_search(kernels, dots, hypothesis, pose, evidence.work);
             if (!confirm_place(evidence, hypothesis, view, block, bits, fix)) {
                 // If the bits are clear but do not make the position certain, the frame has too few
                 // bits.

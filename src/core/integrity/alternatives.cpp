@@ -15,7 +15,7 @@ namespace {
 
 /// Estimated cost per axis, in processor instructions, of all steps except the search for far
 /// alternatives, without the costs that depend on the number of alternatives or sets.
-constexpr std::size_t kPreparation = 56'000;
+constexpr std::size_t kPreparation = 47'000;
 /// Part of kPreparation for the seam alternatives of an axis. Only a cost above this value is
 /// subtracted from the work limit.
 constexpr std::size_t kWorkOfSeams = 27'000;

@@ -7,7 +7,6 @@
 #include "code/rolls.hpp"
 #include "core/integrity/alternative_sets.hpp"
 #include "core/integrity/alternatives.hpp"
-#include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/seam_alternatives.hpp"
 #include "core/integrity/tabled_alternatives.hpp"
 #include "core/integrity/unshared_lines.hpp"
@@ -191,14 +190,9 @@ float codes_in_question(const Query& query) {
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// The quick bound is computed only if the first bound is below this value. If the first bound is
-/// larger, the quick bound seldom suffices, because it is rarely much tighter.
-constexpr float kMaxForQuickBound = 0x1p-20F;
-
 /// Returns an upper bound on the probability that the position is wrong along at least one axis.
-/// The result may be 1 if the bound exceeds 2^limit_log2. Tries up to three bounds on the
-/// alternatives, each slower and tighter than the preceding bound; the second is skipped if it is
-/// unlikely to suffice. If the ratios come from hard bits, only the first bound is available.
+/// The result may be 1 if the bound exceeds 2^limit_log2. If a fast bound on the alternatives is
+/// too large, computes a tighter bound. The tighter bound is not available for hard bits.
 float wrong_on_any_axis(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                         const std::array<const UnsharedLines*, 2>& axes, const Query& query,
                         WorkLimit& work) {
@@ -213,16 +207,11 @@ float wrong_on_any_axis(const Kernels& kernels, const std::array<Confidence, 2>&
         const float chance = chance_of(bits[i], query);
         wrong += chance;
         if (wrong > limit) return 1;
-        // Each axis may use half of the limit. A tighter bound is computed only if the previous
-        // bound exceeds this half.
+        // Each axis may use half of the limit. A tighter bound is computed only if the fast bound
+        // exceeds this half.
         const float enough = limit / 2 - chance;
-        float sum = codes * alternatives(kernels, ratios, unshared, limit);
-        if (ratios.is_of_bits()) {
-            if (sum > limit) return 1;
-        } else if (sum > enough && sum < kMaxForQuickBound) {
-            sum = codes * power_of_two_rounded_up(
-                              quick_alternatives_log2_q8(ratios, 256 * query.limit_log2));
-        }
+        const float sum = codes * alternatives(kernels, ratios, unshared, limit);
+        if (ratios.is_of_bits() && sum > limit) return 1;
         if (sum > enough && !ratios.is_of_bits()) {
             in_doubt[count++] = &unshared;
         } else {

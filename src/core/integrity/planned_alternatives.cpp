@@ -50,21 +50,16 @@ constexpr std::size_t kPackedLines = 4;
 
 /// A set of shared lines, and the packed lines: the unshared lines with the largest minimum losses.
 struct Pattern {
-    Pattern(const LossTables& lines, LineSet shared_) : shared(shared_), gaps(shared_) {
-        std::array<int, kPackedLines> min_losses{-1, -1, -1, -1};
+    /// `sorted` contains all lines in order of decreasing minimum loss.
+    Pattern(const LossTables& lines, std::span<const std::uint8_t> sorted, LineSet shared_)
+        : shared(shared_), gaps(shared_) {
         losses.fill(kNoLosses.data());
-        for (int line = 0; line < lines.count(); ++line) {
-            const int min_loss = std::max(lines.ratios.min_loss(line), 0);
-            if ((shared >> line & 1) != 0 || min_loss <= min_losses.back()) continue;
-            std::size_t n = kPackedLines - 1;
-            for (; n > 0 && min_losses[n - 1] < min_loss; --n) {
-                min_losses[n] = min_losses[n - 1];
-                unshared[n] = unshared[n - 1];
-                losses[n] = losses[n - 1];
-            }
-            min_losses[n] = min_loss;
-            unshared[n] = static_cast<std::uint8_t>(line);
-            losses[n] = lines.losses(unshared[n]);
+        std::size_t n = 0;
+        for (const std::uint8_t line : sorted) {
+            if ((shared >> line & 1) != 0) continue;
+            unshared[n] = line;
+            losses[n] = lines.losses(line);
+            if (++n == kPackedLines) break;
         }
     }
     /// Returns the roll offsets in the packed lines, one per byte. Sums of four offsets fit in a
@@ -102,20 +97,17 @@ class KeyedPlaces {
         const Gaps& gaps = pattern.gaps;
         const RelativeOffsets set_offsets(lines.ratios, sequence, gaps.before[0]);
         std::size_t n = 0;
-        const std::uint32_t words = lines.ratios.basis[sequence].length / 32 + 1U;
-        for (std::uint32_t word = 0; word < words; ++word) {
-            visit_places(places[word], word, [&](std::uint32_t place) {
-                places_[n] = static_cast<std::uint8_t>(place);
-                RollOffsets& offsets = offsets_[n];
-                set_offsets(place, offsets);
-                const auto change = [&](std::size_t gap) -> std::size_t {
-                    const std::size_t offset = offsets[static_cast<std::size_t>(gaps.after[gap])];
-                    return negates && offset != 0 ? kSections - offset : offset;
-                };
-                keys_[n] = static_cast<std::uint16_t>(kKeyStep * change(0) + change(1));
-                packed_[n++] = pattern.packed(offsets);
-            });
-        }
+        visit_places(places, [&](std::uint32_t place) {
+            places_[n] = static_cast<std::uint8_t>(place);
+            RollOffsets& offsets = offsets_[n];
+            set_offsets(place, offsets);
+            const auto change = [&](std::size_t gap) -> std::size_t {
+                const std::size_t offset = offsets[static_cast<std::size_t>(gaps.after[gap])];
+                return negates && offset != 0 ? kSections - offset : offset;
+            };
+            keys_[n] = static_cast<std::uint16_t>(kKeyStep * change(0) + change(1));
+            packed_[n++] = pattern.packed(offsets);
+        });
         count_ = n;
     }
     std::size_t count() const { return count_; }
@@ -153,6 +145,7 @@ class SetSearch {
           work_(work),
           equal_places_(lines) {
         newest_.fill(kNone);
+        sort_lines();
     }
 
     /// Adds the odds of the far alternatives that share all lines of `shared`. Skips alternatives
@@ -167,7 +160,7 @@ class SetSearch {
         for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1)
             equal_places_.keep_equal(static_cast<std::size_t>(std::countr_zero(steps)), places);
         if (equal_places_.count_different(places) < 2) return spend(0, 0, 0, 0);
-        const Pattern pattern(lines_, shared);
+        const Pattern pattern(lines_, std::span(sorted_).first(count_), shared);
         if (!list(places, pattern)) return false;
         add_matches(pattern);
         return !is_exhausted_ && odds() <= max_odds_;
@@ -180,7 +173,26 @@ class SetSearch {
     static constexpr std::size_t kPlaces = 256;
     static constexpr std::size_t kMaxPairs = code::kA3.size() * kPlaces;
     static constexpr std::uint16_t kNone = kMaxPairs;
-    static_assert(code::kA1.size() <= kPlaces);
+    static_assert(code::kA1.size() <= kPlaces && code::kA4Restored.size() <= kPlaces);
+
+    /// A place in a4 whose roll offsets, together with those of a place in a2, are cancelled by
+    /// pairs of places in a1 and a3.
+    struct Found {
+        std::uint16_t newest;  ///< newest of these pairs
+        std::uint16_t m;       ///< index in the list of a4
+    };
+
+    void sort_lines() {
+        const auto min_loss = [&](std::size_t line) {
+            return lines_.ratios.min_loss(static_cast<int>(line));
+        };
+        for (std::size_t line = 0; line < count_; ++line) {
+            std::size_t n = line;
+            for (; n > 0 && min_loss(sorted_[n - 1]) < min_loss(line); --n)
+                sorted_[n] = sorted_[n - 1];
+            sorted_[n] = static_cast<std::uint8_t>(line);
+        }
+    }
 
     /// Lists the places in all sequences. Returns false if the search would exceed its work limit.
     bool list(const PlaceSets& places, const Pattern& pattern) {
@@ -217,12 +229,16 @@ class SetSearch {
         }
         for (std::size_t n = 0; n < second.count(); ++n) {
             const std::uint32_t key = second.keys()[n];
-            std::size_t m = 0;
-            for (const std::uint16_t other : fourth.keys()) {
-                const std::uint16_t pair = newest_[sum_of_keys(key, other)];
-                if (pair != kNone) add_pairs(pattern, pair, n, m);
-                ++m;
+            // First lists the keys that have pairs, because a branch for each key would often be
+            // predicted wrongly.
+            std::size_t count = 0;
+            for (std::size_t m = 0; m < fourth.count(); ++m) {
+                const std::uint16_t pair = newest_[sum_of_keys(key, fourth.keys()[m])];
+                found_[count] = {pair, static_cast<std::uint16_t>(m)};
+                count += pair != kNone ? 1 : 0;
             }
+            for (const auto& [newest, m] : std::span(found_).first(count))
+                add_pairs(pattern, newest, n, m);
         }
         for (std::size_t n = 0; n < third.count(); ++n) {
             for (std::size_t m = 0; m < first.count(); ++m)
@@ -231,9 +247,7 @@ class SetSearch {
     }
 
     /// Combines places `n` of a2 and `m` of a4 with `newest` and all older pairs of the same key.
-    /// Not inlined, because most keys have no pairs, and their loop then needs fewer registers.
-    [[gnu::noinline]] void add_pairs(const Pattern& pattern, std::uint16_t newest, std::size_t n,
-                                     std::size_t m) {
+    void add_pairs(const Pattern& pattern, std::uint16_t newest, std::size_t n, std::size_t m) {
         const std::uint32_t packed = lists_[1].packed(n) + lists_[3].packed(m);
         for (std::uint16_t pair = newest; pair != kNone; pair = before_[pair]) {
             // Most alternatives are skipped.
@@ -291,14 +305,15 @@ class SetSearch {
     WorkLimit& work_;
     EqualPlaces equal_places_;
     SearchedSets searched_;
-    std::span<const LineSet> earlier_;  ///< searched sets before the current set
+    std::span<const LineSet> earlier_;            ///< searched sets before the current set
+    std::array<std::uint8_t, kMaxLines> sorted_;  ///< lines in order of decreasing minimum loss
     std::array<KeyedPlaces, 4> lists_;
     /// Linked lists of pairs of places, one list for each key. `newest_` contains the newest pair
     /// for each key. `before_` contains the next older pair for each pair.
     std::array<std::uint16_t, kKeys> newest_;
+    std::array<Found, kPlaces> found_;
     std::array<std::uint16_t, kMaxPairs> before_;
     std::array<std::uint16_t, kMaxPairs> keys_;  ///< key of each pair
-    /// For each pair of places, the sum of their packed roll offsets.
     std::array<std::uint32_t, kMaxPairs> packed_;
     std::size_t skipped_ = 0;    ///< number of skipped alternatives
     bool is_exhausted_ = false;  ///< true if the work limit was reached

@@ -1,7 +1,8 @@
 // Quick alternatives: computes an upper bound on the summed odds of all alternatives except seam
-// alternatives, in integer arithmetic. This takes much less time than `wrong_by_alternatives`. In
-// most frames, the bound is far below the accepted error probability, so no tighter bound is
-// needed. See docs/integrity.md, "The quick bound". likelihood_ratios.hpp defines the terms.
+// alternatives, in integer arithmetic, for second attempts and devices. With many lines in view,
+// this takes much less time than `wrong_by_alternatives`, and the bound is far below the accepted
+// error probability, so no tighter bound is needed. See docs/integrity.md, "The quick bound".
+// likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

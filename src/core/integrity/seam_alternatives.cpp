@@ -23,7 +23,7 @@ constexpr int kMin_q8 = -8 * 256;
 
 /// Estimated costs per place, in processor instructions: of a place that is not excluded by its
 /// digits, and in addition of `QuickTest` and of `LossesByBorder`.
-constexpr std::size_t kWorkPerPlace = 140;
+constexpr std::size_t kWorkPerPlace = 350;
 constexpr std::size_t kWorkPerTest = 350;
 constexpr std::size_t kWorkPerSum = 1'900;
 
@@ -134,13 +134,12 @@ class RequiredLines {
     /// Returns the index of the first required line at which the roll offset changes, or `count()`
     /// if there is no change. Returns 0 if the roll offset changes more than once.
     std::size_t changed_at(const RollOffsets& offsets) const {
-        std::size_t changed = count_;
-        for (std::size_t n = 1; n < count_; ++n) {
-            if (offset(offsets, n) == offset(offsets, n - 1)) continue;
-            if (changed < count_) return 0;
-            changed = n;
-        }
-        return changed;
+        LineSet changes = 0;  // required lines whose roll offset differs from the previous one
+        for (std::size_t n = 1; n < count_; ++n)
+            changes |= LineSet{offset(offsets, n) != offset(offsets, n - 1)} << n;
+        if (changes == 0) return count_;
+        return std::has_single_bit(changes) ? static_cast<std::size_t>(std::countr_zero(changes))
+                                            : 0;
     }
 
   private:
@@ -339,10 +338,9 @@ std::optional<int> seam_alternatives_log2_q8(const Kernels& kernels, const Unsha
         }
         required->keep_similar(k, similar);
         const RelativeOffsets set_offsets(ratios, k, 0);
-        for (std::uint32_t word = 0; word < similar.size(); ++word)
-            visit_places(similar[word], word, [&](std::uint32_t place) {
-                is_complete = is_complete && add(set_offsets, place);
-            });
+        visit_places(similar, [&](std::uint32_t place) {
+            is_complete = is_complete && add(set_offsets, place);
+        });
     }
     if (!is_complete) return {};
     return alternatives.sum_q8();

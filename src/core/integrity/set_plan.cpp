@@ -19,8 +19,8 @@ constexpr float kMaxRequiredWork = 1e6F;
 constexpr int kNegligibleBits = 42;
 
 /// Estimated cost of a node of the search tree and of a listed set, in processor instructions.
-constexpr std::size_t kWorkPerNode = 48;
-constexpr std::size_t kWorkPerSet = 80;
+constexpr std::size_t kWorkPerNode = 110;
+constexpr std::size_t kWorkPerSet = 120;
 
 /// Number of possible changes of the roll from one line to the next. If an alternative differs in
 /// all four sequences, its roll changes are approximately uniformly distributed over these values.
@@ -178,23 +178,18 @@ void SetPlan::add(const Node& node, float expected) {
     const float work = this->work(node);
     const bool is_required = node.min_loss < required_loss_ && work < kMaxRequiredWork;
     if (is_required) required_.add(node.shared);
-    sets_[count_++] = {node.shared, expected, work, is_required};
+    const float priority =
+        is_required ? static_cast<float>(kMaxLines - std::popcount(node.shared)) : expected / work;
+    sets_[count_++] = {node.shared, expected, work, priority, is_required};
 }
 
 /// Sorts the sets. The required sets come first, sorted by increasing number of lines. The other
 /// sets follow, sorted by decreasing ratio of `expected` to `work`. Ties are broken by the lines,
 /// so that the order is the same with every standard library.
 void SetPlan::sort_sets() {
-    const auto key = [](const PlannedSet& set) {
-        return set.is_required ? static_cast<float>(kMaxLines - std::popcount(set.shared))
-                               : set.expected / set.work;
-    };
-    std::ranges::sort(std::span(sets_).first(count_),
-                      [&](const PlannedSet& a, const PlannedSet& b) {
-                          const float key_a = key(a);
-                          const float key_b = key(b);
-                          return key_a != key_b ? key_a > key_b : a.shared < b.shared;
-                      });
+    std::ranges::sort(std::span(sets_).first(count_), [](const PlannedSet& a, const PlannedSet& b) {
+        return a.priority != b.priority ? a.priority > b.priority : a.shared < b.shared;
+    });
 }
 
 void SetPlan::sum_rests() {

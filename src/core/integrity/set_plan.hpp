@@ -18,6 +18,7 @@ struct PlannedSet {
     LineSet shared;
     float expected;    ///< expected odds of the far alternatives that share exactly these lines
     float work;        ///< cost of the search for these alternatives, in processor instructions
+    float priority;    ///< sets with higher priority are searched earlier
     bool is_required;  ///< true if the set must be searched because individual odds may be large
 };
 
@@ -26,7 +27,7 @@ struct PlannedSet {
 /// is the number of pairs of places in a1 and a3, `looked_up` the number of pairs in a2 and a4, and
 /// `matches` the number of alternatives that these pairs form.
 constexpr float work_of_search(float listed, float tabled, float looked_up, float matches) {
-    return 500 + 150 * listed + 24 * tabled + 12 * looked_up + 36 * matches;
+    return 1000 + 150 * listed + 16 * tabled + 10 * looked_up + 50 * matches;
 }
 
 /// Maximum number of sets in a `SetPlan`.

@@ -3,9 +3,13 @@
 // of a word. likelihood_ratios.hpp defines the terms.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstdint>
+#include <tuple>
 
 #include "core/integrity/likelihood_ratios.hpp"
+#include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
@@ -60,11 +64,32 @@ class SimilarPlaces {
     std::array<Step, kMaxSteps> steps_;
 };
 
-/// Calls `use(place)` for each set bit of `places`. `word` is the index of `places` in a bit set.
+/// Calls `use(place)` for each set bit of `places`, in ascending order.
 template <typename Use>
-void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
-    for (; places != 0; places &= places - 1)
-        use(32 * word + static_cast<std::uint32_t>(std::countr_zero(places)));
+void visit_places(const PlaceBits& places, Use use) {
+    // Uses one loop over the bits of all words. Processors cannot predict the end of a loop over
+    // the bits of a single word.
+    struct Word {
+        std::uint32_t bits;
+        std::uint32_t first;
+    };
+    std::array<Word, std::tuple_size_v<PlaceBits> + 1> words;
+    std::size_t count = 0;
+    for (std::uint32_t word = 0; word < places.size(); ++word) {
+        words[count] = {places[word], 32 * word};
+        count += places[word] != 0 ? 1 : 0;
+    }
+    words[count] = {0, 0};
+    const Word* word = words.data();
+    std::uint32_t bits = word->bits;
+    while (bits != 0) {
+        use(word->first + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        bits &= bits - 1;
+        // Without a branch, continues with the next word after the last bit of this word.
+        const std::uint32_t is_last = bits == 0 ? 1 : 0;
+        word += is_last;
+        bits |= word->bits & (0 - is_last);
+    }
 }
 
 /// Calls `use(k, place)` for each similar place in each sequence k, where `place` is the place at
@@ -81,8 +106,10 @@ void visit_similar_places(const LikelihoodRatios& ratios, const Steps& steps, Is
         const auto use_at_first_line = [&](std::uint32_t place) {
             use(k, place < ahead ? place + a.length - ahead : place - ahead);
         };
+        PlaceBits places{};
         for (std::uint32_t word = 0; 32 * word < a.length; ++word)
-            visit_places(similar[word], word, use_at_first_line);
+            places[word] = similar[word];
+        visit_places(places, use_at_first_line);
     }
 }
 

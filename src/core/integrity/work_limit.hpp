@@ -5,15 +5,17 @@
 
 namespace dotpose::core {
 
-/// Remaining computation budget, in estimated processor instructions.
+/// Remaining computation budget, in processor instructions of average speed. A wrongly predicted
+/// branch counts as about 50 instructions.
 class WorkLimit {
   public:
-    /// Budget of one attempt for summing the odds of alternatives, and for `Attempts::shows_turn`.
-    /// All places tested in the attempt share this budget. First and tracked attempts in images of
-    /// at most 96 x 96 px have the budget kOfSmallImage. For comparison, all other steps of a first
-    /// attempt in such an image together take 100,000 to 240,000 instructions. docs/speed.md,
-    /// "Small frames", compares several budgets.
-    static constexpr std::size_t kOfSmallImage = 470'000;
+    /// Budget of one attempt for the sums of the odds of alternatives, for the search for a line
+    /// that divides the sheet, and for `Attempts::shows_turn`. All places tested in the attempt
+    /// share this budget. First and tracked attempts in images of at most 96 x 96 px have the
+    /// budget kOfSmallImage. For comparison, all other steps of a first attempt in such an image
+    /// together take 100,000 to 240,000 instructions. docs/speed.md, "Small frames", compares
+    /// several budgets.
+    static constexpr std::size_t kOfSmallImage = 445'000;
     static constexpr std::size_t kOfImage = 10'000'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}

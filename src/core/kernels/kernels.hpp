@@ -217,7 +217,10 @@ struct SimilarPlaceList {
         std::uint8_t loss;
     };
     int max_count = 512;  ///< at most kMax
+    /// Places whose lower bound is at least this value are counted, but not listed. At most 255.
+    int unlisted_limit = 255;
     int count = 0;
+    int unlisted_count = 0;
     std::array<Entry, kMax> places;
 };
 

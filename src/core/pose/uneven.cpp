@@ -157,15 +157,19 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Searches for a line if there are many outliers, or if `GroupScatter::excess` of the blocks
-/// exceeds `min_excess`. Otherwise, increases the covariance if the scatter between blocks exceeds
-/// kShared.
+/// Returns true if there are many outliers, or if `GroupScatter::excess` of the blocks exceeds
+/// `min_excess`.
+bool may_be_divided(const Blocks& blocks, float min_excess) {
+    return blocks.scatter().excess() > min_excess || has_outliers(blocks);
+}
+
+/// Searches for a line if the sheet may be divided (see `may_be_divided`). Otherwise, increases the
+/// covariance if the scatter between blocks exceeds kShared.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
-    const float excess = blocks.scatter().excess();
-    if (excess > min_excess || has_outliers(blocks))
+    if (may_be_divided(blocks, min_excess))
         consider_line(kernels, dots, reference_px, blocks, plane, fit);
-    else if (excess > tuned::kShared)
+    else if (blocks.scatter().excess() > tuned::kShared)
         widen_by_blocks(blocks, fit);
 }
 
@@ -180,6 +184,11 @@ float patient_excess(const Blocks& blocks) {
 }
 
 }  // namespace
+
+bool may_be_divided(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
+                    const PoseFit& fit) {
+    return may_be_divided(Blocks(kernels, dots, plane, fit), tuned::kSuspect);
+}
 
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit) {

@@ -8,6 +8,11 @@
 
 namespace dotpose::core {
 
+/// Returns true if the residuals of the fit are correlated, or there are many outliers, so that
+/// `fit_uneven` searches for a line that divides the sheet.
+bool may_be_divided(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
+                    const PoseFit& fit);
+
 /// Tests the residuals of the fit for correlation. If the gain of a dividing line exceeds
 /// PaperStep::kCertain, and the dots on the reference point's side of the line are in one plane,
 /// refits the plane to these dots. Sets `surface` and `uneven` in `fit`.

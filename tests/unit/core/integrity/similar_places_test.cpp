@@ -66,6 +66,23 @@ TEST(SimilarPlaces, AreThoseThatLoseLessThanEnough) {
     EXPECT_GT(found, 100U);
 }
 
+TEST(SimilarPlaces, VisitsEachSetBitInOrder) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 300; ++i) {
+        PlaceBits places{};
+        std::vector<std::uint32_t> expected;
+        const std::uint32_t density = 1 + rng.below(64);
+        for (std::uint32_t place = 0; place < 32 * places.size(); ++place) {
+            if (rng.below(density) != 0) continue;
+            places[place / 32] |= 1U << place % 32;
+            expected.push_back(place);
+        }
+        std::vector<std::uint32_t> visited;
+        visit_places(places, [&](std::uint32_t place) { visited.push_back(place); });
+        ASSERT_EQ(visited, expected) << i << ", seed " << kSeed;
+    }
+}
+
 TEST(SimilarPlaces, AreVisitedAtTheFirstLine) {
     Rng rng(kSeed);
     for (int i = 0; i < 100; ++i) {

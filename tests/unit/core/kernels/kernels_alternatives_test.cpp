@@ -122,6 +122,36 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
     EXPECT_GT(listed, 100);
 }
 
+TEST(KernelsAlternatives, ListCountsPlacesFromTheUnlistedLimitOn) {
+    int unlisted = 0;
+    repeat_with_each_form(50, [&](const Kernels& kernels, Rng& rng) {
+        const OwnPlaces places(rng);
+        std::vector<LineLoss> lines;
+        for (int line = 0; line < 12; ++line)
+            lines.push_back({static_cast<std::uint8_t>(line), 5});
+        SimilarPlaceList all;
+        all.max_count = SimilarPlaceList::kMax;
+        ASSERT_TRUE(kernels.list_similar_places(places.basis, places.own, 15, lines, 40, all));
+        EXPECT_EQ(all.unlisted_count, 0);
+        SimilarPlaceList some = all;
+        some.unlisted_limit = whole(rng, 20, 40);
+        ASSERT_TRUE(kernels.list_similar_places(places.basis, places.own, 15, lines, 40, some));
+        std::vector<std::array<int, 3>> expected;
+        for (const auto& [k, place, line, loss] :
+             std::span(all.places).first(static_cast<std::size_t>(all.count))) {
+            if (loss < some.unlisted_limit) expected.push_back({k, place, line});
+        }
+        std::vector<std::array<int, 3>> listed;
+        for (const auto& [k, place, line, loss] :
+             std::span(some.places).first(static_cast<std::size_t>(some.count)))
+            listed.push_back({k, place, line});
+        EXPECT_EQ(listed, expected);
+        EXPECT_EQ(some.count + some.unlisted_count, all.count);
+        unlisted += some.unlisted_count;
+    });
+    EXPECT_GT(unlisted, 1000);
+}
+
 TEST(KernelsAlternatives, LeastLossesAreThoseOfSortedLosses) {
     repeat_with_each_form(50, [&](const Kernels& kernels, Rng& rng) {
         // In half of the rounds, losses are limited to the range from -1 to 3, so that some losses

@@ -326,13 +326,16 @@ TEST_F(KernelsTest, SimilarPlacesAreTheSame) {
         std::stable_sort(lines.begin(), lines.end(),
                          [](LineLoss a, LineLoss b) { return a.loss > b.loss; });
         const int enough = whole(rng, 1, 40);
+        const int unlisted_limit = whole(rng, 1, 40);
         const auto sequences = static_cast<unsigned>(whole(rng, 1, 15));
         expect_same([&](const Kernels& kernels, Record& record) {
             for (std::size_t k = 0; k < own.size(); ++k)
                 record.add(kernels.find_similar_places(basis[k], own[k], steps));
             SimilarPlaceList list;
+            list.unlisted_limit = unlisted_limit;
             record.add(kernels.list_similar_places(basis, own, sequences, lines, enough, list));
             record.add(std::span(list.places), list.count);
+            record.add(list.unlisted_count);
         });
     });
 }

@@ -37,6 +37,7 @@ struct Sheet {
     Fix fix;
     std::vector<float> columns;
     bool is_fitted = false;
+    bool may_be_divided = false;  ///< result of `core::may_be_divided`
 
     Sheet(const Shift& shift, Rng& rng) : Sheet(random_float_plane(11, 2e-4, rng), shift, rng) {}
     Sheet(const FloatPlane& upright, const Shift& shift, Rng& rng) : truth(upright) {
@@ -57,6 +58,7 @@ struct Sheet {
         is_fitted = core::fit_plane(core::kernels(), owned.dots, kReach_px, kLimit,
                                     static_cast<float>(kDisplacement), plane, fit);
         if (!is_fitted) return;
+        may_be_divided = core::may_be_divided(core::kernels(), owned.dots, plane, fit);
         core::fit_uneven(core::kernels(), owned.dots, {}, plane, fit);
         core::estimate_covariance(fit, core::fixed_plane(plane, {}), {}, fix);
     }
@@ -84,14 +86,17 @@ Shift slip(double distance, double direction_rad, Vec2 by) {
 TEST(FitUneven, LeavesFitsOfFlatSheetsAlone) {
     Rng rng(kSeed);
     int uneven = 0;
+    int may_be_divided = 0;
     for (int trial = 0; trial < 100; ++trial) {
         SCOPED_TRACE(testing::Message() << trial << ", seed " << kSeed);
         const Sheet sheet([](Vec2) { return Vec2{}; }, rng);
         ASSERT_TRUE(sheet.is_fitted);
+        may_be_divided += sheet.may_be_divided ? 1 : 0;
         uneven += sheet.fix.surface != Surface::even ? 1 : 0;
         EXPECT_LT(sheet.sigmas_off(), kMaxSigmas);
     }
     EXPECT_LE(uneven, 1);
+    EXPECT_LE(may_be_divided, 3);
 }
 
 TEST(FitUneven, FitsTheSideOfTheReferencePoint) {
@@ -105,6 +110,7 @@ TEST(FitUneven, FitsTheSideOfTheReferencePoint) {
                                {by * std::cos(moves_rad), by * std::sin(moves_rad)}),
                           rng);
         ASSERT_TRUE(sheet.is_fitted);
+        EXPECT_TRUE(sheet.may_be_divided);
         EXPECT_NE(sheet.fix.surface, Surface::even);
         EXPECT_LT(sheet.sigmas_off(), kMaxSigmas);
         EXPECT_TRUE(sheet.is_as_it_was());
