@@ -60,7 +60,7 @@ class PatchSearch {
             if (ends(confirmation)) return confirmation;
             // If the patch covers the whole image, ends the search, because other patches contain
             // no additional dots.
-            if (confirmation == Confirmation::too_few_bits && is_whole_image(patch_, frame_.image))
+            if (confirmation != Confirmation::implausible && is_whole_image(patch_, frame_.image))
                 return confirmation;
             is_mirrored =
                 is_mirrored || shows_mirror_image(frame_.kernels, frame_.options.code, patch_);

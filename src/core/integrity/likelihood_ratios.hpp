@@ -69,9 +69,11 @@ class LikelihoodRatios {
     /// that are equal modulo 63 have the same loss.
     int loss(int line, int roll_offset) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
+        // Without branches, because processors cannot predict them.
         const int moved = own + roll_offset;
-        const int other =
-            moved < 0 ? moved + kSections : (moved < kSections ? moved : moved - kSections);
+        const int up = kSections & -static_cast<int>(moved < 0);
+        const int down = kSections & -static_cast<int>(moved >= kSections);
+        const int other = moved + up - down;
         if (is_of_bits()) return kScoreOfBit * loss_of_bits(line, other);
         return lines[line][static_cast<std::size_t>(own)] -
                lines[line][static_cast<std::size_t>(other)];

@@ -23,7 +23,7 @@ constexpr int kMin_q8 = -8 * 256;
 
 /// Estimated costs per place, in processor instructions: of a place that is not excluded by its
 /// digits, and in addition of `QuickTest` and of `LossesByBorder`.
-constexpr std::size_t kWorkPerPlace = 350;
+constexpr std::size_t kWorkPerPlace = 450;
 constexpr std::size_t kWorkPerTest = 350;
 constexpr std::size_t kWorkPerSum = 1'900;
 
@@ -68,8 +68,7 @@ class LossesByBorder {
             min_lost = std::min(min_lost, lost);
         };
         const auto loss_in = [&](int line) {
-            const int roll_offset = offsets[static_cast<std::size_t>(line)] - shift;
-            return roll_offset == 0 ? 0 : ratios_.loss(line, roll_offset);
+            return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
         // Each loop stops when the loss on its side of the border reaches `loss_limit_`, because
         // the odds at this shift are then negligible for all remaining borders.
@@ -217,12 +216,11 @@ class SeamAlternatives {
     /// or at line `first_after`, and must share these two lines.
     void add_between(const RollOffsets& offsets, int last_before, int first_after) {
         const auto loss_in = [&](int line, int shared) {
-            const int roll_offset =
-                offsets[static_cast<std::size_t>(line)] - offsets[static_cast<std::size_t>(shared)];
-            return roll_offset == 0 ? 0 : ratios_.loss(line, roll_offset);
+            return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] -
+                                          offsets[static_cast<std::size_t>(shared)]);
         };
         int lost = 0;
-        for (int line = 0; line < last_before && lost < loss_limit_; ++line)
+        for (int line = 0; line < last_before; ++line)
             lost += loss_in(line, last_before);
         for (int line = first_after + 1; line < ratios_.count() && lost < loss_limit_; ++line)
             lost += loss_in(line, first_after);

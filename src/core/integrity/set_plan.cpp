@@ -20,7 +20,7 @@ constexpr int kNegligibleBits = 42;
 
 /// Estimated cost of a node of the search tree and of a listed set, in processor instructions.
 constexpr std::size_t kWorkPerNode = 110;
-constexpr std::size_t kWorkPerSet = 120;
+constexpr std::size_t kWorkPerSet = 400;
 
 /// Number of possible changes of the roll from one line to the next. If an alternative differs in
 /// all four sequences, its roll changes are approximately uniformly distributed over these values.
@@ -74,7 +74,7 @@ SetPlan::SetPlan(const LossTables& lines, int extra_bits, WorkLimit& work)
     }
     set_growth();
     set_numbers();
-    visit(0, all);
+    if (is_relevant(0, all)) visit(0, all);
     sort_sets();
     sum_rests();
 }
@@ -135,33 +135,35 @@ float SetPlan::work(const Node& node) const {
 }
 
 /// Adds all sets that extend `node`. Compared lines with index `n` or higher are still undecided.
-void SetPlan::visit(std::size_t n, const Node& node) {
-    if (!is_complete_) return;
-    if (!work_.spend(kWorkPerNode + 2 * required_.sets().size())) {
-        is_complete_ = false;
-        return;
+void SetPlan::visit(std::size_t n, Node node) {
+    for (; n < compared_count_; ++n) {
+        // Sets with fewer lines are visited first, because they may cover sets with more lines.
+        Node without = node;
+        without.odds *= mean_odds_[n];
+        without.min_loss += lines_.ratios.min_loss(compared_[n]);
+        if (is_relevant(n + 1, without)) visit(n + 1, without);
+        if (!share(compared_[n], node) || !is_relevant(n + 1, node)) return;
     }
-    const float expected = this->expected(node);
-    if (expected < negligible_odds_) {
-        negligible_ += growth_[n] * expected;
-        return;
-    }
-    if (n == compared_count_) return add(node, expected);
-    // Sets with fewer lines are visited first, because they may cover sets with more lines.
-    Node without = node;
-    without.odds *= mean_odds_[n];
-    without.min_loss += lines_.ratios.min_loss(compared_[n]);
-    visit(n + 1, without);
-    visit_shared(n, node);
+    add(node, expected(node));
 }
 
-/// Adds all sets that extend `node` and contain the compared line with index `n`. Skips sets that a
-/// required set covers.
-void SetPlan::visit_shared(std::size_t n, Node node) {
-    const int line = compared_[n];
+/// Returns true if the sets that extend `node` are listed. If their expected odds are negligible,
+/// adds them to `negligible_` and returns false. Also returns false if the work limit is reached.
+bool SetPlan::is_relevant(std::size_t n, const Node& node) {
+    is_complete_ = is_complete_ && work_.spend(kWorkPerNode + 2 * required_.sets().size());
+    if (!is_complete_) return false;
+    const float expected = this->expected(node);
+    if (expected >= negligible_odds_) return true;
+    negligible_ += growth_[n] * expected;
+    return false;
+}
+
+/// Adds a line to `node`. Returns false if no alternative can share these lines, or if a required
+/// set covers them.
+bool SetPlan::share(int line, Node& node) const {
     if (node.last == line - 1) {
         // No alternative shares more than `max_shared` adjacent lines.
-        if (++node.run > lines_.ratios.max_shared()) return;
+        if (++node.run > lines_.ratios.max_shared()) return false;
         ++node.steps;
     } else {
         node.run = 1;
@@ -169,7 +171,7 @@ void SetPlan::visit_shared(std::size_t n, Node node) {
     }
     node.shared |= LineSet{1} << line;
     node.last = line;
-    if (!required_.covers(node.shared)) visit(n + 1, node);
+    return !required_.covers(node.shared);
 }
 
 void SetPlan::add(const Node& node, float expected) {

@@ -85,8 +85,9 @@ class SetPlan {
     void set_numbers();
     float expected(const Node& node) const;
     float work(const Node& node) const;
-    void visit(std::size_t n, const Node& node);
-    void visit_shared(std::size_t n, Node node);
+    void visit(std::size_t n, Node node);
+    bool is_relevant(std::size_t n, const Node& node);
+    bool share(int line, Node& node) const;
     void add(const Node& node, float expected);
     void sort_sets();
     void sum_rests();

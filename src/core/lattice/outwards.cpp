@@ -175,9 +175,12 @@ float growth(float fraction) {
 /// smallest of these distances.
 constexpr std::size_t kNearest = 20;
 
+/// Squared distances from one dot to all dots of a patch, in px^2.
+using SquaredDistances = std::array<float, PatchDots::kMax>;
+
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
-float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
-    std::array<float, PatchDots::kMax> squares{};
+/// Overwrites `squares`.
+float squared_reach_of_nearest(const PatchDots& dots, FloatVec of, SquaredDistances& squares) {
     const auto count = static_cast<std::size_t>(dots.count);
     for (std::size_t i = 0; i < count; ++i) {
         const float x = dots.x[i] - of.x;
@@ -213,10 +216,11 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     const int candidates = std::clamp(kMaxDistances / count, kMinCandidates, kMaxCandidates);
     const int step = count / candidates + 1;
     float min_reach_2 = kNoDot_px;
+    SquaredDistances squares{};
     for (int i = 0; i < count; i += step) {
         const auto k = static_cast<std::size_t>(i);
         const FloatVec candidate{dots.x[k], dots.y[k]};
-        const float reach_2 = squared_reach_of_nearest(dots, candidate);
+        const float reach_2 = squared_reach_of_nearest(dots, candidate, squares);
         if (reach_2 >= min_reach_2) continue;
         min_reach_2 = reach_2;
         // Uses whole pixels, so a plane can be moved to this origin without rounding errors.
