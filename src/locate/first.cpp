@@ -111,23 +111,18 @@ class PatchSearch {
     /// Finds the grid in the patch at the image centre. If `is_skewed` is true, cells may be
     /// arbitrary parallelograms. Otherwise, cells must be approximately square. If a search for a
     /// skewed grid finds no grid, or a grid that is probably false, the search is repeated with
-    /// waves computed from a different number of central dots. The default number is unsuitable if
-    /// it is too small, or if a rotation displaces some of these dots.
+    /// waves computed from fewer central dots, because a rotation displaces the outer dots.
     bool find_middle_grid(bool is_skewed, PatchGrid& grid) const {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;
         view.is_skewed = is_skewed;
-        bool is_found = find_grid(frame_.kernels, patch_, view, grid);
-        if (!is_skewed) return is_found;
-        for (const float central_dots : tuned::kOtherCentralDots) {
-            if (is_found && !is_probably_false(grid)) break;
-            view.central_dots = central_dots;
-            PatchGrid other;
-            if (!find_grid(frame_.kernels, patch_, view, other)) continue;
-            if (!is_found || other.agreement > grid.agreement) grid = other;
-            is_found = true;
-        }
-        return is_found;
+        const bool is_found = find_grid(frame_.kernels, patch_, view, grid);
+        if (!is_skewed || (is_found && !is_probably_false(grid))) return is_found;
+        view.central_dots = tuned::kFewerCentralDots;
+        PatchGrid other;
+        if (!find_grid(frame_.kernels, patch_, view, other)) return is_found;
+        if (!is_found || other.agreement > grid.agreement) grid = other;
+        return true;
     }
 
     /// Tests the hypothesis that is decoded from a grid in the patch at the image centre.

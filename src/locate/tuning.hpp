@@ -55,8 +55,8 @@ inline constexpr int kMaxTries = 4;
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 /// If the search for a skewed grid at the image centre finds no grid, or a grid that is probably
-/// false, it is repeated with waves computed from each of these numbers of central dots.
-inline constexpr float kOtherCentralDots[] = {45, 20};
+/// false, it is repeated with waves computed from this number of central dots.
+inline constexpr float kFewerCentralDots = 20;
 /// Factors applied to the estimated spacing if sheets are known. On a known sheet, a strip of only
 /// three rows of dots can make the place certain. The estimated spacing of such a strip is too
 /// large, because the estimate assumes that the nearest neighbours of a dot fill a disc. For the
