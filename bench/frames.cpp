@@ -79,14 +79,14 @@ TimedFrames time_frames(const std::vector<KnownFrame>& frames, int passes,
     using Clock = std::chrono::steady_clock;
     TimedFrames times;
     times.fastest_us.assign(frames.size(), std::numeric_limits<double>::max());
-    times.attempts.resize(frames.size());
+    times.fixes.resize(frames.size());
     for (int pass = 0; pass < passes; ++pass) {
         for (std::size_t i = 0; i < frames.size(); ++i) {
             const auto start = Clock::now();
             const Fix fix = locate(frames[i].image.view());
             const std::chrono::duration<double, std::micro> elapsed = Clock::now() - start;
             times.fastest_us[i] = std::min(times.fastest_us[i], elapsed.count());
-            times.attempts[i] = fix.attempt;
+            times.fixes[i] = fix;
             if (pass > 0 || fix.status != Status::ok) continue;
             if (!is_right(fix, frames[i].truth)) throw Error("a frame was located wrongly");
             ++times.located;

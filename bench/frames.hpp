@@ -34,7 +34,7 @@ struct TimedFrames {
     int located = 0;
     int by_first_attempt = 0;        ///< number of frames located by the first attempt
     std::vector<double> fastest_us;  ///< shortest time of each frame over all passes
-    std::vector<Attempt> attempts;   ///< last attempt made for each frame
+    std::vector<Fix> fixes;          ///< result of the last pass for each frame
 };
 /// Locates all frames `passes` times with `locate`. Throws Error if a fix is wrong.
 TimedFrames time_frames(const std::vector<KnownFrame>& frames, int passes,

@@ -1,6 +1,7 @@
 // Measures the time per frame for small cameras, whose frames contain barely enough cells for a
 // fix.
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <span>
 
@@ -16,36 +17,35 @@ namespace {
 
 constexpr double kSpacing_mm = 0.508;  ///< spacing of the dots on the simulated sheet
 
-SmallTimes time_small(int width_px, int height_px, double spacing_px, int count, int passes) {
+/// Renders `count` frames with this size and spacing, and appends them to `frames`.
+void add_frames(const SmallTimes& row, std::vector<KnownFrame>& frames) {
     Setup setup;
     setup.seed = kSeed;
-    setup.camera.width_px = width_px;
-    setup.camera.height_px = height_px;
-    setup.camera.mm_per_px = kSpacing_mm / spacing_px;
-    const auto memory = std::make_unique<SmallMemory>();
-    TimedFrames timed = time_frames(
-        render_frames(count,
-                      [&](int i) {
-                          const Shot shot = draw_shot(setup, static_cast<std::uint64_t>(i));
-                          return KnownFrame{render(shot), truth_of(shot), {}, {}};
-                      }),
-        passes,
-        [&](const ImageView& image) { return Locator(*memory, DeviceOptions{}).locate(image); });
-    double longest_first_us = 0;
-    for (std::size_t i = 0; i < timed.attempts.size(); ++i) {
-        if (timed.attempts[i] == Attempt::first)
-            longest_first_us = std::max(longest_first_us, timed.fastest_us[i]);
+    setup.camera.width_px = row.width_px;
+    setup.camera.height_px = row.height_px;
+    setup.camera.mm_per_px = kSpacing_mm / row.spacing_px;
+    std::ranges::move(render_frames(row.frames,
+                                    [&](int i) {
+                                        const Shot shot =
+                                            draw_shot(setup, static_cast<std::uint64_t>(i));
+                                        return KnownFrame{render(shot), truth_of(shot), {}, {}};
+                                    }),
+                      std::back_inserter(frames));
+}
+
+/// Computes the results of a row from its times and fixes.
+void summarize(std::span<const double> fastest_us, std::span<const Fix> fixes, SmallTimes& row) {
+    std::vector<double> sorted_us(fastest_us.begin(), fastest_us.end());
+    std::ranges::sort(sorted_us);
+    row.median_us = quantile(sorted_us, 0.5);
+    row.longest_us = sorted_us.back();
+    for (std::size_t i = 0; i < fixes.size(); ++i) {
+        const bool is_located = fixes[i].status == Status::ok;
+        const bool is_first = fixes[i].attempt == Attempt::first;
+        row.located += is_located ? 1 : 0;
+        row.by_first_attempt += is_located && is_first ? 1 : 0;
+        if (is_first) row.longest_first_us = std::max(row.longest_first_us, fastest_us[i]);
     }
-    std::ranges::sort(timed.fastest_us);
-    return {width_px,
-            height_px,
-            spacing_px,
-            count,
-            timed.located,
-            timed.by_first_attempt,
-            quantile(timed.fastest_us, 0.5),
-            longest_first_us,
-            timed.fastest_us.back()};
 }
 
 }  // namespace
@@ -53,12 +53,26 @@ SmallTimes time_small(int width_px, int height_px, double spacing_px, int count,
 std::vector<SmallTimes> time_small_frames(bool is_quick) {
     const int count = is_quick ? 20 : 200;
     const int passes = is_quick ? 2 : 15;
-    std::vector<SmallTimes> all = {time_small(188, 120, 11, count, passes)};
+    std::vector<SmallTimes> rows = {{188, 120, 11, count}};
     for (const int side_px : {64, 72, 80, 96}) {
         for (const double spacing_px : {6.0, 7.0, 9.0, 11.0})
-            all.push_back(time_small(side_px, side_px, spacing_px, count, passes));
+            rows.push_back({side_px, side_px, spacing_px, count});
     }
-    return all;
+    std::vector<KnownFrame> frames;
+    for (const SmallTimes& row : rows)
+        add_frames(row, frames);
+    const auto memory = std::make_unique<SmallMemory>();
+    const TimedFrames timed = time_frames(frames, passes, [&](const ImageView& image) {
+        return Locator(*memory, DeviceOptions{}).locate(image);
+    });
+    std::size_t first = 0;
+    for (SmallTimes& row : rows) {
+        const auto n = static_cast<std::size_t>(row.frames);
+        summarize(std::span(timed.fastest_us).subspan(first, n),
+                  std::span(timed.fixes).subspan(first, n), row);
+        first += n;
+    }
+    return rows;
 }
 
 double longest_first_ratio(const std::vector<SmallTimes>& times) {
