@@ -139,8 +139,8 @@ Status SecondAttempt::read_position(const PlaceEvidence& evidence) {
         status = Status::not_certain;
     const auto note_compared_bits = [&] {
         if (decoding.bits > 0)
-            w_.measurement.compared = {middle_place(options.code, decoding).cell, decoding.bits,
-                                       w_.fix.bit_errors};
+            w_.measurement.compared = {middle_place(evidence.options.code, decoding).cell,
+                                       decoding.bits, w_.fix.bit_errors};
     };
     note_compared_bits();
     if (status != Status::ok && known.any() &&

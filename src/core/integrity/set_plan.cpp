@@ -189,9 +189,10 @@ void SetPlan::add(const Node& node, float expected) {
 /// sets follow, sorted by decreasing ratio of `expected` to `work`. Ties are broken by the lines,
 /// so that the order is the same with every standard library.
 void SetPlan::sort_sets() {
-    std::ranges::sort(std::span(sets_).first(count_), [](const PlannedSet& a, const PlannedSet& b) {
-        return a.priority != b.priority ? a.priority > b.priority : a.shared < b.shared;
-    });
+    std::sort(sets_.begin(), sets_.begin() + static_cast<std::ptrdiff_t>(count_),
+              [](const PlannedSet& a, const PlannedSet& b) {
+                  return a.priority != b.priority ? a.priority > b.priority : a.shared < b.shared;
+              });
 }
 
 void SetPlan::sum_rests() {

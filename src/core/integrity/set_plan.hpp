@@ -44,8 +44,8 @@ class SearchedSets {
         return true;
     }
     bool covers(LineSet set) const {
-        return std::ranges::any_of(sets(),
-                                   [set](LineSet earlier) { return (earlier & ~set) == 0; });
+        return std::any_of(sets_.begin(), sets_.begin() + static_cast<std::ptrdiff_t>(count_),
+                           [set](LineSet earlier) { return (earlier & ~set) == 0; });
     }
     std::span<const LineSet> sets() const { return std::span(sets_).first(count_); }
 

@@ -127,7 +127,7 @@ export class HistoryPanel {
     #text({ states, times_ms, first_us, last_us, counts, max_speed_mm_s, is_cut }: StoredHistory): string {
         if (states === 0) return "There are no states in this time.";
         const thinned = times_ms.length < states ? `, of which ${times_ms.length} are shown` : "";
-        const fractions = kMotions.map((motion) => shareText(motion, counts[motion], states)).join(", ");
+        const shares = kMotions.map((motion) => shareText(motion, counts[motion], states)).join(", ");
         const cut = is_cut ? " The span has more states: choose a shorter one." : "";
         return `${states} states from ${timeText(first_us)} to ${timeText(last_us)}${thinned}: ${shares}; up to ${max_speed_mm_s.toFixed(0)} mm/s.${cut}`;
     }

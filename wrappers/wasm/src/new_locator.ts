@@ -17,8 +17,11 @@ const kMeasuredErrorRate = -1;
 export function newLocator(core: Instance, options: LocatorOptions): number {
     const { attempts = 2, bits_per_error = 0, code = "auto" } = options;
     if (attempts !== 1 && attempts !== 2) throw new RangeError(`attempts are 1 or 2, not ${String(attempts)}`);
-    const isInRange = Number.isInteger(bits_per_error) && bits_per_error >= 0 && bits_per_error <= 65536;
-    if (bits_per_error !== "measured" && !isInRange) {
+    const isValid =
+        typeof bits_per_error === "number"
+            ? Number.isInteger(bits_per_error) && bits_per_error >= 0 && bits_per_error <= 65536
+            : bits_per_error === "measured";
+    if (!isValid) {
         throw new RangeError(
             `bits_per_error is "measured" or an integer from 0 to 65536, not ${String(bits_per_error)}`,
         );

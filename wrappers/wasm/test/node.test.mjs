@@ -163,6 +163,7 @@ describe("Locator", () => {
         await Locator.create({ bits_per_error: "measured" });
         await assert.rejects(Locator.create({ bits_per_error: "unknown" }), RangeError);
         await assert.rejects(Locator.create({ bits_per_error: 65537 }), RangeError);
+        await assert.rejects(Locator.create({ bits_per_error: -1 }), RangeError);
         await assert.rejects(Locator.create({ bits_per_error: 0.001 }), RangeError);
         await assert.rejects(Locator.create({ attempts: 0 }), RangeError);
         await assert.rejects(Locator.create({ attempts: 3 }), RangeError);
