@@ -86,7 +86,7 @@ class Alternatives {
         for (const UnsharedLines* axis : axes_) {
             const std::optional<int> odds_q8 = seam_alternatives_log2_q8(kernels_, *axis, work_);
             if (!odds_q8) return false;
-            sum += 1.02F * power_of_two(*odds_q8);
+            sum += power_of_two_rounded_up(*odds_q8);
         }
         work_ = WorkLimit(std::min(left, work_.left()));
         return planned_work_ <= static_cast<float>(work_.left()) && spend(sum);

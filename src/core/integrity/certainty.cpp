@@ -26,14 +26,6 @@ constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
 constexpr float kSingles = 741;
 
-/// Returns an upper bound on 2^(n_q8 / 256) that is about 2 % too large. Clamps the exponent to at
-/// least -100.
-constexpr float power_of_two_rounded_up(int n_q8) {
-    const int n = std::max(n_q8, -100 * 256);
-    const int whole = n >> 8;
-    return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
-}
-
 /// Variant of `LikelihoodRatios::odds` that does not clamp large odds. Avoids 64-bit integers,
 /// because converting them to floating point may require a library call.
 float odds_of(const LikelihoodRatios& ratios, int lost) {

@@ -252,10 +252,9 @@ int count_alternatives(const Kernels& kernels, const LikelihoodRatios& x, const 
     const UnsharedLines x_unshared(kernels, x);
     const UnsharedLines y_unshared(kernels, y);
     const std::array axes{&x_unshared, &y_unshared};
-    constexpr float kMargin = 1.02F;  // covers the rounding errors of `power_of_two`
     const float chance =
-        kMargin * power_of_two(add_log2(doubt.by_chance_q8[0], doubt.by_chance_q8[1]));
-    const float wrong = wrong_by_alternatives(kernels, axes, kMargin * power_of_two(log2_codes_q8),
+        power_of_two_rounded_up(add_log2(doubt.by_chance_q8[0], doubt.by_chance_q8[1]));
+    const float wrong = wrong_by_alternatives(kernels, axes, power_of_two_rounded_up(log2_codes_q8),
                                               power_of_two_exactly(limit_log2) - chance, work);
     return wrong >= 1 ? 0 : log2_of_odds_q8(chance + wrong);
 }
