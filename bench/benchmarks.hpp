@@ -100,8 +100,8 @@ std::string tilt_table(const std::vector<TiltTimes>& times);
 
 // ---- Small frames: small.cpp ----
 
-/// Results for nominal frames of one size and one spacing. The frames of all sizes take turns, so
-/// neither caches nor branch prediction adapt to individual frames.
+/// Results for nominal frames of one size and one spacing. Each pass locates the frames of all
+/// sizes once, so the processor cannot learn the branches of individual frames.
 struct SmallTimes {
     int width_px = 0;
     int height_px = 0;

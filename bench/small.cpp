@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kSpacing_mm = 0.508;  ///< spacing of the dots on the simulated sheet
 
-/// Renders `count` frames with this size and spacing, and appends them to `frames`.
+/// Renders the frames of a row, and appends them to `frames`.
 void add_frames(const SmallTimes& row, std::vector<KnownFrame>& frames) {
     Setup setup;
     setup.seed = kSeed;

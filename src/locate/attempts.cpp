@@ -109,7 +109,7 @@ Judgement Attempts::judge(CodeVariant read) const {
 }
 
 bool Attempts::shows_turn() {
-    // Estimated cost in processor instructions. With many dots, the place is certain without much
+    // Estimated cost, in units of `WorkLimit`. With many dots, the place is certain without much
     // work, so only the cost of kMaxDots dots is subtracted from the limit.
     constexpr std::size_t kWorkPerDot = 2300;
     constexpr std::size_t kMaxDots = 200;

@@ -195,15 +195,22 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
-/// In a small view, subtracts the cost of the search for a line that divides the sheet from the
-/// work limit, if `fit_uneven` will probably search for one.
-void reserve_line_search(const Kernels& kernels, const MeasuredDots& dots,
-                         const Hypothesis& hypothesis, const PoseFit& fit, WorkLimit& work) {
-    // Estimated cost in processor instructions.
-    constexpr std::size_t kWorkPerDot = 900;
+/// Confirms the place of a hypothesis (see `confirm_place`). In small views, does so with less work
+/// if `fit_uneven` will probably search for a line that divides the sheet.
+bool confirm_with_reserve(const PlaceEvidence& evidence, const Hypothesis& hypothesis,
+                          const CellsInView& view, const BitBlock& block, const BitsRead& bits,
+                          const MeasuredDots& dots, const PoseFit& fit, Fix& fix) {
+    constexpr std::size_t kWorkPerDot = 900;  // estimated cost of the search, see `WorkLimit`
+    std::size_t reserve = 0;
     if (hypothesis.is_small_view &&
-        may_be_divided(kernels, dots, hypothesis.pattern_from_image, fit))
-        work.spend(kWorkPerDot * static_cast<std::size_t>(dots.count));
+        may_be_divided(evidence.kernels, dots, hypothesis.pattern_from_image, fit)) {
+        reserve =
+            std::min(kWorkPerDot * static_cast<std::size_t>(dots.count), evidence.work.left());
+    }
+    evidence.work.spend(reserve);
+    const bool is_confirmed = confirm_place(evidence, hypothesis, view, block, bits, fix);
+    if (!is_confirmed) evidence.work.refund(reserve);
+    return is_confirmed;
 }
 
 /// Distance from `Hypothesis::from_centre` within which dots are read, in px along each axis. The
@@ -316,8 +323,7 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
                     finish(frame, reader, view, bits, hypothesis, pose, measurement, fix);
                 return finished == Confirmation::ok ? Confirmation::rough : finished;
             }
-            reserve_line_search(kernels, dots, hypothesis, pose, evidence.work);
-            if (!confirm_place(evidence, hypothesis, view, block, bits, fix)) {
+            if (!confirm_with_reserve(evidence, hypothesis, view, block, bits, dots, pose, fix)) {
                 // If the bits are clear but do not make the position certain, the frame has too few
                 // bits.
                 if (!is_last || !are_clear(frame, hypothesis, bits)) return Confirmation::uncertain;

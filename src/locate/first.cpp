@@ -58,8 +58,8 @@ class PatchSearch {
             if (!place_patch_in_middle(frame_.image, scale, patch_)) break;
             const Confirmation confirmation = search_middle();
             if (ends(confirmation)) return confirmation;
-            // If the patch covers the whole image, ends the search, because other patches contain
-            // no additional dots.
+            // If the patch covers the whole image and shows a plausible place, ends the search,
+            // because other patches contain the same dots, and rarely show another place.
             if (confirmation != Confirmation::implausible && is_whole_image(patch_, frame_.image))
                 return confirmation;
             is_mirrored =

@@ -29,8 +29,7 @@ struct PlaceEvidence {
     EarlierBits& earlier;
     std::span<ScoredLine> line_scores;  ///< memory for the line scores of a block
     OtherCodes* others;                 ///< receives the odds of the other codes, unless it is null
-    /// Remaining effort that may be spent on testing places in this attempt.
-    WorkLimit& work;
+    WorkLimit& work;                    ///< remaining work of this attempt
 };
 
 /// A quarter turn of a block, and the place of cell (0, 0) of the turned block.

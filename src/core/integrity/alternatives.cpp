@@ -13,7 +13,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Estimated cost per axis, in processor instructions, of all steps except the search for far
+/// Estimated cost per axis, in units of `WorkLimit`, of all steps except the search for far
 /// alternatives, without the costs that depend on the number of alternatives or sets.
 constexpr std::size_t kPreparation = 47'000;
 /// Part of kPreparation for the seam alternatives of an axis. Only a cost above this value is

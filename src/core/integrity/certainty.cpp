@@ -132,7 +132,7 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
                                      std::span(storage).first(lines), loss_limit, list)) {
         return 1;
     }
-    for (const auto& [sequence, place, line, loss] :
+    for (const auto& [sequence, place, line] :
          std::span(list.places).first(static_cast<std::size_t>(list.count)))
         sum += odds_of(ratios, loss_of(ratios, sequence, place, line));
     return sum;
@@ -149,8 +149,7 @@ float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
 
 /// Returns the summed odds of the seam alternatives, rounded up.
 float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
-    return power_of_two_rounded_up(
-        std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
+    return power_of_two_rounded_up(seam_alternatives_log2_q8(kernels, unshared));
 }
 
 /// Parameters of the certainty test. Both axes use the same values.
@@ -203,12 +202,12 @@ float wrong_on_any_axis(const Kernels& kernels, const std::array<Confidence, 2>&
         // exceeds this half.
         const float enough = limit / 2 - chance;
         const float sum = codes * alternatives(kernels, ratios, unshared, limit);
-        if (ratios.is_of_bits() && sum > limit) return 1;
         if (sum > enough && !ratios.is_of_bits()) {
             in_doubt[count++] = &unshared;
-        } else {
-            wrong += sum + seam_alternatives(kernels, unshared);
+            continue;
         }
+        if (sum > limit) return 1;
+        wrong += sum + seam_alternatives(kernels, unshared);
     }
     if (count == 0) return wrong;
     // The factor covers the rounding errors of the sums.

@@ -69,7 +69,7 @@ class LikelihoodRatios {
     /// that are equal modulo 63 have the same loss.
     int loss(int line, int roll_offset) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
-        // Without branches, because processors cannot predict them.
+        // Uses masks instead of branches, because the branches would often be mispredicted.
         const int moved = own + roll_offset;
         const int up = kSections & -static_cast<int>(moved < 0);
         const int down = kSections & -static_cast<int>(moved >= kSections);

@@ -229,8 +229,8 @@ class SetSearch {
         }
         for (std::size_t n = 0; n < second.count(); ++n) {
             const std::uint32_t key = second.keys()[n];
-            // First lists the keys that have pairs, because a branch for each key would often be
-            // predicted wrongly.
+            // First collects the keys that have pairs, because a branch for each key would often
+            // be mispredicted.
             std::size_t count = 0;
             for (std::size_t m = 0; m < fourth.count(); ++m) {
                 const std::uint16_t pair = newest_[sum_of_keys(key, fourth.keys()[m])];
@@ -311,10 +311,10 @@ class SetSearch {
     /// Linked lists of pairs of places, one list for each key. `newest_` contains the newest pair
     /// for each key. `before_` contains the next older pair for each pair.
     std::array<std::uint16_t, kKeys> newest_;
-    std::array<Found, kPlaces> found_;
     std::array<std::uint16_t, kMaxPairs> before_;
-    std::array<std::uint16_t, kMaxPairs> keys_;  ///< key of each pair
-    std::array<std::uint32_t, kMaxPairs> packed_;
+    std::array<std::uint16_t, kMaxPairs> keys_;    ///< key of each pair
+    std::array<std::uint32_t, kMaxPairs> packed_;  ///< sum of the packed roll offsets of each pair
+    std::array<Found, kPlaces> found_;
     std::size_t skipped_ = 0;    ///< number of skipped alternatives
     bool is_exhausted_ = false;  ///< true if the work limit was reached
     float sum_ = 0;

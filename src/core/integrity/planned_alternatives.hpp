@@ -24,7 +24,7 @@ std::optional<float> sum_of_planned_alternatives(const LossTables& lines, const 
                                                  int extra_bits, float fraction, float max_odds,
                                                  WorkLimit& work);
 
-/// Returns the estimated cost, in processor instructions, of searching until the second term of
+/// Returns the estimated cost, in units of `WorkLimit`, of searching until the second term of
 /// `sum_of_planned_alternatives` is at most `max_rest`.
 float work_of_planned_alternatives(const SetPlan& plan, float max_rest);
 

@@ -21,7 +21,7 @@ constexpr int kSeam_q8 = -32 * 256;
 /// odds exclude the prior.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Estimated costs per place, in processor instructions: of a place that is not excluded by its
+/// Estimated costs per place, in units of `WorkLimit`: of a place that is not excluded by its
 /// digits, and in addition of `QuickTest` and of `LossesByBorder`.
 constexpr std::size_t kWorkPerPlace = 450;
 constexpr std::size_t kWorkPerTest = 350;
@@ -133,7 +133,7 @@ class RequiredLines {
     /// Returns the index of the first required line at which the roll offset changes, or `count()`
     /// if there is no change. Returns 0 if the roll offset changes more than once.
     std::size_t changed_at(const RollOffsets& offsets) const {
-        LineSet changes = 0;  // required lines whose roll offset differs from the previous one
+        LineSet changes = 0;  // required lines whose roll offset differs from the line before
         for (std::size_t n = 1; n < count_; ++n)
             changes |= LineSet{offset(offsets, n) != offset(offsets, n - 1)} << n;
         if (changes == 0) return count_;
@@ -220,6 +220,7 @@ class SeamAlternatives {
                                           offsets[static_cast<std::size_t>(shared)]);
         };
         int lost = 0;
+        // Without an early stop, because its branch would often be mispredicted.
         for (int line = 0; line < last_before; ++line)
             lost += loss_in(line, last_before);
         for (int line = first_after + 1; line < ratios_.count() && lost < loss_limit_; ++line)

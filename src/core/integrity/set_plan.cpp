@@ -9,7 +9,7 @@ namespace dotpose::core {
 namespace {
 
 /// A listed set must be searched if its alternatives may lose less than kRequiredBits bits, without
-/// gains in other lines, and the search takes less than kMaxRequiredWork processor instructions. A
+/// gains in other lines, and the search takes less work than kMaxRequiredWork. A
 /// longer search is worthwhile only if the expected odds are large.
 constexpr int kRequiredBits = 24;
 constexpr float kMaxRequiredWork = 1e6F;
@@ -18,7 +18,7 @@ constexpr float kMaxRequiredWork = 1e6F;
 /// sets consist of many lines, and alternatives that share all of them are unlikely to exist.
 constexpr int kNegligibleBits = 42;
 
-/// Estimated cost of a node of the search tree and of a listed set, in processor instructions.
+/// Estimated cost of a node of the search tree and of a listed set, in units of `WorkLimit`.
 constexpr std::size_t kWorkPerNode = 110;
 constexpr std::size_t kWorkPerSet = 400;
 
@@ -74,7 +74,7 @@ SetPlan::SetPlan(const LossTables& lines, int extra_bits, WorkLimit& work)
     }
     set_growth();
     set_numbers();
-    if (is_relevant(0, all)) visit(0, all);
+    if (enter(0, all)) visit(0, all);
     sort_sets();
     sum_rests();
 }
@@ -121,7 +121,7 @@ float SetPlan::expected(const Node& node) const {
     return (node.shared == 0 ? kSections : 1) * node.odds * number_[node.steps][node.gaps];
 }
 
-/// Returns the estimated cost of `SetSearch::add` for the set of `node`, in processor instructions.
+/// Returns the estimated cost of `SetSearch::add` for the set of `node`, in units of `WorkLimit`.
 float SetPlan::work(const Node& node) const {
     constexpr float kNever = 1e9F;
     if (node.shared == 0) return kNever;
@@ -141,15 +141,16 @@ void SetPlan::visit(std::size_t n, Node node) {
         Node without = node;
         without.odds *= mean_odds_[n];
         without.min_loss += lines_.ratios.min_loss(compared_[n]);
-        if (is_relevant(n + 1, without)) visit(n + 1, without);
-        if (!share(compared_[n], node) || !is_relevant(n + 1, node)) return;
+        if (enter(n + 1, without)) visit(n + 1, without);
+        if (!share(compared_[n], node) || !enter(n + 1, node)) return;
     }
     add(node, expected(node));
 }
 
-/// Returns true if the sets that extend `node` are listed. If their expected odds are negligible,
-/// adds them to `negligible_` and returns false. Also returns false if the work limit is reached.
-bool SetPlan::is_relevant(std::size_t n, const Node& node) {
+/// Spends the work of a node. Returns true if the sets that extend `node` must be visited. If their
+/// expected odds are negligible, adds them to `negligible_` and returns false. Also returns false
+/// if the work limit is reached.
+bool SetPlan::enter(std::size_t n, const Node& node) {
     is_complete_ = is_complete_ && work_.spend(kWorkPerNode + 2 * required_.sets().size());
     if (!is_complete_) return false;
     const float expected = this->expected(node);
@@ -158,8 +159,8 @@ bool SetPlan::is_relevant(std::size_t n, const Node& node) {
     return false;
 }
 
-/// Adds a line to `node`. Returns false if no alternative can share these lines, or if a required
-/// set covers them.
+/// Adds `line` to the shared lines of `node`. Returns false if no alternative can share these
+/// lines, or if a required set covers them.
 bool SetPlan::share(int line, Node& node) const {
     if (node.last == line - 1) {
         // No alternative shares more than `max_shared` adjacent lines.

@@ -17,13 +17,13 @@ namespace dotpose::core {
 struct PlannedSet {
     LineSet shared;
     float expected;    ///< expected odds of the far alternatives that share exactly these lines
-    float work;        ///< cost of the search for these alternatives, in processor instructions
+    float work;        ///< cost of the search for these alternatives, in units of `WorkLimit`
     float priority;    ///< sets with higher priority are searched earlier
     bool is_required;  ///< true if the set must be searched because individual odds may be large
 };
 
-/// Returns the estimated cost of the search for the alternatives of one set, in processor
-/// instructions. `listed` is the number of places in all sequences that the search lists. `tabled`
+/// Returns the estimated cost of the search for the alternatives of one set, in units of
+/// `WorkLimit`. `listed` is the number of places in all sequences that the search lists. `tabled`
 /// is the number of pairs of places in a1 and a3, `looked_up` the number of pairs in a2 and a4, and
 /// `matches` the number of alternatives that these pairs form.
 constexpr float work_of_search(float listed, float tabled, float looked_up, float matches) {
@@ -44,7 +44,8 @@ class SearchedSets {
         return true;
     }
     bool covers(LineSet set) const {
-        return std::any_of(sets_.begin(), sets_.begin() + static_cast<std::ptrdiff_t>(count_),
+        const std::span<const LineSet> all = sets();
+        return std::any_of(all.begin(), all.end(),
                            [set](LineSet earlier) { return (earlier & ~set) == 0; });
     }
     std::span<const LineSet> sets() const { return std::span(sets_).first(count_); }
@@ -75,7 +76,7 @@ class SetPlan {
     /// The result includes all required sets. If the rest cannot be reduced to `max_rest`, returns
     /// the total number of sets.
     std::size_t count_for(float max_rest) const;
-    /// Returns the total cost of searching the first n sets, in processor instructions. Covered
+    /// Returns the total cost of searching the first n sets, in units of `WorkLimit`. Covered
     /// sets are not searched and cost nothing.
     float work_of(std::size_t n) const;
 
@@ -86,7 +87,7 @@ class SetPlan {
     float expected(const Node& node) const;
     float work(const Node& node) const;
     void visit(std::size_t n, Node node);
-    bool is_relevant(std::size_t n, const Node& node);
+    bool enter(std::size_t n, const Node& node);
     bool share(int line, Node& node) const;
     void add(const Node& node, float expected);
     void sort_sets();

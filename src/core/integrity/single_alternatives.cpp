@@ -16,11 +16,11 @@ constexpr int kSkippedBits = 51;
 /// evaluating all of them would take too long. An alternative that loses at least this number of
 /// bits by the minimum losses is therefore not evaluated, but contributes the odds at this loss.
 constexpr int kEvaluatedBits = 43;
-/// Estimated cost of evaluating one listed place, in processor instructions.
+/// Estimated cost of evaluating one listed place, in units of `WorkLimit`.
 constexpr std::size_t kWorkPerEntry = 68;
-/// Estimated cost of counting a place that is not listed, in processor instructions.
+/// Estimated cost of counting a place that is not listed, in units of `WorkLimit`.
 constexpr std::size_t kWorkPerUnlisted = 12;
-/// Estimated cost per line of evaluating all places, in processor instructions.
+/// Estimated cost per line of evaluating all places, in units of `WorkLimit`.
 constexpr std::size_t kWorkOfAll = 16'000;
 
 /// Returns the odds of a single alternative at the shift where it shares the line `shared`.
@@ -54,8 +54,8 @@ class LossesInSequence {
     }
 
     /// Returns the loss of the alternative at `place`, at the shift where it shares the line
-    /// `shared`. Stops as soon as the loss in the first kFirstLines lines or more exceeds
-    /// `max_loss`, and returns the loss so far.
+    /// `shared`. After the first kFirstLines lines, stops as soon as the loss exceeds `max_loss`,
+    /// and returns the loss so far.
     int operator()(std::uint32_t place, std::size_t shared, int max_loss) const {
         const std::uint8_t* const alternative = rolls_ + place;
         const std::ptrdiff_t shift = own_[shared] - alternative[shared];
@@ -71,8 +71,7 @@ class LossesInSequence {
     }
 
   private:
-    /// Adding up the losses in a few more lines takes less time than a branch that the processor
-    /// predicts wrongly.
+    /// Adding the losses in a few more lines is faster than a mispredicted branch.
     static constexpr std::size_t kFirstLines = 8;
 
     struct Table {
@@ -116,7 +115,8 @@ void sort_losses(const CoarseLosses& losses, std::span<LineLoss> sorted) {
     }
 }
 
-/// Returns an upper bound on the summed odds of the alternatives at places that are not listed.
+/// Returns an upper bound on the summed odds of the alternatives at places that
+/// `Kernels::list_similar_places` neither lists nor counts.
 float sum_of_skipped(const LossTables& lines, int skipped_bits) {
     constexpr float kPlaces =
         code::kA1.size() + code::kA2.size() + code::kA3.size() + code::kA4Restored.size();

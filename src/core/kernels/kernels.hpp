@@ -206,18 +206,17 @@ struct LineLoss {
 };
 
 /// Places in the secondary sequences at which an alternative may have bits similar to those of the
-/// reading. Each entry also contains a line that the alternative shares with the reading, and a
-/// lower bound on the loss of the alternative, in the unit of `LineLoss::loss`.
+/// reading. Each entry also contains a line that the alternative shares with the reading.
 struct SimilarPlaceList {
     static constexpr int kMax = 3072;
     struct Entry {
         std::uint8_t sequence;
         std::uint8_t place;
         std::uint8_t line;
-        std::uint8_t loss;
     };
     int max_count = 512;  ///< at most kMax
-    /// Places whose lower bound is at least this value are counted, but not listed. At most 255.
+    /// Places that lose at least this value, by a lower bound in the unit of `LineLoss::loss`, are
+    /// counted, but not listed. At most 255.
     int unlisted_limit = 255;
     int count = 0;
     int unlisted_count = 0;
@@ -359,10 +358,11 @@ struct Kernels {
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
     /// Lists the places where an alternative that shares one of the given lines may lose less than
-    /// `loss_limit` in the other lines. Searches the sequences whose bit is set in `sequences`, and
+    /// `loss_limit` in the other lines. Places whose lower bound is at least `list.unlisted_limit`
+    /// are counted, but not listed. Searches the sequences whose bit is set in `sequences`, and
     /// skips `own`, the places of the reading. The lines must be sorted by decreasing loss. Returns
     /// false if
-    /// - there are too many places,
+    /// - there are too many places to list,
     /// - there are fewer than two lines,
     /// - there are exactly five or seven lines, and only their total loss reaches `loss_limit`,
     /// - `loss_limit` exceeds 200, or

@@ -105,7 +105,7 @@ constexpr std::uint32_t square_root(Unsigned n) {
 /// Returns log2(n) in units of 2^-16, rounded down, for n >= 1.
 std::int64_t log2_q16(std::uint32_t n);
 
-/// Returns 2^(n / 256) in units of 2^-16, for 0 <= n < 47 * 256. The error is at most 2 %.
+/// Returns 2^(n / 256) in units of 2^-16, for 0 <= n < 47 * 256. The error is at most 0.4 %.
 /// Interpolates linearly between powers of two and subtracts a correction.
 constexpr std::int64_t exp2_q16(int n_q8) {
     const std::int32_t fraction_q8 = n_q8 & 255;

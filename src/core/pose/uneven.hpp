@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Returns true if the residuals of the fit are correlated, or there are many outliers, so that
-/// `fit_uneven` searches for a line that divides the sheet.
+/// Returns true if `fit_uneven` would search for a line that divides the sheet: if the scatter
+/// between blocks exceeds kSuspect, or if there are many outliers.
 bool may_be_divided(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
                     const PoseFit& fit);
 
