@@ -58,9 +58,11 @@ class PatchSearch {
             if (!place_patch_in_middle(frame_.image, scale, patch_)) break;
             const Confirmation confirmation = search_middle();
             if (ends(confirmation)) return confirmation;
-            // If the patch covers the whole image and shows a plausible place, ends the search,
-            // because other patches contain the same dots, and rarely show another place.
-            if (confirmation != Confirmation::implausible && is_whole_image(patch_, frame_.image))
+            // If the patch covers the whole image, other patches contain no additional dots. In
+            // small images, they rarely show another place either.
+            if (is_whole_image(patch_, frame_.image) &&
+                (confirmation == Confirmation::too_few_bits ||
+                 (confirmation == Confirmation::uncertain && is_small_image())))
                 return confirmation;
             is_mirrored =
                 is_mirrored || shows_mirror_image(frame_.kernels, frame_.options.code, patch_);
@@ -139,6 +141,10 @@ class PatchSearch {
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
     }
 
+    bool is_small_image() const {
+        return frame_.image.width_px * frame_.image.height_px <= tuned::kMaxPixelsOfSmallImage;
+    }
+
     /// Returns true if the patch covers the whole of a small image, and contains too few dots for a
     /// reliable position, even if filtering the image reveals more dots. Returns false if the patch
     /// contains less than half of `Frame::min_dots` dots. Also returns false if the frame is part
@@ -146,8 +152,7 @@ class PatchSearch {
     bool shows_too_few_dots() const {
         const int dots = patch_.dots.count;
         return 2 * dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&
-               frame_.image.width_px * frame_.image.height_px <= tuned::kMaxPixelsOfFewDots &&
-               !evidence_.earlier.is_in_series() &&
+               is_small_image() && !evidence_.earlier.is_in_series() &&
                are_too_few_cells(frame_, static_cast<int>(tuned::kDotsOfFilteredImage *
                                                           static_cast<float>(dots)));
     }

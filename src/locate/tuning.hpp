@@ -42,9 +42,10 @@ inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Assumed maximum ratio of the number of dots in the filtered image to the number of dots in the
 /// original image.
 inline constexpr float kDotsOfFilteredImage = 1.25F;
-/// Images with too few dots are rejected without further attempts if they have at most this number
-/// of pixels. In larger images, filtering often reveals many more dots.
-inline constexpr int kMaxPixelsOfFewDots = 96 * 96;
+/// Maximum number of pixels of a small image. Small images with too few dots are rejected without
+/// further attempts, and small images with an uncertain place without a search of other patches. In
+/// larger images, filtering often reveals many more dots.
+inline constexpr int kMaxPixelsOfSmallImage = 96 * 96;
 /// Maximum number of uncertain hypotheses that are tested away from the image centre. The number is
 /// limited, because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
