@@ -121,7 +121,9 @@ class WorkspaceOf : public DesktopWorkspace {
     // Maximum number of blocks in a PaperMap. The side of a block is a tenth of the shorter image
     // side, rounded down. The shorter side is at least kMinFrameSide_px, so there are at most 12
     // blocks along it, and a block along the longer side is at least a tenth of kMinFrameSide_px.
-    static constexpr std::size_t kPaperBlocks = 12 * (MaxWidth / (kMinFrameSide_px / 10) + 1);
+    // The longer side may be the height, which `MaxWidth` does not limit.
+    static constexpr std::size_t kPaperBlocks =
+        12 * (kMaxFrameSide_px / (kMinFrameSide_px / 10) + 1);
     // Maximum number of runs in a row. A run may begin at every second pixel, and each run may
     // start a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;

@@ -165,7 +165,7 @@ Shot hidden_shot(const HiddenFrame& frame, double spacing_px, int width_px, int 
 class KnownUnderGraphics : public Known {
   protected:
     void SetUp() override {
-        constexpr KnownRegion kPage{CodeVariant::anoto, {}, {1024, 1024}, 393, 564};
+        static constexpr KnownRegion kPage{CodeVariant::anoto, {}, {1024, 1024}, 393, 564};
         ASSERT_EQ(locator_.set_known({&kPage, 1}, OtherSheets::impossible), Status::ok);
     }
 };

@@ -115,18 +115,28 @@ TEST(Smooth, TheNextImageBeginsAfresh) {
     expect_even(smoothed(blank(100, 70, 90)), 0);
 }
 
-TEST(Smooth, PaperMapsOfLongImagesFitIntoTheMemory) {
-    static LargeWorkspace workspace;
+/// Smooths images of up to `max_width_px` x 4,096 px, and expects that each PaperMap fits into the
+/// memory of the workspace.
+void expect_paper_maps_fit(DesktopWorkspace& workspace, int max_width_px) {
     const PaperMap& map = workspace.smoothing.paper;
     // The block side is a tenth of the shorter side, rounded down, so the number of blocks is
     // largest just below a multiple of 10.
     for (int side = kMinFrameSide_px; side < 100; ++side) {
-        for (const auto& [width, height] : {std::pair{4096, side}, std::pair{side, 4096}}) {
+        for (const auto& [width, height] : {std::pair{max_width_px, side}, std::pair{side, 4096}}) {
             begin_smoothing(blank(width, height, 100).view(), workspace.smoothing);
             EXPECT_LE(map.rows * map.columns, static_cast<int>(map.levels.size())) << side;
             EXPECT_LE(map.rows * map.columns, static_cast<int>(map.brightest.size())) << side;
         }
     }
+}
+
+TEST(Smooth, PaperMapsOfLongImagesFitIntoTheMemory) {
+    static LargeWorkspace large;
+    expect_paper_maps_fit(large, 4096);
+    // Regression: only the width of the images was limited in a small memory, but the memory for
+    // the paper levels was not sufficient for images of 64 x 4096 px.
+    static SmallWorkspace small;
+    expect_paper_maps_fit(small, 188);
 }
 
 }  // namespace
