@@ -69,7 +69,7 @@ TEST(MapSolver, InitialTurnOfThePageDoesNotTurnOffsets) {
     // not to the feed wave or the displacements.
     double squares = 0;
     for (std::size_t i = 0; i < input.grid.dots(); ++i)
-        squares += (turned.start.offset_mm[i] - input.start.offset_mm[i]).squaredNorm();
+        squares += double{(turned.start.offset_mm[i] - input.start.offset_mm[i]).squaredNorm()};
     EXPECT_LT(1000 * std::sqrt(squares / (2 * static_cast<double>(input.grid.dots()))), 0.05);
 }
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "../../pen_frames.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/pen.hpp"
 
