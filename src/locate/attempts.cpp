@@ -8,7 +8,6 @@
 #include "device/locate.hpp"
 #include "locate/first.hpp"
 #include "locate/tracked.hpp"
-#include "locate/tuning.hpp"
 #include "locate/turning.hpp"
 
 namespace dotpose::core {
@@ -32,9 +31,7 @@ std::span<const CodeVariant> Attempts::codes_for(Step step) const {
 /// Selects the code of the next attempt and returns the input of that attempt. Discards the odds
 /// that the previous attempt stored for the other codes, and renews the work limit.
 Frame Attempts::frame_in(CodeVariant code) {
-    const bool is_small =
-        image_.width_px * image_.height_px <= tuning::confirm::kMaxPixelsOfSmallView;
-    w_.work = WorkLimit(is_small ? WorkLimit::kOfSmallImage : WorkLimit::kOfImage);
+    w_.work = WorkLimit(is_small(image_) ? WorkLimit::kOfSmallImage : WorkLimit::kOfImage);
     options_.code = code;
     w_.measurement.compared = {};
     if (w_.other_codes.are_wanted) w_.other_codes.of = {};

@@ -399,8 +399,7 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
         return {};
     };
     const bool has_few = has_fewer_cells(frame, hypothesis, tuned::kMaxCellsWithCutDots);
-    hypothesis.is_small_view =
-        has_few && frame.image.width_px * frame.image.height_px <= tuned::kMaxPixelsOfSmallView;
+    hypothesis.is_small_view = has_few && is_small(frame.image);
     if (has_few && !hypothesis.is_partial_view && !hypothesis.is_certain) {
         if (const auto result = measure_with(&Hypothesis::reads_cut_dots)) return *result;
     }

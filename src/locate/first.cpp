@@ -62,7 +62,7 @@ class PatchSearch {
             // small images, they rarely show another place either.
             if (is_whole_image(patch_, frame_.image) &&
                 (confirmation == Confirmation::too_few_bits ||
-                 (confirmation == Confirmation::uncertain && is_small_image())))
+                 (confirmation == Confirmation::uncertain && is_small(frame_.image))))
                 return confirmation;
             is_mirrored =
                 is_mirrored || shows_mirror_image(frame_.kernels, frame_.options.code, patch_);
@@ -141,10 +141,6 @@ class PatchSearch {
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
     }
 
-    bool is_small_image() const {
-        return frame_.image.width_px * frame_.image.height_px <= tuned::kMaxPixelsOfSmallImage;
-    }
-
     /// Returns true if the patch covers the whole of a small image, and contains too few dots for a
     /// reliable position, even if filtering the image reveals more dots. Returns false if the patch
     /// contains less than half of `Frame::min_dots` dots. Also returns false if the frame is part
@@ -152,7 +148,7 @@ class PatchSearch {
     bool shows_too_few_dots() const {
         const int dots = patch_.dots.count;
         return 2 * dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&
-               is_small_image() && !evidence_.earlier.is_in_series() &&
+               is_small(frame_.image) && !evidence_.earlier.is_in_series() &&
                are_too_few_cells(frame_, static_cast<int>(tuned::kDotsOfFilteredImage *
                                                           static_cast<float>(dots)));
     }

@@ -7,6 +7,7 @@
 #include "core/math/readout_turn.hpp"
 #include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
+#include "locate/tuning.hpp"
 
 namespace dotpose::core {
 
@@ -24,6 +25,15 @@ struct Frame {
     /// the exact probability that the fix is wrong.
     bool defers_if_rough = false;
 };
+
+/// Returns true if the image is small. In small images,
+/// - first and tracked attempts have the smaller budget (`WorkLimit::kOfSmallImage`),
+/// - a view with few cells is a small view (`Hypothesis::is_small_view`),
+/// - too few dots end the search without further attempts, and
+/// - an uncertain place ends the search of the first attempt.
+inline bool is_small(const ImageView& image) {
+    return image.width_px * image.height_px <= tuning::confirm::kMaxPixelsOfSmallImage;
+}
 
 /// Returns the image centre, in px relative to the first pixel.
 inline FloatVec centre_px(const ImageView& image) {

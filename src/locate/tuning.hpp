@@ -42,10 +42,6 @@ inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Assumed maximum ratio of the number of dots in the filtered image to the number of dots in the
 /// original image.
 inline constexpr float kDotsOfFilteredImage = 1.25F;
-/// Maximum number of pixels of a small image. Small images with too few dots are rejected without
-/// further attempts, and small images with an uncertain place without a search of other patches. In
-/// larger images, filtering often reveals many more dots.
-inline constexpr int kMaxPixelsOfSmallImage = 96 * 96;
 /// Maximum number of uncertain hypotheses that are tested away from the image centre. The number is
 /// limited, because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
@@ -220,11 +216,10 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// If the image contains fewer than this number of cells, bits are also read from dots that are cut
 /// off by the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels in a small view. A view is small if it also contains fewer than
-/// kMaxCellsWithCutDots cells. First and tracked attempts in images of at most this size have the
-/// smaller budget (`WorkLimit::kOfSmallImage`). Images with more pixels rarely contain so few cells
-/// unless a rolling shutter stretches the cells.
-inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
+/// Maximum number of pixels of a small image (see `is_small`). Images with more pixels rarely
+/// contain fewer than kMaxCellsWithCutDots cells unless a rolling shutter stretches the cells, and
+/// filtering often reveals many more dots in them.
+inline constexpr int kMaxPixelsOfSmallImage = 96 * 96;
 /// Minimum number of cells in a small view for which a second attempt is made. Of 241 frames of 72
 /// x 72 px in which a grid of 64 cells was found, a second attempt located none. docs/speed.md,
 /// "Small frames", contains the numbers for other sizes.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 #include <span>
 
 #include "core/integrity/line_sets.hpp"
@@ -186,12 +187,11 @@ class SetSearch {
         const auto min_loss = [&](std::size_t line) {
             return lines_.ratios.min_loss(static_cast<int>(line));
         };
-        for (std::size_t line = 0; line < count_; ++line) {
-            std::size_t n = line;
-            for (; n > 0 && min_loss(sorted_[n - 1]) < min_loss(line); --n)
-                sorted_[n] = sorted_[n - 1];
-            sorted_[n] = static_cast<std::uint8_t>(line);
-        }
+        const auto end = sorted_.begin() + static_cast<std::ptrdiff_t>(count_);
+        std::iota(sorted_.begin(), end, std::uint8_t{0});
+        std::sort(sorted_.begin(), end, [&](std::uint8_t a, std::uint8_t b) {
+            return min_loss(a) != min_loss(b) ? min_loss(a) > min_loss(b) : a < b;
+        });
     }
 
     /// Lists the places in all sequences. Returns false if the search would exceed its work limit.

@@ -180,19 +180,16 @@ TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
             constexpr int kEnough = 5 * 254;
             if (!unshared.all_lose(k, Sharing::at_one_shift, kEnough)) continue;
             ++known;
-            for (std::uint32_t place = 0; place < ratios.basis[k].length; ++place) {
-                if (place == ratios.places[k]) continue;
-                RollOffsets offsets;
-                set_roll_offsets(ratios, k, place, offsets);
-                for (int shift = 0; shift < kSections; ++shift) {
+            visit_single_alternatives(
+                ratios, k, [&](std::uint32_t place, const RollOffsets& offsets, int shift) {
                     int lost = 0;
                     for (int line = 0; line < kLines; ++line) {
                         const bool is_shared = offsets[static_cast<std::size_t>(line)] == shift;
                         lost += is_shared ? 0 : std::max(ratios.min_loss(line), 0);
                     }
                     ASSERT_GE(lost, kEnough) << k << ' ' << place << ' ' << shift;
-                }
-            }
+                });
+            if (HasFatalFailure()) return;
         }
     }
     EXPECT_GT(known, 20);
