@@ -109,6 +109,11 @@ inline constexpr float kMaxOffset = 0.18F;
 inline constexpr float kMinUsed = 12;
 inline constexpr float kMinFraction = 0.4F;
 inline constexpr int kMaxRounds = 16;
+/// A fit is good if the fraction exceeds kGoodFraction, and the variance of the distances between
+/// the dots and their dot positions, per axis, is less than kGoodVariance, in spacings^2. The
+/// variance is less than 0.001 in nearly all nominal frames, and 0.0015 to 0.0025 if the plane is
+/// false (`GridFit::grow`).
+inline constexpr float kGoodVariance = 0.0012F;
 /// Factors by which `CellPass::reach_px` changes after each round. Let f be the fraction of dots
 /// near one of the four dot positions of their cell. The factor is kGoodGrowth if f exceeds
 /// kGoodFraction, kFairGrowth if f is between kFairFraction and kGoodFraction, and kPoorGrowth

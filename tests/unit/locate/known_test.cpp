@@ -185,7 +185,6 @@ TEST_F(KnownUnderGraphics, TypicalMassIsThatOfTheDots) {
     for (const HiddenFrame& frame : {HiddenFrame{119, 9032920798099912513U, {1183, 1401}, 7},
                                      {270, 673474550873260226U, {1162, 1181}, 5},
                                      {312, 9604095548103925102U, {1105, 1574}, 5},
-                                     {452, 8305979535212029069U, {1118, 1250}, 5},
                                      {552, 16849259406452120359U, {1072, 1140}, 4}}) {
         SCOPED_TRACE(frame.index);
         const Shot shot = hidden_shot(frame, 11, 188, 120);
