@@ -1,29 +1,12 @@
 // Outwards: finds the grid in a patch, starting near the middle of the patch (paper, sections
 // II-B.2 and II-B.3). The search computes a first plane from two plane waves that fit the central
-// dots. It then fits the plane repeatedly, to more and more dots. The fit includes perspective once
-// it uses dots more than four spacings from the middle.
+// dots. It then fits the plane to more and more dots (lattice/grid_fit).
 #pragma once
 
 #include "core/kernels/kernels.hpp"
-#include "core/math/float_plane.hpp"
+#include "core/lattice/grid_fit.hpp"
 
 namespace dotpose::core {
-
-/// The grid found in a patch, and how well it fits the dots.
-struct PatchGrid {
-    /// Maps image points to the grid. The points are relative to the origin of the dot coordinates.
-    FloatPlane grid_from_image;
-    /// Root mean square displacement of the dots, in spacings. It is clamped to the range from
-    /// kMinDisplacement to kMaxDisplacement (lattice/tuning.hpp).
-    float displacement = 0;
-    /// Mean squared offset between a dot and the nearest of the four dot positions of its cell,
-    /// along each axis, in spacings^2.
-    float variance = 0;
-    /// Agreement of the dots with the grid, in spacings^2. Used to compare grids that were fitted
-    /// to the same dots. If m is `CellPass::max_off`, each dot at a distance d <= m from the
-    /// nearest dot position of its cell contributes m^2 - d^2.
-    float agreement = 0;
-};
 
 /// Parameters of the grid search in a patch, estimated from the dots. The search begins at the
 /// origin of the dot coordinates.

@@ -29,10 +29,10 @@ struct Regularity {
     /// callers skip them.
     int farthest_cell = 0;
 
-    /// Returns true if at least kSettled_20th / 20 of the dots are near an intersection. Repeating
+    /// Returns true if at least kRegular_20th / 20 of the dots are near an intersection. Repeating
     /// the fit at the same reach is then unnecessary.
-    bool is_settled() const {
-        return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
+    bool is_regular() const {
+        return 20 * near_intersections >= tuning::regularity::kRegular_20th * dots;
     }
 
     /// Returns no_grid if the dots do not form a grid, and no_displacement for a plain dot grid.
@@ -43,7 +43,8 @@ struct Regularity {
     /// near an intersection.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
-        constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;
+        constexpr auto kUndisplaced_q20 =
+            static_cast<std::int64_t>(tuning::kMaxUndisplaced * (1 << 20));
         if (10 * near_intersections < tuning::regularity::kMin_10ths * dots ||
             mean_square_q20 > kScattered_q20) {
             return Status::no_grid;
@@ -62,7 +63,7 @@ bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {
         for (int round = 0; round < max_rounds; ++round) {
             if (!fit(reach)) return false;
-            if (found.is_settled()) break;
+            if (found.is_regular()) break;
         }
         if (reach >= found.farthest_cell) return true;
     }

@@ -9,12 +9,16 @@
 
 namespace dotpose::core::tuning {
 
+/// Maximum mean squared distance between the dots of a plain dot grid and their intersections, in
+/// spacings^2. The mean of displaced dots is at least 0.12^2, or 1/70 (docs/limits.md).
+inline constexpr float kMaxUndisplaced = 1.0F / 256;
+
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
 /// Minimum fraction of dots that are near an intersection, in units of 1/20. If the fraction is
 /// reached, the fit is extended to farther dots without another iteration. The value is less than
 /// 20, because some detected dots may be dirt.
-inline constexpr int kSettled_20th = 19;
+inline constexpr int kRegular_20th = 19;
 /// Minimum fraction of the dots in a grid that are near an intersection, in tenths. If dots are
 /// placed randomly, half of them are near an intersection.
 inline constexpr int kMin_10ths = 7;
@@ -64,7 +68,7 @@ inline constexpr int kFirstStretchPart = 80;
 inline constexpr int kFinest = 8;
 }  // namespace periodogram_search
 
-/// Grid search in a patch (lattice/outwards).
+/// Grid search in a patch (lattice/outwards, lattice/grid_fit).
 namespace outwards {
 /// Minimum number of dots in a patch. A position needs at least six lines of six cells, which is 36
 /// dots.
