@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kPreparation = 47'000;
 /// Part of kPreparation for the seam alternatives of an axis. Only a cost above this value is
 /// subtracted from the work limit.
-constexpr std::size_t kWorkOfSeams = 27'000;
+constexpr std::size_t kWorkOfSeams = 22'000;
 
 /// Returns the summed odds of the reading's position in all other sections, or an upper bound if it
 /// is negligible compared to `max_odds`. In each of these sections, the rolls of all lines differ

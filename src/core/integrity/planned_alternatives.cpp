@@ -174,14 +174,22 @@ class SetSearch {
     static constexpr std::size_t kPlaces = 256;
     static constexpr std::size_t kMaxPairs = code::kA3.size() * kPlaces;
     static constexpr std::uint16_t kNone = kMaxPairs;
-    static_assert(code::kA1.size() <= kPlaces && code::kA4Restored.size() <= kPlaces);
+    static_assert(code::kA1.size() <= kPlaces && code::kA2.size() <= kPlaces &&
+                  code::kA4Restored.size() <= kPlaces);
 
-    /// A place in a4 whose roll offsets, together with those of a place in a2, are cancelled by
-    /// pairs of places in a1 and a3.
-    struct Found {
-        std::uint16_t newest;  ///< newest of these pairs
-        std::uint16_t m;       ///< index in the list of a4
+    struct Pair {
+        std::uint32_t packed;  ///< sum of the packed roll offsets
+        std::uint16_t before;  ///< next older pair with the same key
+        std::uint16_t key;
     };
+
+    /// Places in a2 and a4 whose roll offsets are cancelled by a pair of places in a1 and a3.
+    struct Found {
+        std::uint16_t pair;
+        std::uint8_t n;  ///< index in the list of a2
+        std::uint8_t m;  ///< index in the list of a4
+    };
+    static constexpr std::size_t kMaxFound = 1024;
 
     void sort_lines() {
         const auto min_loss = [&](std::size_t line) {
@@ -221,40 +229,53 @@ class SetSearch {
             for (std::size_t m = 0; m < first.count(); ++m) {
                 const auto pair = static_cast<std::uint16_t>(kPlaces * n + m);
                 const std::uint32_t key = sum_of_keys(third.keys()[n], first.keys()[m]);
-                packed_[pair] = third.packed(n) + first.packed(m);
-                before_[pair] = newest_[key];
-                keys_[pair] = static_cast<std::uint16_t>(key);
+                pairs_[pair] = {third.packed(n) + first.packed(m), newest_[key],
+                                static_cast<std::uint16_t>(key)};
                 newest_[key] = pair;
             }
         }
+        // First collects the keys that have pairs, because a branch for each key would often be
+        // mispredicted.
+        std::size_t count = 0;
         for (std::size_t n = 0; n < second.count(); ++n) {
             const std::uint32_t key = second.keys()[n];
-            // First collects the keys that have pairs, because a branch for each key would often
-            // be mispredicted.
-            std::size_t count = 0;
             for (std::size_t m = 0; m < fourth.count(); ++m) {
                 const std::uint16_t pair = newest_[sum_of_keys(key, fourth.keys()[m])];
-                found_[count] = {pair, static_cast<std::uint16_t>(m)};
+                found_[count] = {pair, static_cast<std::uint8_t>(n), static_cast<std::uint8_t>(m)};
                 count += pair != kNone ? 1 : 0;
             }
-            for (const auto& [newest, m] : std::span(found_).first(count))
-                add_pairs(pattern, newest, n, m);
+            if (count <= kMaxFound - kPlaces) continue;
+            add_found(pattern, count);
+            count = 0;
         }
+        add_found(pattern, count);
         for (std::size_t n = 0; n < third.count(); ++n) {
             for (std::size_t m = 0; m < first.count(); ++m)
-                newest_[keys_[kPlaces * n + m]] = kNone;
+                newest_[pairs_[kPlaces * n + m].key] = kNone;
         }
     }
 
-    /// Combines places `n` of a2 and `m` of a4 with `newest` and all older pairs of the same key.
-    void add_pairs(const Pattern& pattern, std::uint16_t newest, std::size_t n, std::size_t m) {
-        const std::uint32_t packed = lists_[1].packed(n) + lists_[3].packed(m);
-        for (std::uint16_t pair = newest; pair != kNone; pair = before_[pair]) {
-            // Most alternatives are skipped.
-            if (pattern.lost(packed_[pair] + packed) >= skipped_loss_)
-                ++skipped_;
-            else
-                add(pattern.shared, pair % kPlaces, n, pair / kPlaces, m);
+    /// Adds the alternatives of the first `count` elements of `found_`, and those of all older
+    /// pairs with the same keys. Overwrites `found_`.
+    void add_found(const Pattern& pattern, std::size_t count) {
+        // Each round replaces the pairs by the next older pairs. An inner loop over the pairs of a
+        // key would often be mispredicted.
+        while (count > 0) {
+            std::size_t older = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto [index, n, m] = found_[i];
+                const Pair& pair = pairs_[index];
+                const std::uint32_t packed =
+                    pair.packed + lists_[1].packed(n) + lists_[3].packed(m);
+                // Most alternatives are skipped.
+                if (pattern.lost(packed) >= skipped_loss_)
+                    ++skipped_;
+                else
+                    add(pattern.shared, index % kPlaces, n, index / kPlaces, m);
+                found_[older] = {pair.before, n, m};
+                older += pair.before != kNone ? 1 : 0;
+            }
+            count = older;
         }
     }
 
@@ -282,7 +303,9 @@ class SetSearch {
         }
         const auto shares = [&](LineSet set) { return (shared & set) == set; };
         if (!shares(required)) return;
-        if (!work_.spend(2 * earlier_.size())) {
+        // Estimated cost of an added alternative, in units of `WorkLimit`.
+        constexpr std::size_t kWorkPerAdded = 250;
+        if (!work_.spend(kWorkPerAdded + 2 * earlier_.size())) {
             is_exhausted_ = true;
             return;
         }
@@ -309,12 +332,10 @@ class SetSearch {
     std::array<std::uint8_t, kMaxLines> sorted_;  ///< lines in order of decreasing minimum loss
     std::array<KeyedPlaces, 4> lists_;
     /// Linked lists of pairs of places, one list for each key. `newest_` contains the newest pair
-    /// for each key. `before_` contains the next older pair for each pair.
+    /// for each key.
     std::array<std::uint16_t, kKeys> newest_;
-    std::array<std::uint16_t, kMaxPairs> before_;
-    std::array<std::uint16_t, kMaxPairs> keys_;    ///< key of each pair
-    std::array<std::uint32_t, kMaxPairs> packed_;  ///< sum of the packed roll offsets of each pair
-    std::array<Found, kPlaces> found_;
+    std::array<Pair, kMaxPairs> pairs_;
+    std::array<Found, kMaxFound> found_;
     std::size_t skipped_ = 0;    ///< number of skipped alternatives
     bool is_exhausted_ = false;  ///< true if the work limit was reached
     float sum_ = 0;
