@@ -107,6 +107,9 @@ struct SmallTimes {
     int height_px = 0;
     double spacing_px = 0;
     int frames = 0;
+    /// True if the rows of dots are nearly parallel to the image. The dots then have few different
+    /// sub-pixel phases, and the pixel bias of their centres is corrected.
+    bool is_parallel = false;
     int located = 0;
     int by_first_attempt = 0;  ///< number of frames located by the first attempt
     double median_us = 0;

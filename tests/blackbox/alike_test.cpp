@@ -80,5 +80,13 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 90},
                               0.024}));
 
+// The centroid windows of these dots are larger than the image of the model dot. Regression: pixels
+// outside this image were added, so the squared errors were 12 to 22 times as large as the
+// variance.
+INSTANTIATE_TEST_SUITE_P(LargerThanTheModel, DotsAlike,
+                         testing::Values(AlikeCase{
+                             {.spacing_px = 24, .dot = 0.35, .blur_px = 1, .angle_deg = 0},
+                             0.0015}));
+
 }  // namespace
 }  // namespace dotpose::test

@@ -29,6 +29,11 @@ class NormalEquations {
             right_[i] += weight * derivatives[i] * residual;
         }
     }
+    /// Adds to an element of M on or below the diagonal.
+    void add_to(std::size_t row, std::size_t column, float number) {
+        set(row, column, columns_[column].at(row) + number);
+    }
+    void add_to_right(std::size_t row, float number) { right_[row] += number; }
     void set_right(const Vector& right) { right_ = right; }
     const Vector& right() const { return right_; }
 

@@ -22,4 +22,11 @@ inline std::int32_t rounded(float value) {
     return static_cast<std::int32_t>(std::min(std::max(-kMax, whole), kMax));
 }
 
+/// Returns the whole number nearest to `value`, with ties rounded to even, for |value| < 2^22. Like
+/// the kernels, adds 1.5 * 2^23, which leaves no fractional bits.
+inline float nearest_whole(float value) {
+    constexpr float kRounder = 12582912;
+    return (value + kRounder) - kRounder;
+}
+
 }  // namespace dotpose::core

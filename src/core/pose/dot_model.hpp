@@ -23,16 +23,21 @@ struct ModelDot {
 struct DotPixels {
     /// Distance from the central pixel to the outermost pixels along each axis.
     static constexpr int kHalf_px = 6;
-    static constexpr std::size_t kSide = 2 * kHalf_px + 1;
+    /// Row and column of the central pixel. The lines are longer than the block, so that the pixels
+    /// within 3 px of the central pixel, and one more, are in two vectors of four.
+    static constexpr int kMiddle = kHalf_px + 1;
+    static constexpr std::size_t kLine = 16;
+    using Line = std::array<float, kLine>;
 
-    float& at(int u, int v) {
-        return all[static_cast<std::size_t>(v + kHalf_px)][static_cast<std::size_t>(u + kHalf_px)];
-    }
-    float at(int u, int v) const {
-        return all[static_cast<std::size_t>(v + kHalf_px)][static_cast<std::size_t>(u + kHalf_px)];
+    float& at(int u, int v) { return all[index(v)][index(u)]; }
+    float at(int u, int v) const { return all[index(v)][index(u)]; }
+
+    /// Returns the row or column of a pixel. `from_middle` is in the range [-kMiddle, kMiddle].
+    static constexpr std::size_t index(int from_middle) {
+        return static_cast<std::size_t>(from_middle + kMiddle);
     }
 
-    std::array<std::array<float, kSide>, kSide> all{};
+    alignas(16) std::array<Line, kLine - 2> all{};
 };
 
 /// Image of a model dot, and the derivatives of this image. The pixels of a dot sum to 1 if the dot
@@ -45,8 +50,8 @@ struct DotImages {
     std::array<DotPixels, 7> derivatives;
 };
 
-/// Draws a dot. Computes only the pixels within `half_px` of the central pixel along each axis, and
-/// sets all other pixels to 0.
+/// Draws a dot. Computes the pixels within `half_px` of the central pixel along each axis. The
+/// other pixels are unspecified, but finite.
 DotImages draw(const ModelDot& dot, int half_px);
 
 }  // namespace dotpose::core

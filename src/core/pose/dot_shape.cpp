@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/vectors.hpp"
 #include "core/pose/tuning.hpp"
 
 namespace dotpose::core {
@@ -11,6 +12,46 @@ namespace {
 namespace tuned = tuning::shape;
 
 constexpr float kPi = 3.14159265F;
+
+/// The linearized model of the used pixels of a stack: a row for each term with the derivatives of
+/// the pixels, and a row with their residuals.
+class PixelRows {
+  public:
+    static constexpr std::size_t kResidual = DotShape::Term::count;
+
+    /// `images` are those of a model dot in the middle of the stack.
+    PixelRows(const StackedDots& stacks, const StackedDots::Stack& stack, const DotImages& images,
+              const DotShape::Terms& terms) {
+        const float mass = terms[DotShape::mass];
+        stacks.visit_pixels([&](int u, int v) {
+            const float dot = images.dot.at(u, v);
+            for (std::size_t i = 0; i < images.derivatives.size(); ++i)
+                rows_[i][count_] = mass * images.derivatives[i].at(u, v);
+            rows_[DotShape::mass][count_] = dot;
+            rows_[DotShape::paper][count_] = 1;
+            rows_[kResidual][count_] =
+                stack.darkness.at(u, v) / stack.dots - (mass * dot + terms[DotShape::paper]);
+            ++count_;
+        });
+        for (auto& row : rows_)
+            std::fill_n(&row[count_], 3, 0.0F);
+    }
+    float count() const { return static_cast<float>(count_); }
+    /// Returns the sum of the products of the elements of two rows.
+    float inner(std::size_t a, std::size_t b) const {
+        Four sums{};
+        for (std::size_t i = 0; i < count_; i += 4)
+            sums += four_at(&rows_[a][i]) * four_at(&rows_[b][i]);
+        return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    }
+
+  private:
+    static constexpr std::size_t kMax =
+        (2 * DotPixels::kHalf_px + 1) * (2 * DotPixels::kHalf_px + 1);
+
+    std::array<std::array<float, kMax + 3>, DotShape::Term::count + 1> rows_;
+    std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -37,17 +78,15 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
         const DotImages images = draw(dot(terms, {stack.rest.x / stack.dots + terms[offset_u],
                                                   stack.rest.y / stack.dots + terms[offset_v]}),
                                       stacks.half_px());
-        stacks.visit_pixels([&](int u, int v) {
-            Terms derivatives;
-            for (std::size_t i = 0; i < images.derivatives.size(); ++i)
-                derivatives[i] = terms[mass] * images.derivatives[i].at(u, v);
-            derivatives[mass] = images.dot.at(u, v);
-            derivatives[paper] = 1;
-            const float model = terms[mass] * images.dot.at(u, v) + terms[paper];
-            normal.add(derivatives, stack.darkness.at(u, v) / stack.dots - model,
-                       stack.dots / noise_2);
-            normal.pixels += 1;
-        });
+        const PixelRows rows(stacks, stack, images, terms);
+        const float weight = stack.dots / noise_2;
+        for (std::size_t i = 0; i < Term::count; ++i) {
+            for (std::size_t j = 0; j <= i; ++j)
+                normal.add_to(i, j, weight * rows.inner(i, j));
+            normal.add_to_right(i, weight * rows.inner(i, PixelRows::kResidual));
+        }
+        normal.cost += weight * rows.inner(PixelRows::kResidual, PixelRows::kResidual);
+        normal.pixels += rows.count();
     });
     normal.squares = normal.cost;
     normal.expect(offset_u, 0, tuned::kOff_px, terms);

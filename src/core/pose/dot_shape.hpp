@@ -31,9 +31,9 @@ class DotShape {
     /// not determine the model. The other functions may be called only after a successful fit.
     bool fit(const StackedDots& stacks);
 
-    /// Draws the fitted dot. `centre` is in px relative to the central pixel.
-    DotImages drawn_at(FloatVec centre) const {
-        return draw(dot(terms_, centre), DotPixels::kHalf_px);
+    /// Draws the fitted dot (see `draw`). `centre` is in px relative to the central pixel.
+    DotImages drawn_at(FloatVec centre, int half_px) const {
+        return draw(dot(terms_, centre), half_px);
     }
     /// Returns the blur variance along each axis, in px^2.
     FloatVec blur_2() const { return {terms_[blur_u], terms_[blur_v]}; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/plane_units.hpp"
+#include "core/math/vectors.hpp"
 #include "core/pose/dot_offsets.hpp"
 #include "core/pose/dot_shape.hpp"
 #include "core/pose/tuning.hpp"
@@ -15,7 +17,7 @@ namespace tuned = tuning::bias;
 /// Returns sin(2 pi x) with an error of at most 0.0011. The result is bit-identical on every
 /// platform.
 float sine_of_turns(float x) {
-    const float turn = x - std::floor(x + 0.5F);
+    const float turn = x - nearest_whole(x);
     const float y = 8 * turn * (1 - 2 * std::abs(turn));
     return 0.775F * y + 0.225F * y * std::abs(y);
 }
@@ -25,20 +27,23 @@ float sine_of_turns(float x) {
 float place_of_window(std::int32_t window, std::int32_t sum, std::int32_t mass) {
     const float quarters =
         4 * static_cast<float>(sum) / static_cast<float>(std::max<std::int32_t>(mass, 1));
-    return static_cast<float>(window) + std::floor(quarters + 0.5F) / 4;
+    return static_cast<float>(window) + nearest_whole(quarters) / 4;
 }
 
 /// Weights of a centroid window along one axis. The weights are w(t) = (1 - t^2)^4, and the moment
 /// weights are m(t) = t w(t). `slope` is m'(t). t is the signed distance from the window centre, in
 /// window radii. See kernels/loops/centroid_windows.inc.
 struct WindowWeights {
-    std::array<float, DotPixels::kSide> weight;
-    std::array<float, DotPixels::kSide> moment;
-    std::array<float, DotPixels::kSide> slope;
+    DotPixels::Line weight{};
+    DotPixels::Line moment{};
+    DotPixels::Line slope{};
 
     WindowWeights(float place_px, float radius_px) {
-        for (std::size_t i = 0; i < weight.size(); ++i) {
-            const float t = (static_cast<float>(i) - DotPixels::kHalf_px - place_px) / radius_px;
+        // The other pixels of a line are not drawn.
+        constexpr std::size_t kBegin = DotPixels::index(-DotPixels::kHalf_px);
+        constexpr std::size_t kEnd = DotPixels::index(DotPixels::kHalf_px) + 1;
+        for (std::size_t i = kBegin; i < kEnd; ++i) {
+            const float t = (static_cast<float>(i) - DotPixels::kMiddle - place_px) / radius_px;
             const float base = std::max(1 - t * t, 0.0F);
             const float cube = base * base * base;
             weight[i] = cube * base;
@@ -50,16 +55,16 @@ struct WindowWeights {
 
 /// Returns the weighted sum of the pixels. The weight of a pixel is the product of its weights
 /// along u and v.
-float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide>& along_u,
-               const std::array<float, DotPixels::kSide>& along_v) {
-    float sum = 0;
-    for (std::size_t v = 0; v < DotPixels::kSide; ++v) {
-        float row = 0;
-        for (std::size_t u = 0; u < DotPixels::kSide; ++u)
-            row += pixels.all[v][u] * along_u[u];
-        sum += row * along_v[v];
+float weighted(const DotPixels& pixels, const DotPixels::Line& along_u,
+               const DotPixels::Line& along_v) {
+    Four sums{};
+    for (std::size_t v = 0; v < pixels.all.size(); ++v) {
+        Four row{};
+        for (std::size_t u = 0; u < DotPixels::kLine; u += 4)
+            row += four_at(&pixels.all[v][u]) * four_at(&along_u[u]);
+        sums += row * along_v[v];
     }
-    return sum;
+    return sums[0] + sums[1] + sums[2] + sums[3];
 }
 
 struct CentroidError {
@@ -71,15 +76,21 @@ struct CentroidError {
 
 enum class Along : std::uint8_t { u, v };
 
-/// Returns the centroid error along one axis. `dot_px` and `window_px` are the positions of the dot
-/// and of the window centre, relative to a pixel centre. Like the kernels, divides the moments of
-/// both axes by the slope of the moment along u.
-CentroidError centroid_error(const DotShape& shape, Along axis, FloatVec dot_px, FloatVec window_px,
-                             float radius_px) {
+/// Draws all pixels of a centroid window whose centre is at most a quarter of a pixel from the
+/// centre of a pixel, with a dot at `dot_px` relative to that pixel.
+DotImages window_image(const DotShape& shape, FloatVec dot_px, float radius_px) {
+    const auto half_px = static_cast<int>(radius_px + 0.25F);
+    return shape.drawn_at(dot_px, std::min(half_px, DotPixels::kHalf_px));
+}
+
+/// Returns the centroid error along one axis. `images` are those of a dot at `dot_px`. `dot_px` and
+/// `window_px`, the window centre, are relative to a pixel centre. Like the kernels, divides the
+/// moments of both axes by the slope of the moment along u.
+CentroidError centroid_error(const DotImages& images, Along axis, FloatVec dot_px,
+                             FloatVec window_px, float radius_px) {
     const bool is_u = axis == Along::u;
     const WindowWeights u(window_px.x, radius_px);
     const WindowWeights v(window_px.y, radius_px);
-    const DotImages images = shape.drawn_at(dot_px);
     const auto moment = [&](const DotPixels& pixels) {
         return radius_px *
                (is_u ? weighted(pixels, u.moment, v.weight) : weighted(pixels, u.weight, v.moment));
@@ -104,7 +115,8 @@ class AxisBias {
         constexpr float kQuarter_px = 0.25F;  // phase at which the sine is 1
         const FloatVec quarter =
             axis == Along::u ? FloatVec{kQuarter_px, 0} : FloatVec{0, kQuarter_px};
-        const CentroidError error = centroid_error(shape, axis, quarter, quarter, radius_px);
+        const CentroidError error = centroid_error(window_image(shape, quarter, radius_px), axis,
+                                                   quarter, quarter, radius_px);
         const float of_model =
             tuned::kOfModel + tuned::kOfMisfit * std::max(shape.misfit() - tuned::kMisfit, 0.0F);
         amplitude_px_ = error.px;
@@ -162,8 +174,10 @@ struct WindowBias {
 WindowBias window_bias(const DotShape& shape, const AxisBias& along_u, const AxisBias& along_v,
                        float radius_px) {
     constexpr float kBeside_px = 0.1F;
+    const FloatVec beside{kBeside_px, 0};
+    const DotImages images = window_image(shape, beside, radius_px);
     const auto error_beside = [&](Along axis) {
-        return centroid_error(shape, axis, {kBeside_px, 0}, {}, radius_px).px;
+        return centroid_error(images, axis, beside, {}, radius_px).px;
     };
     const float pixel_bias = along_u.amplitude_px() * sine_of_turns(kBeside_px);
     return {(error_beside(Along::u) - pixel_bias) / (2 * kBeside_px * kBeside_px * kBeside_px),
@@ -210,7 +224,7 @@ class ExpectedDots {
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots) {
     const auto sum_at = [](float px, std::int32_t window_px, std::int32_t mass) {
         const float from_window = px - static_cast<float>(window_px);
-        return static_cast<std::int32_t>(std::floor(from_window * static_cast<float>(mass) + 0.5F));
+        return rounded(from_window * static_cast<float>(mass));
     };
     const auto right = static_cast<float>(image.width_px - 1);
     const auto bottom = static_cast<float>(image.height_px - 1);
@@ -232,6 +246,7 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    [&](std::size_t k, const Phase& phase) {
                        stacks.add(image, phase, static_cast<float>(dots.paper[k]));
                    });
+    stacks.keep_fullest(tuned::kStacks);
     DotShape shape;
     if (!shape.fit(stacks)) return {};
     // Does not correct strongly blurred dots, because their bias is negligible and they may be

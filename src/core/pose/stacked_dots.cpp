@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 namespace dotpose::core {
 
-Phase::Phase(FloatVec point_px)
-    : u(static_cast<int>(std::floor(point_px.x + 0.5F))),
-      v(static_cast<int>(std::floor(point_px.y + 0.5F))),
-      rest{point_px.x - static_cast<float>(u), point_px.y - static_cast<float>(v)} {}
-
 StackedDots::StackedDots(float reach_px)
-    : half_px_(std::min(static_cast<int>(reach_px), DotPixels::kHalf_px)),
-      reach_2_(static_cast<int>(std::min(reach_px * reach_px, 1000.0F))) {}
+    : half_px_(std::min(static_cast<int>(reach_px), DotPixels::kHalf_px)) {
+    for (int v = 0; v <= half_px_; ++v) {
+        const float square = reach_px * reach_px - static_cast<float>(v * v);
+        widths_px_[static_cast<std::size_t>(v)] =
+            std::min(static_cast<int>(std::sqrt(square)), half_px_);
+    }
+}
 
 void StackedDots::add(const ImageView& image, const Phase& phase, float paper) {
     if (phase.u < half_px_ || phase.u >= image.width_px - half_px_ || phase.v < half_px_ ||
@@ -27,20 +29,39 @@ void StackedDots::add(const ImageView& image, const Phase& phase, float paper) {
     stack.dots += 1;
     stack.rest.x += phase.rest.x;
     stack.rest.y += phase.rest.y;
-    dots_ += 1;
+    const float per_level = 1 / paper;
+    float squares = 0;
     visit_pixels([&](int u, int v) {
         const float level = image.row(phase.v + v)[phase.u + u];
-        const float darkness = 1 - level / paper;
+        const float darkness = 1 - level * per_level;
         stack.darkness.at(u, v) += darkness;
-        squares_ += darkness * darkness;
+        squares += darkness * darkness;
     });
+    stack.squares += squares;
+}
+
+void StackedDots::keep_fullest(std::size_t count) {
+    const auto has_more = [&](std::size_t a, std::size_t b) {
+        return stacks_[a].dots != stacks_[b].dots ? stacks_[a].dots > stacks_[b].dots : a < b;
+    };
+    std::array<std::size_t, kAlong * kAlong> order;
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), has_more);
+    for (const std::size_t i : std::span(order).subspan(count))
+        stacks_[i].dots = 0;
+}
+
+float StackedDots::dots() const {
+    float sum = 0;
+    visit([&](const Stack& stack) { sum += stack.dots; });
+    return sum;
 }
 
 bool StackedDots::are_enough() const {
     constexpr float kMinBeyond = 16;  // minimum number of dots, in addition to one per stack
     float stacks = 0;
     visit([&](const Stack&) { stacks += 1; });
-    return dots_ >= stacks + kMinBeyond;
+    return dots() >= stacks + kMinBeyond;
 }
 
 float StackedDots::mass() const {
@@ -48,20 +69,21 @@ float StackedDots::mass() const {
     visit([&](const Stack& stack) {
         visit_pixels([&](int u, int v) { sum += stack.darkness.at(u, v); });
     });
-    return sum / dots_;
+    return sum / dots();
 }
 
 float StackedDots::noise_2() const {
     constexpr float kMinVariance = 1e-6F;  // variance due to the quantization of grey levels
-    float between = 0;
+    float within = 0;
     float freedom = 0;
     visit([&](const Stack& stack) {
+        within += stack.squares;
         visit_pixels([&](int u, int v) {
-            between += stack.darkness.at(u, v) * stack.darkness.at(u, v) / stack.dots;
+            within -= stack.darkness.at(u, v) * stack.darkness.at(u, v) / stack.dots;
             freedom += stack.dots - 1;
         });
     });
-    return std::max((squares_ - between) / freedom, 0.0F) + kMinVariance;
+    return std::max(within / freedom, 0.0F) + kMinVariance;
 }
 
 }  // namespace dotpose::core

@@ -1,6 +1,10 @@
 // Stacked dots: summed dot images, grouped by sub-pixel phase.
 #pragma once
 
+#include <array>
+#include <cstdlib>
+
+#include "core/math/plane_units.hpp"
 #include "core/pose/dot_model.hpp"
 #include "dotpose/image.hpp"
 
@@ -12,7 +16,10 @@ struct Phase {
     int v = 0;
     FloatVec rest;  ///< offset from the pixel centre, in [-0.5, 0.5] px
 
-    explicit Phase(FloatVec point_px);
+    explicit Phase(FloatVec point_px)
+        : u(static_cast<int>(nearest_whole(point_px.x))),
+          v(static_cast<int>(nearest_whole(point_px.y))),
+          rest{point_px.x - static_cast<float>(u), point_px.y - static_cast<float>(v)} {}
 };
 
 /// Sums of dot images, grouped by the sub-pixel phase of the dot centres. A pixel is divided into 4
@@ -21,7 +28,8 @@ class StackedDots {
   public:
     struct Stack {
         float dots = 0;
-        FloatVec rest;  ///< sum of `Phase::rest` over the dots in the stack
+        FloatVec rest;      ///< sum of `Phase::rest` over the dots in the stack
+        float squares = 0;  ///< summed squared darkness of all used pixels
         /// Summed darkness, as a fraction of the paper level around each dot.
         DotPixels darkness;
     };
@@ -31,6 +39,9 @@ class StackedDots {
 
     /// Adds a dot if all its pixels are in the image. `paper` is the paper level around the dot.
     void add(const ImageView& image, const Phase& phase, float paper);
+
+    /// Removes all stacks except the `count` stacks with the most dots.
+    void keep_fullest(std::size_t count);
 
     /// Calls `use` for each stack that contains dots.
     template <typename Use>
@@ -43,13 +54,14 @@ class StackedDots {
     template <typename Use>
     void visit_pixels(Use use) const {
         for (int v = -half_px_; v <= half_px_; ++v) {
-            for (int u = -half_px_; u <= half_px_; ++u) {
-                if (u * u + v * v <= reach_2_) use(u, v);
-            }
+            const int width_px = widths_px_[static_cast<std::size_t>(std::abs(v))];
+            for (int u = -width_px; u <= width_px; ++u)
+                use(u, v);
         }
     }
     /// Returns the distance from the central pixel to the outermost pixels along each axis, in px.
     int half_px() const { return half_px_; }
+    float dots() const;
     /// Returns true if there are enough dots to estimate the noise from differences between dots in
     /// the same stack.
     bool are_enough() const;
@@ -63,10 +75,10 @@ class StackedDots {
     static constexpr int kAlong = 4;  ///< number of stacks along each axis
 
     std::array<Stack, kAlong * kAlong> stacks_{};
-    float squares_ = 0;  ///< summed squared darkness of all used pixels
-    float dots_ = 0;
     int half_px_;
-    int reach_2_;
+    /// Number of used pixels to the left and right of the central column, in the rows at each
+    /// distance from the central row.
+    std::array<int, DotPixels::kHalf_px + 1> widths_px_{};
 };
 
 }  // namespace dotpose::core
