@@ -59,6 +59,7 @@ float weighted(const DotPixels& pixels, const DotPixels::Line& along_u,
                const DotPixels::Line& along_v) {
     Four sums{};
     for (std::size_t v = 0; v < pixels.all.size(); ++v) {
+        if (along_v[v] == 0) continue;
         Four row{};
         for (std::size_t u = 0; u < DotPixels::kLine; u += 4)
             row += four_at(&pixels.all[v][u]) * four_at(&along_u[u]);
