@@ -12,23 +12,22 @@ namespace {
 /// Chords of half an ellipse at equal steps of the parametric angle a, from the outermost to the
 /// innermost. Each element is cos(a): the chord is at v = radius.y cos(a), and its ends are at u =
 /// +-radius.x sin(a). The other half of the ellipse is symmetric.
+constexpr float kThreeChords[] = {0.96592583F, 0.70710678F, 0.25881905F};
 constexpr float kFourChords[] = {0.98078528F, 0.83146961F, 0.55557023F, 0.19509032F};
 constexpr float kSixChords[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                 0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kTenChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
                                 0.64944805F, 0.52249856F, 0.38268343F, 0.23344536F, 0.07845910F};
 
-/// Returns enough chords for the dot. Larger and sharper dots need more chords. The sum over four
-/// chords has an error of at most 0.0004 of the darkness of the dot in each pixel, and the sum over
-/// six chords at most 0.0006 if the blur is at least 0.2 px.
+/// Returns enough chords for the dot. Larger and sharper dots need more chords. If the blur is at
+/// least 0.2 px, the error in each pixel is at most 0.0006 of the darkness of the dot.
 std::span<const float> chords_of(const ModelDot& dot) {
-    constexpr float kMaxOfFour_px2 = 1;  // squared semi-axes
-    constexpr float kMinBlurOfFour_px2 = 0.04F;
-    constexpr float kMaxOfSix_px2 = 4;
+    constexpr float kMinBlur_px2 = 0.04F;
     const float radius_2 = std::max(dot.radius_2.x, dot.radius_2.y);
     const float blur_2 = std::min(dot.blur_2.x, dot.blur_2.y);
-    if (radius_2 < kMaxOfFour_px2 && blur_2 > kMinBlurOfFour_px2) return kFourChords;
-    return radius_2 < kMaxOfSix_px2 ? std::span<const float>(kSixChords) : kTenChords;
+    if (radius_2 < 0.4F && blur_2 > kMinBlur_px2) return kThreeChords;
+    if (radius_2 < 1 && blur_2 > kMinBlur_px2) return kFourChords;
+    return radius_2 < 4 ? std::span<const float>(kSixChords) : kTenChords;
 }
 
 /// Returns exp(-x) for x >= 0. Unlike std::exp, the result is bit-identical on every platform.
