@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <span>
 
 #include "core/math/vectors.hpp"
@@ -77,12 +78,6 @@ struct Groups {
 
     explicit Groups(int half_px)
         : begin(DotPixels::index(-half_px) / 4 * 4), end((DotPixels::index(half_px) + 5) / 4 * 4) {}
-    /// Calls `use` with the first pixel of each group.
-    template <typename Use>
-    void visit(Use use) const {
-        for (std::size_t i = begin; i < end; i += 4)
-            use(i);
-    }
 };
 
 void store(Four values, float* at) {
@@ -112,13 +107,13 @@ struct PixelLine {
             return kFirst + (static_cast<float>(i) - DotPixels::kMiddle - 0.5F) - place;
         };
         density[groups.end] = cumulative[groups.end] = integral[groups.end] = 0;
-        groups.visit([&](std::size_t i) {
+        for (std::size_t i = groups.begin; i < groups.end; i += 4) {
             const Normal normal(edge(i), sigma);
             store(normal.density, &density[i]);
             store(normal.cumulative, &cumulative[i]);
             store(normal.integral, &integral[i]);
-        });
-        groups.visit([&](std::size_t i) {
+        }
+        for (std::size_t i = groups.begin; i < groups.end; i += 4) {
             const Four before = four_at(&density[i]);
             const Four after = four_at(&density[i + 1]);
             const Four x = edge(i);
@@ -126,7 +121,7 @@ struct PixelLine {
             store(four_at(&cumulative[i + 1]) - four_at(&cumulative[i]), &point[i]);
             store(after - before, &slope[i]);
             store((x * before - (x + 1) * after) * by_blur, &point_by_blur[i]);
-        });
+        }
     }
     /// Returns the derivative of `step` with respect to the blur variance, for a group of pixels.
     Four step_by_blur(std::size_t i) const { return four_at(&slope[i]) * 0.5F; }
@@ -154,7 +149,7 @@ void add_chord(const ModelDot& dot, FloatVec radius, float cosine, float sine, f
         const float down_by_v = -fraction * (below.slope[v] + above.slope[v]);
         const float down_by_radius = -fraction * cosine * (below.slope[v] - above.slope[v]);
         const float down_by_blur = fraction * (below.point_by_blur[v] + above.point_by_blur[v]);
-        groups.visit([&](std::size_t u) {
+        for (std::size_t u = groups.begin; u < groups.end; u += 4) {
             const Four left_point = four_at(&left.point[u]);
             const Four right_point = four_at(&right.point[u]);
             const Four across = four_at(&left.step[u]) - four_at(&right.step[u]);
@@ -170,7 +165,7 @@ void add_chord(const ModelDot& dot, FloatVec radius, float cosine, float sine, f
             // By the heat equation, the derivative with respect to the covariance of the blur is
             // the mixed second derivative with respect to u and v.
             add(down_by_v * across_by_u, &by_blur_uv.all[v][u]);
-        });
+        }
     }
 }
 
@@ -185,11 +180,12 @@ DotImages draw(const ModelDot& dot, int half_px) {
         const float fraction = sine / (2 * static_cast<float>(cosines.size()) * radius.x);
         add_chord(dot, radius, cosines[chord], sine, fraction, half_px, images);
     }
+    const Groups groups(half_px);
     auto& by_radius_u = images.derivatives[2];
     auto& by_radius_v = images.derivatives[3];
     const auto& by_blur_uv = images.derivatives[6];
     for (std::size_t v = DotPixels::index(-half_px); v <= DotPixels::index(half_px); ++v) {
-        Groups(half_px).visit([&](std::size_t u) {
+        for (std::size_t u = groups.begin; u < groups.end; u += 4) {
             const Four drawn = four_at(&images.dot.all[v][u]);
             // `fraction` is proportional to 1 / radius.x, so the derivative with respect to
             // radius.x includes -dot / radius.x. Division by 2 * radius converts a derivative with
@@ -198,7 +194,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
                   &by_radius_u.all[v][u]);
             store(four_at(&by_radius_v.all[v][u]) / (2 * radius.y), &by_radius_v.all[v][u]);
             add(dot.blur_uv * four_at(&by_blur_uv.all[v][u]), &images.dot.all[v][u]);
-        });
+        }
     }
     return images;
 }
