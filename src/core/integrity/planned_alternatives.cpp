@@ -304,7 +304,7 @@ class SetSearch {
         const auto shares = [&](LineSet set) { return (shared & set) == set; };
         if (!shares(required)) return;
         // Estimated cost of an added alternative, in units of `WorkLimit`.
-        constexpr std::size_t kWorkPerAdded = 250;
+        constexpr std::size_t kWorkPerAdded = 120;
         if (!work_.spend(kWorkPerAdded + 2 * earlier_.size())) {
             is_exhausted_ = true;
             return;
