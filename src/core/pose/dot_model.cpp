@@ -24,11 +24,11 @@ constexpr float kTenChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.8526401
 /// least 0.2 px, the error in each pixel is at most 0.0006 of the darkness of the dot.
 std::span<const float> chords_of(const ModelDot& dot) {
     constexpr float kMinBlur_px2 = 0.04F;
-    const float radius_2 = std::max(dot.radius_2.x, dot.radius_2.y);
-    const float blur_2 = std::min(dot.blur_2.x, dot.blur_2.y);
-    if (radius_2 < 0.4F && blur_2 > kMinBlur_px2) return kThreeChords;
-    if (radius_2 < 1 && blur_2 > kMinBlur_px2) return kFourChords;
-    return radius_2 < 4 ? std::span<const float>(kSixChords) : kTenChords;
+    const float radius_px2 = std::max(dot.radius_2.x, dot.radius_2.y);
+    const float blur_px2 = std::min(dot.blur_2.x, dot.blur_2.y);
+    if (radius_px2 < 0.4F && blur_px2 > kMinBlur_px2) return kThreeChords;
+    if (radius_px2 < 1 && blur_px2 > kMinBlur_px2) return kFourChords;
+    return radius_px2 < 4 ? std::span<const float>(kSixChords) : kTenChords;
 }
 
 /// Returns exp(-x) for x >= 0. Unlike std::exp, the result is bit-identical on every platform.

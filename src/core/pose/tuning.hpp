@@ -43,7 +43,7 @@ inline constexpr int kMedianSample = 256;
 namespace fit {
 /// Maximum number of Gauss-Newton iterations in `refine_pose` (kMaxRounds) and `fit_plane`
 /// (kMaxRoundsOfFloats).
-inline constexpr int kMaxRounds = 3;
+inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
 /// `refine_pose` stops if `moved`, the squared length of the whitened step (see `solve` in
 /// fit/solve_plane.hpp), is at most this value, because the next step would be much smaller.
@@ -105,10 +105,9 @@ inline constexpr float kSure = 4;
 
 /// Pixel bias of dots with the same sub-pixel phase (pose/pixel_bias).
 namespace bias {
-/// Maximum number of stacked dots. With 256 dots, the errors in the table `dotpose_tables alike`
-/// are the same.
+/// Maximum number of stacked dots, and of stacks to which the dot shape is fitted. With 256 dots in
+/// 16 stacks, the errors in the table `dotpose_tables alike` are the same.
 inline constexpr int kDots = 128;
-/// Maximum number of stacks to which the dot shape is fitted.
 inline constexpr std::size_t kStacks = 4;
 /// Width of the border around a dot. The stacked images include this border, because it contains
 /// the blurred edge of the dot.
