@@ -61,9 +61,9 @@ class Attempts {
     /// Returns true if the last attempt found that the image shows too few cells for a reliable fix
     /// in any code.
     bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }
-    /// Returns true if the bits read in the last `Step::first` attempt were clear and agreed with
-    /// the code, but were too few for a reliable position (see `Measurement::has_clear_bits`).
-    bool has_clear_bits() const { return w_.measurement.has_clear_bits; }
+    /// Returns true if the last `Step::first` attempt showed that the scene did not rotate during
+    /// the readout (see `Measurement::is_still`).
+    bool is_still() const { return w_.measurement.is_still; }
 
   private:
     Frame frame() const { return w_.frame(kernels(), image_, options_); }

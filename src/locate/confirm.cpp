@@ -92,6 +92,12 @@ bool are_clear(const Frame& frame, const Hypothesis& hypothesis, const BitsRead&
     return bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
 }
 
+/// Returns true if the residuals of the fit are too small for a scene that rotated during the
+/// readout. Only for views without a removed rotation.
+bool is_still(const PoseFit& fit) {
+    return fit.variance < tuning::turning::kMinResidual * tuning::turning::kMinResidual;
+}
+
 /// Returns true if the test of a hypothesis may end before its place is confirmed. Returns false in
 /// small views, where a second attempt often fails, and in a series of frames, where the bits of
 /// unconfirmed places are evidence for later frames.
@@ -326,7 +332,10 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
             if (!confirm_with_reserve(evidence, hypothesis, view, block, bits, dots, pose, fix)) {
                 // If the bits are clear but do not make the position certain, the frame has too few
                 // bits.
-                if (!is_last || !are_clear(frame, hypothesis, bits)) return Confirmation::uncertain;
+                if (!is_last || !are_clear(frame, hypothesis, bits)) {
+                    measurement.is_still = hypothesis.is_small_view && is_last && is_still(pose);
+                    return Confirmation::uncertain;
+                }
                 measurement.shows_too_few_cells = hypothesis.reads_cut_dots ||
                                                   hypothesis.is_small_view ||
                                                   shows_too_few_cells(frame, view, dots);

@@ -68,11 +68,11 @@ struct Measurement {
     /// these conditions holds: the view is small, bits were read from dots that are cut off by the
     /// image border, or `are_too_few_cells` returns true.
     bool shows_too_few_cells = false;
-    /// True if the result of the first attempt is `too_few_bits`, that is, its bits are clear but
-    /// too few to make the position certain. In this case, the scene did not rotate during the
-    /// readout, because a rotation would have moved some dots away from their predicted positions,
-    /// and their bits would not be clear.
-    bool has_clear_bits = false;
+    /// True if the first attempt found no certain place, but showed that the scene did not rotate
+    /// during the readout, because a rotation would have moved some dots away from their predicted
+    /// positions. The result of the attempt is either `too_few_bits`, so the bits are clear, or
+    /// `uncertain` in a small view whose dots are close to the fitted plane.
+    bool is_still = false;
     /// True if the result of the first attempt is `rough`.
     bool is_rough = false;
 };

@@ -265,6 +265,7 @@ bool locate_first(const Frame& frame, DesktopWorkspace& w) {
     forget_frame(w);
     w.fix.status = Status::no_contrast;
     w.measurement.shows_too_few_cells = false;
+    w.measurement.is_still = false;
     const PlaceEvidence evidence = w.evidence(frame);
     PatchSearch patches(frame, evidence, *w.patch, w.measurement, w.fix);
     Confirmation confirmation = patches.search(w.is_mirrored);
@@ -275,7 +276,8 @@ bool locate_first(const Frame& frame, DesktopWorkspace& w) {
         if (together == Confirmation::ok) confirmation = together;
     }
     w.fix.attempt = Attempt::first;
-    w.measurement.has_clear_bits = confirmation == Confirmation::too_few_bits;
+    const bool may_be_still = confirmation == Confirmation::uncertain && w.measurement.is_still;
+    w.measurement.is_still = confirmation == Confirmation::too_few_bits || may_be_still;
     w.measurement.is_rough = confirmation == Confirmation::rough;
     if (confirmation == Confirmation::ok) {
         store_for_trace(w.measurement, frame.options.show_stages, w);

@@ -94,7 +94,7 @@ class Cascade {
         bool shows_too_few_cells = false;
         for (const Step step : steps) {
             for (const CodeVariant code : attempts_.codes_for(step)) {
-                if (step == Step::turning && attempts_.has_clear_bits() && codes_.is_known()) break;
+                if (step == Step::turning && attempts_.is_still() && codes_.is_known()) break;
                 Step last = step;
                 bool is_made = attempts_.make(step, code);
                 if (step == Step::first && !is_made && attempts_.is_rough()) {

@@ -88,8 +88,11 @@ AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t positio
         for (std::size_t roll = whole; roll < kSections; ++roll)
             sums[roll] += lines[i][roll - whole];
     }
-    const auto best = std::max_element(sums.begin(), sums.end());
-    return {position, static_cast<std::uint8_t>(best - sums.begin()), *best, 0};
+    std::int32_t best = sums[0];
+    for (const std::int32_t sum : sums)
+        best = std::max(best, sum);
+    const auto roll = std::find(sums.begin(), sums.end(), best) - sums.begin();
+    return {position, static_cast<std::uint8_t>(roll), best, 0};
 }
 
 }  // namespace

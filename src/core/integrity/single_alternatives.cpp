@@ -21,7 +21,7 @@ constexpr std::size_t kWorkPerEntry = 68;
 /// Estimated cost of counting a place that is not listed, in units of `WorkLimit`.
 constexpr std::size_t kWorkPerUnlisted = 12;
 /// Estimated cost per line of evaluating all places, in units of `WorkLimit`.
-constexpr std::size_t kWorkOfAll = 16'000;
+constexpr std::size_t kWorkOfAll = 85'000;
 
 /// Returns the odds of a single alternative at the shift where it shares the line `shared`.
 float odds_at(const LossTables& lines, const RollOffsets& offsets, std::size_t shared) {

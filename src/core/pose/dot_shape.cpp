@@ -132,6 +132,11 @@ bool DotShape::fit(const StackedDots& stacks) {
     const float radius_2 = std::max(darkness / (kPi * tuned::kContrast), tuned::kMin_px2);
     const Terms first{0, 0, radius_2, radius_2, tuned::kBlur_2, tuned::kBlur_2, 0, darkness, 0};
     terms_ = first;
+    // The variance of an ellipse along one axis is a quarter of its squared semi-axis, and that of
+    // a square pixel is 1/12 px^2. The rest of the spread is due to the blur.
+    const float blur_2 = stacks.spread_px2() - radius_2 / 4 - 1.0F / 12;
+    terms_[blur_u] = terms_[blur_v] =
+        std::clamp(blur_2, tuned::kMinFirstBlur_2, tuned::kMaxFirstBlur_2);
     Normal normal = equations(stacks, terms_, first, noise_2);
     float damping = tuned::kFirstDamping;
     // Damped least squares (Levenberg 1944, Marquardt 1963).

@@ -247,7 +247,7 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    [&](std::size_t k, const Phase& phase) {
                        stacks.add(image, phase, static_cast<float>(dots.paper[k]));
                    });
-    stacks.keep_fullest(tuned::kStacks);
+    stacks.keep_fullest(tuned::kStacks, tuned::kEnoughDots);
     DotShape shape;
     if (!shape.fit(stacks)) return {};
     // Does not correct strongly blurred dots, because their bias is negligible and they may be

@@ -40,14 +40,17 @@ void StackedDots::add(const ImageView& image, const Phase& phase, float paper) {
     stack.squares += squares;
 }
 
-void StackedDots::keep_fullest(std::size_t count) {
+void StackedDots::keep_fullest(std::size_t max_count, float enough_dots) {
     const auto has_more = [&](std::size_t a, std::size_t b) {
         return stacks_[a].dots != stacks_[b].dots ? stacks_[a].dots > stacks_[b].dots : a < b;
     };
     std::array<std::size_t, kAlong * kAlong> order;
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), has_more);
-    for (const std::size_t i : std::span(order).subspan(count))
+    std::size_t kept = 0;
+    for (float dots = 0; kept < max_count && dots < enough_dots; ++kept)
+        dots += stacks_[order[kept]].dots;
+    for (const std::size_t i : std::span(order).subspan(kept))
         stacks_[i].dots = 0;
 }
 
@@ -70,6 +73,21 @@ float StackedDots::mass() const {
         visit_pixels([&](int u, int v) { sum += stack.darkness.at(u, v); });
     });
     return sum / dots();
+}
+
+float StackedDots::spread_px2() const {
+    float darkness = 0;
+    float squares = 0;
+    visit([&](const Stack& stack) {
+        const FloatVec rest{stack.rest.x / stack.dots, stack.rest.y / stack.dots};
+        visit_pixels([&](int u, int v) {
+            const float x = static_cast<float>(u) - rest.x;
+            const float y = static_cast<float>(v) - rest.y;
+            darkness += stack.darkness.at(u, v);
+            squares += stack.darkness.at(u, v) * (x * x + y * y);
+        });
+    });
+    return squares / (2 * darkness);
 }
 
 float StackedDots::noise_2() const {

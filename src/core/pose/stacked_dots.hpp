@@ -40,8 +40,9 @@ class StackedDots {
     /// Adds a dot if all its pixels are in the image. `paper` is the paper level around the dot.
     void add(const ImageView& image, const Phase& phase, float paper);
 
-    /// Removes all stacks except the `count` stacks with the most dots.
-    void keep_fullest(std::size_t count);
+    /// Keeps the stacks with the most dots, until they contain at least `enough_dots` dots or their
+    /// number is `max_count`. Removes the other stacks.
+    void keep_fullest(std::size_t max_count, float enough_dots);
 
     /// Calls `use` for each stack that contains dots.
     template <typename Use>
@@ -67,6 +68,9 @@ class StackedDots {
     bool are_enough() const;
     /// Returns the total darkness of a dot, averaged over all dots. Requires `are_enough`.
     float mass() const;
+    /// Returns the mean squared distance of the darkness of a dot from its centre, along one axis,
+    /// in px^2. Requires that `mass` is not 0.
+    float spread_px2() const;
     /// Returns the variance of a pixel's darkness within a stack, plus a constant for the
     /// quantization of grey levels. Requires `are_enough`.
     float noise_2() const;

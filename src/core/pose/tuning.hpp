@@ -77,6 +77,9 @@ namespace shape {
 inline constexpr float kOff_px = 0.1F;
 /// Prior: mean of the blur variance, in px^2. The standard deviation has the same value.
 inline constexpr float kBlur_2 = 0.25F;
+/// Limits for the blur variance at which the fit begins.
+inline constexpr float kMinFirstBlur_2 = 0.1F;
+inline constexpr float kMaxFirstBlur_2 = 1;
 /// Prior: standard deviation of the relative difference between the squared semi-axes.
 inline constexpr float kSigmaOfWidth = 0.3F;
 /// Prior: mean and standard deviation of the ink contrast, as fractions of the paper level.
@@ -93,7 +96,7 @@ inline constexpr float kDampingGrows = 10;
 /// iterations, the errors in the table `dotpose_tables alike` are the same, except for the smallest
 /// and sharpest dots (12 px per spacing, dots of 0.10, blur 0.3 px: 0.0049 instead of 0.0053 px).
 inline constexpr float kSettled = 0.3F;
-inline constexpr int kMaxRounds = 3;
+inline constexpr int kMaxRounds = 2;
 }  // namespace shape
 
 /// Bias of facing dots (pose/facing_dots).
@@ -108,6 +111,7 @@ namespace bias {
 /// Maximum number of stacked dots, and of stacks to which the dot shape is fitted. With 256 dots in
 /// 16 stacks, the errors in the table `dotpose_tables alike` are the same.
 inline constexpr int kDots = 128;
+inline constexpr float kEnoughDots = 48;
 inline constexpr std::size_t kStacks = 4;
 /// Width of the border around a dot. The stacked images include this border, because it contains
 /// the blurred edge of the dot.

@@ -77,6 +77,14 @@ TEST(Turning, LargerFramesAreLocated) {
         EXPECT_EQ(locate_turned(kLarge, turn_deg, {}, kFrames).located, kFrames) << turn_deg;
 }
 
+TEST(Turning, SmallFramesAreLocated) {
+    constexpr ShotSize kSmallest{.spacing_px = 7, .width_px = 88, .height_px = 88};
+    constexpr int kFrames = 60;
+    for (const double turn_deg : {10.0, 20.0})
+        EXPECT_GE(locate_turned(kSmallest, turn_deg, {}, kFrames).located, kFrames * 95 / 100)
+            << turn_deg;
+}
+
 TEST(Turning, TheSceneMayAlsoMove) {
     constexpr int kFrames = 10;
     EXPECT_EQ(locate_turned(kLarge, 4, {0, -0.6}, kFrames).located, kFrames);

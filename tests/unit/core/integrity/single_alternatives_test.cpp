@@ -44,5 +44,16 @@ TEST(SingleAlternatives, AreNotSummedBeyondTheWorkLimit) {
         EXPECT_FALSE(sum_of(read_at_random(rng, 8 + i), 10)) << i << ", seed " << kSeed;
 }
 
+TEST(SingleAlternatives, AreNotSummedInSmallImagesIfAllAreSimilar) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        // With such uncertain bits, no alternative can be skipped.
+        RatiosCase c = read_at_random(rng, 8 + i);
+        c.odds_q8 = 128;
+        EXPECT_TRUE(sum_of(c, kPlenty)) << i << ", seed " << kSeed;
+        EXPECT_FALSE(sum_of(c, WorkLimit::kOfSmallImage)) << i << ", seed " << kSeed;
+    }
+}
+
 }  // namespace
 }  // namespace dotpose::core_test::single_alternatives_test

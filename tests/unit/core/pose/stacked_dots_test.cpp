@@ -38,9 +38,19 @@ TEST_F(Stacks, KeepsTheFullest) {
     add(5, {0.1F, 0});
     add(3, {0.4F, 0});
     EXPECT_EQ(counts(), (std::vector<float>{3, 1, 5, 3}));
-    stacks_.keep_fullest(2);
+    stacks_.keep_fullest(2, 100);
     EXPECT_EQ(counts(), (std::vector<float>{3, 5}));
     EXPECT_EQ(stacks_.dots(), 8);
+}
+
+TEST_F(Stacks, KeepsNoMoreThanEnoughDots) {
+    add(3, {-0.4F, 0});
+    add(1, {-0.1F, 0});
+    add(5, {0.1F, 0});
+    stacks_.keep_fullest(3, 6);
+    EXPECT_EQ(counts(), (std::vector<float>{3, 5}));
+    stacks_.keep_fullest(3, 5);
+    EXPECT_EQ(counts(), (std::vector<float>{5}));
 }
 
 TEST_F(Stacks, UsesTheDiscWithinReach) {
@@ -57,6 +67,13 @@ TEST_F(Stacks, HasTheMassAndNoiseOfEqualDots) {
     ASSERT_TRUE(stacks_.are_enough());
     EXPECT_NEAR(stacks_.mass(), 21 * 0.25, 1e-4);
     EXPECT_LT(stacks_.noise_2(), 2e-6);
+}
+
+TEST_F(Stacks, HasTheSpreadOfADisc) {
+    // The squared distances of the 21 pixels from the central column sum to 34 px^2, and those from
+    // a centre 0.5 px away to 34 + 21 / 4 px^2.
+    add(20, {0.5F, 0});
+    EXPECT_NEAR(stacks_.spread_px2(), (34 + 34 + 21 / 4.0) / (2 * 21), 1e-5);
 }
 
 }  // namespace
