@@ -1,6 +1,7 @@
 #include "locate/attempts.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/integrity/verify.hpp"
 #include "core/kernels/select.hpp"
@@ -73,7 +74,7 @@ bool Attempts::make(Step step, const Frame& frame) {
         case Step::complete_first:
             return locate_first(frame, w_);
         case Step::turning:
-            return locate_turning(frame, w_);
+            return locate_turning(frame, std::exchange(shown_turn_, {}), w_);
         case Step::second:
             return make_second(frame);
         case Step::resampled:
@@ -106,14 +107,15 @@ Judgement Attempts::judge(CodeVariant read) const {
 }
 
 bool Attempts::shows_turn() {
-    // Estimated cost, in units of `WorkLimit`. With many dots, the place is certain without much
-    // work, so only the cost of kMaxDots dots is subtracted from the limit.
-    constexpr std::size_t kWorkPerDot = 2300;
+    // Estimated cost if the dots show no rotation, in units of `WorkLimit`. With many dots, the
+    // place is certain without much work, so only the cost of kMaxDots dots is subtracted from the
+    // limit.
+    constexpr std::size_t kWorkPerDot = 250;
     constexpr std::size_t kMaxDots = 200;
     const std::size_t dots =
         std::min(static_cast<std::size_t>(w_.measurement.dots.count), kMaxDots);
     if (w_.fix.surface != Surface::even && !w_.work.spend(kWorkPerDot * dots)) return false;
-    return core::shows_turn(frame(), w_.fix, w_.rolling_pixels, w_.measurement);
+    return core::shows_turn(frame(), w_.fix, w_.rolling_pixels, w_.measurement, shown_turn_);
 }
 
 }  // namespace dotpose::core

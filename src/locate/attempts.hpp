@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/integrity/possible_codes.hpp"
+#include "core/math/readout_turn.hpp"
 #include "dotpose/device_options.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/prediction.hpp"
@@ -75,6 +76,8 @@ class Attempts {
 
     static constexpr int kMaxErrors = std::numeric_limits<int>::max();
 
+    /// Rotation that the last call of `shows_turn` has fitted, for the next `Step::turning`.
+    ReadoutTurn shown_turn_;
     const ImageView& image_;
     DeviceOptions options_;  ///< `code` is the code of the last attempt
     const PossibleCodes& codes_;

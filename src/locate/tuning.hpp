@@ -85,6 +85,9 @@ inline constexpr float kBetter = 1.0005F;
 /// a fifth and to three fifths of all squared residuals.
 inline constexpr float kMinGainIfEven = 0.5F;
 inline constexpr float kMinGain = 3;
+/// The rotation is not fitted if the quick estimate of the same value (`gain_of_turn`) is less than
+/// kMinQuickGain.
+inline constexpr float kMinQuickGain = 0.25F;
 /// Maximum number of grids for which the search looks for a place in the code. If none of these
 /// grids has a place, the search ends, because further rotations usually lead to the same grids.
 inline constexpr int kMaxClimbs = 3;

@@ -268,7 +268,8 @@ Confirmation confirm_turning(const Frame& frame, Hypothesis hypothesis,
 }  // namespace
 
 bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t> pixels,
-                Measurement& measurement) {
+                Measurement& measurement, ReadoutTurn& fitted) {
+    fitted = {};
     if ((fix.surface == Surface::even && !is_rough(fix)) || !has_room(frame.image, pixels))
         return false;
     // If the dots were measured around a point other than the image centre, the rotation cannot be
@@ -282,32 +283,45 @@ bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t
     PoseFit fit;
     TurnFit turn;
     MeasuredDots& dots = measurement.dots;
-    return fit_plane(frame.kernels, dots,
-                     std::max(frame.image.width_px, frame.image.height_px) / 2 + 1,
-                     displacement * displacement, displacement, plane, fit) &&
-           fit_turn(frame.kernels, {0, axis_of(frame.options.lens), drift_of(plane)}, {}, dots,
-                    plane, fit, turn) &&
-           is_significant(turn, fit.dots, Surface::even);
+    const int reach_px = std::max(frame.image.width_px, frame.image.height_px) / 2 + 1;
+    const float limit = displacement * displacement;
+    const ReadoutTurn none{0, axis_of(frame.options.lens), drift_of(plane)};
+    const bool is_turning =
+        gain_of_turn(none, static_cast<float>(reach_px), dots, plane, displacement, limit) >=
+            tuned::kMinQuickGain &&
+        fit_plane(frame.kernels, dots, reach_px, limit, displacement, plane, fit) &&
+        fit_turn(frame.kernels, {0, none.axis, drift_of(plane)}, {}, dots, plane, fit, turn) &&
+        is_significant(turn, fit.dots, Surface::even);
+    if (is_turning && is_possible(turn.turn, frame.image)) {
+        fitted = turn.turn;
+        measurement.hypothesis.pattern_from_image = plane;
+    }
+    return is_turning;
 }
 
-bool locate_turning(const Frame& frame, DesktopWorkspace& w) {
+bool locate_turning(const Frame& frame, const ReadoutTurn& fitted, DesktopWorkspace& w) {
     if (!has_room(frame.image, w.rolling_pixels)) return false;
     const Fix before = w.fix;
     const PlaceEvidence evidence = w.evidence(frame);
+    // Tests a hypothesis with the given rotation, and stores the fix if it is confirmed.
+    const auto test = [&](const Hypothesis& hypothesis, ReadoutTurn turn) {
+        const Confirmation confirmation = confirm_turning(
+            frame, hypothesis, evidence, w.rolling_pixels, turn, w.measurement, w.fix);
+        if (confirmation != Confirmation::ok) return confirmation;
+        w.fix.attempt = Attempt::first;
+        store_turning(frame, turn, w.measurement, w);
+        return confirmation;
+    };
+    if (fitted.rad_per_row != 0 && test(w.measurement.hypothesis, fitted) == Confirmation::ok)
+        return true;
     ReadoutTurn turn;
     for (const int scale : {1, 2, 4}) {
         if (!place_patch_in_middle(frame.image, scale, *w.patch)) break;
         if (!find_isolated_dots(frame, *w.patch, w.fix)) continue;
         const auto hypothesis = search_patch(frame, evidence, *w.patch, turn);
         if (!hypothesis) continue;
-        ReadoutTurn settled = turn;
-        const Confirmation confirmation = confirm_turning(
-            frame, *hypothesis, evidence, w.rolling_pixels, settled, w.measurement, w.fix);
-        if (confirmation == Confirmation::ok) {
-            w.fix.attempt = Attempt::first;
-            store_turning(frame, settled, w.measurement, w);
-            return true;
-        }
+        const Confirmation confirmation = test(*hypothesis, turn);
+        if (confirmation == Confirmation::ok) return true;
         if (confirmation == Confirmation::uncertain) break;
     }
     w.fix = before;

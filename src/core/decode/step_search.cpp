@@ -18,18 +18,22 @@ constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 /// step sizes, minus the highest score over the step sizes with this digit.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
+/// Scores of a line by roll, repeated once, so that no index needs to be reduced modulo 63.
+using RepeatedScores = std::array<std::int16_t, std::size_t{2} * kSections>;
+
+/// Number of rolls in a sum over all rolls, rounded up to whole vectors. Roll 63 is roll 0 again,
+/// which does not change a maximum.
+constexpr std::size_t kRolls = kSections + 1;
+
 /// Returns the highest total score of two adjacent lines whose rolls differ by `step`.
-int best_agreement(const LineScores& line, const LineScores& next, std::size_t step) {
+int best_agreement(const RepeatedScores& line, const RepeatedScores& next, std::size_t step) {
     std::int16_t best = INT16_MIN;
-    const std::size_t whole = kSections - step;
-    for (std::size_t roll = 0; roll < whole; ++roll)
+    for (std::size_t roll = 0; roll < kRolls; ++roll)
         best = std::max(best, static_cast<std::int16_t>(line[roll] + next[roll + step]));
-    for (std::size_t roll = whole; roll < kSections; ++roll)
-        best = std::max(best, static_cast<std::int16_t>(line[roll] + next[roll - whole]));
     return best;
 }
 
-StepLosses losses_of(const LineScores& line, const LineScores& next) {
+StepLosses losses_of(const RepeatedScores& line, const RepeatedScores& next) {
     std::array<std::int32_t, kStepSizes> agreements;
     for (std::size_t i = 0; i < kStepSizes; ++i)
         agreements[i] = best_agreement(line, next, i + code::kMinDelta);
@@ -76,17 +80,15 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
 }
 
 /// Returns the reading at a position, with the roll that has the highest total score.
-AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
+AxisReading evaluate(CodeVariant code, std::span<const RepeatedScores> lines,
+                     std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
-    code::follow_rolls(code, position, 0, std::span(rolls).first(lines.all.size()));
-    std::array<std::int32_t, kSections> sums{};
-    for (int i = 0; i < lines.count(); ++i) {
-        const std::size_t ahead = rolls[static_cast<std::size_t>(i)];
-        const std::size_t whole = kSections - ahead;
-        for (std::size_t roll = 0; roll < whole; ++roll)
-            sums[roll] += lines[i][roll + ahead];
-        for (std::size_t roll = whole; roll < kSections; ++roll)
-            sums[roll] += lines[i][roll - whole];
+    code::follow_rolls(code, position, 0, std::span(rolls).first(lines.size()));
+    std::array<std::int32_t, kRolls> sums{};
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const std::int16_t* const scores = lines[i].data() + rolls[i];
+        for (std::size_t roll = 0; roll < kRolls; ++roll)
+            sums[roll] += scores[roll];
     }
     std::int32_t best = sums[0];
     for (const std::int32_t sum : sums)
@@ -98,10 +100,17 @@ AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t positio
 }  // namespace
 
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best) {
+    std::array<RepeatedScores, kMaxLines> scores_storage;
+    const auto scores = std::span(scores_storage).first(lines.all.size());
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+        const LineScores& once = lines.all[i].scores;
+        std::copy(once.begin(), once.end(), scores[i].begin());
+        std::copy(once.begin(), once.end(), scores[i].begin() + kSections);
+    }
     std::array<StepLosses, kMaxLines - 1> storage;
-    const auto steps = std::span(storage).first(lines.all.size() - 1);
+    const auto steps = std::span(storage).first(scores.size() - 1);
     for (std::size_t i = 0; i < steps.size(); ++i)
-        steps[i] = losses_of(lines.all[i].scores, lines.all[i + 1].scores);
+        steps[i] = losses_of(scores[i], scores[i + 1]);
     const code::Basis& basis = code::basis(code);
     std::array<Choices, kSequences> choices;
     for (std::size_t n = 0; n < kSequences; ++n)
@@ -112,7 +121,7 @@ void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best) {
         std::size_t rest = way;
         for (std::size_t n = 0; n < kSequences; ++n, rest /= kChoices)
             places[n] = choices[n][rest % kChoices];
-        AxisReading reading = evaluate(code, lines, code::position_at(basis, places));
+        AxisReading reading = evaluate(code, scores, code::position_at(basis, places));
         if (reading.score <= best.score) continue;
         reading.max_possible = best.max_possible;
         best = reading;

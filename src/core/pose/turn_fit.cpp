@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fit/normal_equations.hpp"
 #include "core/pose/dot_offsets.hpp"
 #include "core/pose/float_fit.hpp"
 #include "core/pose/tuning.hpp"
@@ -94,7 +95,52 @@ bool invert(Matrix3& m) {
     return true;
 }
 
+/// Regression of residuals on small changes of a plane, and on a rotation.
+class TurnRegression {
+  public:
+    /// Adds a dot at `at`, in spacings. `moved` is the change of its residual per unit of rotation.
+    void add(FloatVec at, FloatVec residual, FloatVec moved) {
+        equations_.add({1, at.x, at.y, 0, 0, 0, at.x * at.x, at.x * at.y, moved.x}, residual.x, 1);
+        equations_.add({0, 0, 0, 1, at.x, at.y, at.x * at.y, at.y * at.y, moved.y}, residual.y, 1);
+        squares_ += residual.x * residual.x + residual.y * residual.y;
+    }
+    /// Returns the result of `gain_of_turn`.
+    float gain() {
+        constexpr float kDetermined = 1e-4F;
+        equations_.decompose(kDetermined, 0);
+        const auto explained = equations_.whitened(equations_.right());
+        float remaining = squares_;
+        for (const float part : explained)
+            remaining -= part * part;
+        const float by_turn = explained.back() * explained.back();
+        return remaining > 0 ? 2 * by_turn / remaining : 0;
+    }
+
+  private:
+    /// Parameters: the affine change of x and that of y (three each), the change of the tilt (two),
+    /// and the rotation.
+    NormalEquations<9> equations_;
+    float squares_ = 0;
+};
+
 }  // namespace
+
+float gain_of_turn(const ReadoutTurn& turn, float reach_px, const MeasuredDots& dots,
+                   const FloatPlane& plane, float displacement, float limit) {
+    ReadoutTurn step = turn;
+    step.rad_per_row = tuned::kStep_px / (reach_px * reach_px);
+    const FloatVec centre = plane_point(plane, {});
+    TurnRegression regression;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
+        if (dots.x[k] >= kNoDot_px) continue;
+        const DotOffset dot = dot_offset(dots, k, plane, displacement);
+        if (!(dot.squared() <= limit)) continue;
+        const FloatVec moved = plane_point(plane, step.without_turn({dots.x[k], dots.y[k]}));
+        regression.add({dot.at.x - centre.x, dot.at.y - centre.y}, dot.residual,
+                       {moved.x - dot.at.x, moved.y - dot.at.y});
+    }
+    return regression.gain();
+}
 
 bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec reference_px,
               MeasuredDots& dots, FloatPlane& plane, PoseFit& fit, TurnFit& result) {

@@ -28,4 +28,13 @@ struct TurnFit {
 bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec reference_px,
               MeasuredDots& dots, FloatPlane& plane, PoseFit& fit, TurnFit& result);
 
+/// Estimates, at a small fraction of the cost of `fit_turn`, how much of the residuals of a plane
+/// fit a rotation explains. Returns explained / (dots * variance), where `explained` is the
+/// decrease in the sum of the squared residuals, and `variance` is the remaining variance along one
+/// axis. Only the drift and the axis of `turn` are used. The estimate is linear in the rotation,
+/// and approximates the effects that the plane absorbs. Uses the dots whose squared residual is at
+/// most `limit`, in spacings^2. Returns 0 if these dots do not determine the rotation.
+float gain_of_turn(const ReadoutTurn& turn, float reach_px, const MeasuredDots& dots,
+                   const FloatPlane& plane, float displacement, float limit);
+
 }  // namespace dotpose::core

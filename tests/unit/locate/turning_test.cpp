@@ -80,7 +80,7 @@ TEST(Turning, LargerFramesAreLocated) {
 TEST(Turning, SmallFramesAreLocated) {
     constexpr ShotSize kSmallest{.spacing_px = 7, .width_px = 88, .height_px = 88};
     constexpr int kFrames = 60;
-    for (const double turn_deg : {10.0, 20.0})
+    for (const double turn_deg : {2.0, 3.0, 5.0, 10.0, 20.0})
         EXPECT_GE(locate_turned(kSmallest, turn_deg, {}, kFrames).located, kFrames * 95 / 100)
             << turn_deg;
 }
