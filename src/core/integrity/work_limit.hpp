@@ -16,7 +16,7 @@ class WorkLimit {
     /// together take 100,000 to 240,000 units. docs/speed.md, "Small frames", compares
     /// several budgets.
     static constexpr std::size_t kOfSmallImage = 445'000;
-    static constexpr std::size_t kOfImage = 12'000'000;
+    static constexpr std::size_t kOfImage = 16'000'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}
     /// Subtracts `work` from the budget and returns true. If less than `work` is left, sets the
