@@ -52,21 +52,29 @@ StepLosses losses_of(const RepeatedScores& line, const RepeatedScores& next) {
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
+/// Upper bound on the length of a sequence.
+constexpr std::size_t kMaxLength = 256;
+
+/// Returns the places with the smallest total losses, in order of increasing loss.
 Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
                          std::span<const StepLosses> steps) {
     Choices places{};
     std::array<std::int32_t, kChoices> losses;
     losses.fill(INT32_MAX);
-    std::array<std::uint8_t, 256> digits;
-    for (std::uint32_t place = 0; place < sequence.length; ++place)
-        digits[place] = sequence.digit(place);
+    // Digits from the first place to the last place of the last reading.
+    std::array<std::uint8_t, kMaxLength + kMaxLines> digits;
+    for (std::uint32_t i = 0; i < sequence.length + steps.size(); ++i)
+        digits[i] = i < sequence.length ? sequence.digit(i) : digits[i - sequence.length];
+    std::array<std::int32_t, kMaxLength> totals;
+    std::fill_n(totals.begin(), sequence.length, 0);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const auto [zero, one, two] = steps[i][n];
+        const std::uint8_t* const digit = digits.data() + i;
+        for (std::size_t place = 0; place < sequence.length; ++place)
+            totals[place] += digit[place] == 0 ? zero : digit[place] == 1 ? one : two;
+    }
     for (std::uint32_t first = 0; first < sequence.length; ++first) {
-        std::int32_t loss = 0;
-        std::uint32_t place = first;
-        for (const StepLosses& step : steps) {
-            loss += step[n][digits[place]];
-            place = place + 1 == sequence.length ? 0 : place + 1;
-        }
+        const std::int32_t loss = totals[first];
         if (loss >= losses.back()) continue;
         std::size_t rank = kChoices - 1;
         for (; rank > 0 && loss < losses[rank - 1]; --rank) {
@@ -79,9 +87,9 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading at a position, with the roll that has the highest total score.
-AxisReading evaluate(CodeVariant code, std::span<const RepeatedScores> lines,
-                     std::uint32_t position) {
+/// Replaces `best` if the total score at `position` and its best roll is higher.
+void evaluate(CodeVariant code, std::span<const RepeatedScores> lines, std::uint32_t position,
+              AxisReading& best) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(code, position, 0, std::span(rolls).first(lines.size()));
     std::array<std::int32_t, kRolls> sums{};
@@ -90,11 +98,12 @@ AxisReading evaluate(CodeVariant code, std::span<const RepeatedScores> lines,
         for (std::size_t roll = 0; roll < kRolls; ++roll)
             sums[roll] += scores[roll];
     }
-    std::int32_t best = sums[0];
+    std::int32_t score = sums[0];
     for (const std::int32_t sum : sums)
-        best = std::max(best, sum);
-    const auto roll = std::find(sums.begin(), sums.end(), best) - sums.begin();
-    return {position, static_cast<std::uint8_t>(roll), best, 0};
+        score = std::max(score, sum);
+    if (score <= best.score) return;
+    const auto roll = std::find(sums.begin(), sums.end(), score) - sums.begin();
+    best = {position, static_cast<std::uint8_t>(roll), score, best.max_possible};
 }
 
 }  // namespace
@@ -121,10 +130,7 @@ void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best) {
         std::size_t rest = way;
         for (std::size_t n = 0; n < kSequences; ++n, rest /= kChoices)
             places[n] = choices[n][rest % kChoices];
-        AxisReading reading = evaluate(code, scores, code::position_at(basis, places));
-        if (reading.score <= best.score) continue;
-        reading.max_possible = best.max_possible;
-        best = reading;
+        evaluate(code, scores, code::position_at(basis, places), best);
     }
 }
 

@@ -15,7 +15,7 @@ class WorkLimit {
     /// budget kOfSmallImage. For comparison, all other steps of a first attempt in such an image
     /// together take 100,000 to 240,000 units. docs/speed.md, "Small frames", compares
     /// several budgets.
-    static constexpr std::size_t kOfSmallImage = 445'000;
+    static constexpr std::size_t kOfSmallImage = 430'000;
     static constexpr std::size_t kOfImage = 16'000'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}

@@ -92,9 +92,9 @@ inline constexpr float kFirstDamping = 0.01F;
 inline constexpr float kMaxDamping = 1e4F;
 inline constexpr float kDampingGrows = 10;
 /// The fit ends if an iteration reduces the cost by less than kSettled, or after kMaxRounds
-/// iterations. The cost is the sum of squared residuals in units of their variances. With 30
+/// iterations. The cost is the sum of squared residuals in units of their variances. With three
 /// iterations, the errors in the table `dotpose_tables alike` are the same, except for the smallest
-/// and sharpest dots (12 px per spacing, dots of 0.10, blur 0.3 px: 0.0049 instead of 0.0053 px).
+/// and sharpest dots (11 px per spacing, dots of 0.10, blur 0.3 px: 0.0044 instead of 0.0051 px).
 inline constexpr float kSettled = 0.3F;
 inline constexpr int kMaxRounds = 2;
 }  // namespace shape
@@ -108,8 +108,9 @@ inline constexpr float kSure = 4;
 
 /// Pixel bias of dots with the same sub-pixel phase (pose/pixel_bias).
 namespace bias {
-/// Maximum number of stacked dots, and of stacks to which the dot shape is fitted. With 256 dots in
-/// 16 stacks, the errors in the table `dotpose_tables alike` are the same.
+/// kDots is the maximum number of stacked dots. The dot shape is fitted to the fullest stacks: as
+/// many as contain kEnoughDots dots, but at most kStacks. With 256 dots in 16 stacks, the errors in
+/// the table `dotpose_tables alike` are the same.
 inline constexpr int kDots = 128;
 inline constexpr float kEnoughDots = 48;
 inline constexpr std::size_t kStacks = 4;
