@@ -94,7 +94,7 @@ inline constexpr int kMaxClimbs = 3;
 /// If a correction of the rotation moves the dots in the image corners by at least kSettled_px, the
 /// image is measured again. A smaller correction is applied to the dots already measured.
 /// kMaxRounds is the maximum number of measurements.
-inline constexpr float kSettled_px = 0.5F;
+inline constexpr float kSettled_px = 0.2F;
 inline constexpr int kMaxRounds = 5;
 /// In small views, the search for a rotation is skipped if the root mean square residual of the
 /// first attempt, in spacings, is less than this value. It was 0.034 or more in frames of 64 to 96
